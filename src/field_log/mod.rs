@@ -1,0 +1,1 @@
+//! Field logs: CSV with a mapping file, as timed inputs.

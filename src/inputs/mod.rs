@@ -1,0 +1,1 @@
+//! Inputs at the door: units, limits, age and state.

@@ -1,0 +1,26 @@
+//! flexdrill: the real-time digital twin of a flexible drilling tool in an ultrashort-radius well.
+//!
+//! # Layout
+//! Data flows one way; each folder may use those below it, never those above.
+//!
+//! - [`cli`]: one file per subcommand.
+//! - [`ros`]: the only module that knows ros2-client. [`bag`]: the only one that knows MCAP. [`field_log`]: CSV rig logs.
+//!   [`pacing`]: deadlines.
+//! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
+//! - [`config`]: the YAML configuration. [`inputs`]: units, limits, age and state of what the rig sends.
+//!   [`verify`]: the closed-form cases.
+//! - [`twin`]: one deterministic simulation.
+//! - [`analysis`]: what the motion means. [`mechanics`]: the paper.
+
+pub mod analysis;
+pub mod bag;
+pub mod cli;
+pub mod config;
+pub mod field_log;
+pub mod inputs;
+pub mod mechanics;
+pub mod messages;
+pub mod pacing;
+pub mod ros;
+pub mod twin;
+pub mod verify;

@@ -1,0 +1,1 @@
+//! ROS 2 message types, generated from `msg/*.msg`.

@@ -1,0 +1,9 @@
+//! The twin: mechanics, inputs and analysis joined into one deterministic [`Simulation`].
+//!
+//! The node, replay, verification and sweeps all drive this one thing.
+
+mod simulation;
+mod snapshot;
+
+pub use simulation::{BuildError, Inputs, Simulation, SimulationSettings};
+pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot, SolverCounters};

@@ -1,0 +1,1 @@
+//! The closed-form verification cases.
