@@ -1,1 +1,29 @@
-//! The command line, one file per subcommand.
+//! The command line, one file per subcommand. Exit codes: 0 done, 1 failed with a reason, 2 wrong use.
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
+#[derive(Debug, Parser)]
+#[command(name = "flexdrill", version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {}
+
+/// Parses the command line, runs the subcommand, reports a failure on standard error.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let result: anyhow::Result<()> = match cli.command {};
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
