@@ -1,1 +1,3 @@
 //! The ROS 2 node.
+
+pub mod args;
