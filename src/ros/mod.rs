@@ -1,3 +1,45 @@
 //! The ROS 2 node.
 
 pub mod args;
+pub mod network;
+pub mod parameters;
+pub mod publisher;
+pub mod raw;
+pub mod service;
+
+use ros2_client::CreateError;
+
+/// Why the node could not be brought up.
+#[derive(Debug, thiserror::Error)]
+pub enum NodeError {
+    /// Wrong ROS 2 arguments.
+    #[error(transparent)]
+    Args(#[from] args::ArgsError),
+    /// Wrong network settings, or DDS did not start.
+    #[error(transparent)]
+    Network(#[from] network::NetworkError),
+    /// A topic or its endpoint could not be created.
+    #[error("topic {topic}: {source}")]
+    Topic {
+        /// Absolute name.
+        topic: String,
+        /// From DDS.
+        source: CreateError,
+    },
+    /// A service's name is not usable.
+    #[error("service {service}: {why}")]
+    ServiceName {
+        /// Absolute name.
+        service: String,
+        /// What is wrong.
+        why: String,
+    },
+    /// A service could not be created.
+    #[error("service {service}: {source}")]
+    Service {
+        /// Absolute name.
+        service: String,
+        /// From DDS.
+        source: CreateError,
+    },
+}

@@ -1,0 +1,183 @@
+//! Which part of the network the node talks to: domain and reach, from options and ROS 2's environment variables.
+
+use std::net::{IpAddr, Ipv4Addr};
+
+use ros2_client::{Context, CreateError};
+use rustdds::DomainParticipantBuilder;
+
+/// Highest domain whose UDP ports fit (7400 + 250 x domain + ...).
+const MAX_DOMAIN: u16 = 232;
+
+/// How far discovery goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// All interfaces, multicast within the subnet.
+    Subnet,
+    /// This machine only.
+    Localhost,
+}
+
+/// Domain and reach.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Network {
+    /// DDS domain, 0 to 232.
+    pub domain_id: u16,
+    /// How far discovery goes.
+    pub reach: Reach,
+}
+
+/// Why the network settings or the DDS participant cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum NetworkError {
+    /// Not a domain number.
+    #[error("{origin} is '{value}'; a domain is a whole number from 0 to {MAX_DOMAIN}")]
+    Domain {
+        /// Option or variable.
+        origin: &'static str,
+        /// As given.
+        value: String,
+    },
+    /// Not a word that ROS 2 knows.
+    #[error("ROS_AUTOMATIC_DISCOVERY_RANGE is '{0}'; use SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT")]
+    Range(String),
+    /// DDS did not start.
+    #[error(
+        "DDS did not start in domain {domain_id}: {source}. Is a network interface up (`ip link`), and is another participant limit reached?"
+    )]
+    Participant {
+        /// Domain.
+        domain_id: u16,
+        /// From RustDDS.
+        source: CreateError,
+    },
+}
+
+impl Network {
+    /// Reads the settings. `domain` is the command line's and wins over ROS_DOMAIN_ID. The second result says, in
+    /// sentences, which of ROS 2's settings cannot be followed.
+    ///
+    /// # Errors
+    /// When a variable or the option has a value that ROS 2 does not know.
+    pub fn read(
+        domain: Option<u16>,
+        variable: impl Fn(&str) -> Option<String>,
+    ) -> Result<(Self, Vec<String>), NetworkError> {
+        let variable = |name: &str| {
+            variable(name)
+                .map(|value| value.trim().to_owned())
+                .filter(|value| !value.is_empty())
+        };
+        let mut notes = Vec::new();
+        let domain_id = match (domain, variable("ROS_DOMAIN_ID")) {
+            (Some(domain), _) => checked_domain("--domain", domain.to_string())?,
+            (None, Some(text)) => checked_domain("ROS_DOMAIN_ID", text)?,
+            (None, None) => 0,
+        };
+        let localhost_only = variable("ROS_LOCALHOST_ONLY").is_some_and(|value| value == "1");
+        let range = variable("ROS_AUTOMATIC_DISCOVERY_RANGE");
+        let mut reach = match range.as_deref() {
+            None | Some("SUBNET" | "SYSTEM_DEFAULT") => Reach::Subnet,
+            Some("LOCALHOST") => Reach::Localhost,
+            Some("OFF") => {
+                notes.push("ROS_AUTOMATIC_DISCOVERY_RANGE=OFF cannot be followed (RustDDS has no way to switch discovery off); the node stays on this machine, as with LOCALHOST".into());
+                Reach::Localhost
+            }
+            Some(other) => return Err(NetworkError::Range(other.to_owned())),
+        };
+        if localhost_only {
+            reach = Reach::Localhost;
+        }
+        if variable("ROS_STATIC_PEERS").is_some() {
+            notes.push("ROS_STATIC_PEERS is ignored: RustDDS finds other machines by multicast only".into());
+        }
+        if variable("ROS_DISCOVERY_SERVER").is_some() {
+            notes.push("ROS_DISCOVERY_SERVER is ignored: it belongs to Fast DDS".into());
+        }
+        Ok((Self { domain_id, reach }, notes))
+    }
+
+    /// Starts DDS.
+    ///
+    /// # Errors
+    /// When no participant can be created.
+    pub fn start(&self) -> Result<Context, NetworkError> {
+        let failed = |source| NetworkError::Participant {
+            domain_id: self.domain_id,
+            source,
+        };
+        let mut builder = DomainParticipantBuilder::new(self.domain_id);
+        if self.reach == Reach::Localhost {
+            builder = builder.with_only_networks([IpAddr::V4(Ipv4Addr::LOCALHOST)]);
+        }
+        let participant = builder.build().map_err(|error| failed(CreateError::from(error)))?;
+        Context::from_domain_participant(participant).map_err(failed)
+    }
+}
+
+fn checked_domain(origin: &'static str, value: String) -> Result<u16, NetworkError> {
+    match value.parse() {
+        Ok(domain) if domain <= MAX_DOMAIN => Ok(domain),
+        _ => Err(NetworkError::Domain { origin, value }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(domain: Option<u16>, variables: &[(&str, &str)]) -> Result<(Network, Vec<String>), NetworkError> {
+        Network::read(domain, |name| {
+            variables
+                .iter()
+                .find(|(variable, _)| *variable == name)
+                .map(|(_, value)| (*value).to_owned())
+        })
+    }
+
+    #[test]
+    fn the_option_wins_over_the_variable() {
+        assert_eq!(
+            read(None, &[]).unwrap().0,
+            Network {
+                domain_id: 0,
+                reach: Reach::Subnet
+            }
+        );
+        assert_eq!(read(None, &[("ROS_DOMAIN_ID", "7")]).unwrap().0.domain_id, 7);
+        assert_eq!(read(Some(3), &[("ROS_DOMAIN_ID", "7")]).unwrap().0.domain_id, 3);
+    }
+
+    #[test]
+    fn reach_follows_both_generations_of_variables() {
+        assert_eq!(
+            read(None, &[("ROS_LOCALHOST_ONLY", "1")]).unwrap().0.reach,
+            Reach::Localhost
+        );
+        assert_eq!(
+            read(None, &[("ROS_LOCALHOST_ONLY", "0")]).unwrap().0.reach,
+            Reach::Subnet
+        );
+        assert_eq!(
+            read(None, &[("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")])
+                .unwrap()
+                .0
+                .reach,
+            Reach::Localhost
+        );
+        let (network, notes) = read(
+            None,
+            &[("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF"), ("ROS_STATIC_PEERS", "a")],
+        )
+        .unwrap();
+        assert_eq!((network.reach, notes.len()), (Reach::Localhost, 2));
+    }
+
+    #[test]
+    fn wrong_values_are_named() {
+        for value in ["233", "-1", "x"] {
+            let error = read(None, &[("ROS_DOMAIN_ID", value)]).unwrap_err().to_string();
+            assert!(error.contains(value) && error.contains("232"), "{error}");
+        }
+        assert!(read(None, &[("ROS_AUTOMATIC_DISCOVERY_RANGE", "NEAR")]).is_err());
+    }
+}

@@ -1,0 +1,203 @@
+//! The six parameter services of a ROS 2 node, with descriptors, and `/parameter_events`.
+
+use std::future::Future;
+use std::pin::Pin;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ros2_client::parameters::raw;
+use ros2_client::rcl_interfaces::{
+    DescribeParametersRequest, DescribeParametersResponse, GetParameterTypesRequest, GetParameterTypesResponse,
+    GetParametersRequest, GetParametersResponse, ListParametersRequest, ListParametersResponse,
+    SetParametersAtomicallyResponse, SetParametersRequest, SetParametersResponse,
+};
+use ros2_client::{Node, Parameter, ParameterValue};
+use rustdds::DomainParticipant;
+
+use super::store::ParameterStore;
+use crate::ros::NodeError;
+use crate::ros::publisher::{Offer, TopicPublisher};
+use crate::ros::raw::encode;
+use crate::ros::service::{ServiceMapping, ServiceServer, at_once};
+
+/// A server's work, to be run as a task.
+pub type Task = Pin<Box<dyn Future<Output = ()> + Send>>;
+
+/// Checks a set of values as a whole.
+pub type Check = dyn Fn(&ParameterStore) -> Result<(), String> + Send + Sync;
+/// Told about accepted values, in order.
+pub type Applied = dyn Fn(&ParameterStore, &[Parameter]) + Send + Sync;
+
+/// Values, rules, and what follows from a change.
+pub struct Parameters {
+    store: Mutex<ParameterStore>,
+    check: Box<Check>,
+    applied: Box<Applied>,
+    events: TopicPublisher,
+    node_name: String,
+}
+
+impl Parameters {
+    /// Takes over a store. `check` sees candidate values together, `applied` is told about each accepted change while
+    /// no other change can come between. `/parameter_events` tells others of all parameters at once now, and of every
+    /// change later.
+    ///
+    /// # Errors
+    /// When the events' topic cannot be created.
+    pub fn new(
+        node: &mut Node,
+        participant: &DomainParticipant,
+        store: ParameterStore,
+        check: Box<Check>,
+        applied: Box<Applied>,
+    ) -> Result<Arc<Self>, NodeError> {
+        let offer = Offer {
+            reliable: true,
+            latched: false,
+            depth: 1000,
+            rate: 10.0,
+        };
+        let events = TopicPublisher::new(
+            node,
+            participant,
+            "/parameter_events",
+            "rcl_interfaces/msg/ParameterEvent",
+            offer,
+        )?;
+        let parameters = Self {
+            store: Mutex::new(store),
+            check,
+            applied,
+            events,
+            node_name: node.fully_qualified_name(),
+        };
+        let all = parameters.with(ParameterStore::all);
+        parameters.publish(all, Vec::new());
+        Ok(Arc::new(parameters))
+    }
+
+    /// Looks at the values.
+    pub fn with<T>(&self, look: impl FnOnce(&ParameterStore) -> T) -> T {
+        look(&self.store.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Sets all of `changes` or none, tells those concerned, publishes the event.
+    ///
+    /// # Errors
+    /// The reason of the refusal, in words.
+    pub fn set(&self, changes: &[Parameter]) -> Result<(), String> {
+        let changed = {
+            let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
+            let changed = store.set_atomically(changes, |candidate| (self.check)(candidate))?;
+            (self.applied)(&store, &changed);
+            changed
+        };
+        for Parameter { name, value } in &changed {
+            tracing::info!("parameter {name} is now {}", crate::ros::args::value::show(value));
+        }
+        self.publish(Vec::new(), changed);
+        Ok(())
+    }
+
+    fn publish(&self, new: Vec<Parameter>, changed: Vec<Parameter>) {
+        let event = raw::ParameterEvent {
+            stamp: ros2_client::builtin_interfaces::Time::now(),
+            node: self.node_name.clone(),
+            new_parameters: new.into_iter().map(Into::into).collect(),
+            changed_parameters: changed.into_iter().map(Into::into).collect(),
+            deleted_parameters: Vec::new(),
+        };
+        if let Ok(body) = encode(&event) {
+            self.events.publish(&body);
+        }
+    }
+
+    fn answer_set(&self, changes: Vec<raw::Parameter>) -> raw::SetParametersResult {
+        let changes: Vec<Parameter> = changes.into_iter().map(Into::into).collect();
+        let result = self.set(&changes);
+        if let Err(reason) = &result {
+            tracing::warn!("a parameter change was refused: {reason}");
+        }
+        result.into()
+    }
+}
+
+/// Creates the six servers of a node; each is a task to run.
+///
+/// # Errors
+/// When a service cannot be created.
+pub fn serve(
+    node: &mut Node,
+    participant: &DomainParticipant,
+    mapping: ServiceMapping,
+    parameters: &Arc<Parameters>,
+) -> Result<Vec<Task>, NodeError> {
+    let node_name = node.fully_qualified_name();
+    let mut server = |name: &str, kind: &str| {
+        let service = format!("{node_name}/{name}");
+        ServiceServer::new(
+            node,
+            participant,
+            &service,
+            &format!("rcl_interfaces/srv/{kind}"),
+            mapping,
+        )
+    };
+    let shared = || Arc::clone(parameters);
+    let (get, types, set, atomic, list, describe) = (shared(), shared(), shared(), shared(), shared(), shared());
+    Ok(vec![
+        Box::pin(
+            server("get_parameters", "GetParameters")?.serve(at_once(move |request: GetParametersRequest| {
+                get.with(|store| GetParametersResponse {
+                    values: request
+                        .names
+                        .iter()
+                        .map(|name| store.get(name).cloned().unwrap_or(ParameterValue::NotSet).into())
+                        .collect(),
+                })
+            })),
+        ),
+        Box::pin(server("get_parameter_types", "GetParameterTypes")?.serve(at_once(
+            move |request: GetParameterTypesRequest| {
+                types.with(|store| GetParameterTypesResponse {
+                    values: request
+                        .names
+                        .iter()
+                        .map(|name| store.get(name).map_or(0, ParameterValue::to_parameter_type_raw))
+                        .collect(),
+                })
+            },
+        ))),
+        Box::pin(
+            server("set_parameters", "SetParameters")?.serve(at_once(move |request: SetParametersRequest| {
+                SetParametersResponse {
+                    results: request
+                        .parameter
+                        .into_iter()
+                        .map(|parameter| set.answer_set(vec![parameter]))
+                        .collect(),
+                }
+            })),
+        ),
+        Box::pin(
+            server("set_parameters_atomically", "SetParametersAtomically")?.serve(at_once(
+                move |request: SetParametersRequest| SetParametersAtomicallyResponse {
+                    result: atomic.answer_set(request.parameter),
+                },
+            )),
+        ),
+        Box::pin(
+            server("list_parameters", "ListParameters")?.serve(at_once(move |request: ListParametersRequest| {
+                list.with(|store| ListParametersResponse {
+                    result: store.list(&request.prefixes, request.depth),
+                })
+            })),
+        ),
+        Box::pin(server("describe_parameters", "DescribeParameters")?.serve(at_once(
+            move |request: DescribeParametersRequest| {
+                describe.with(|store| DescribeParametersResponse {
+                    values: request.names.iter().map(|name| store.describe(name)).collect(),
+                })
+            },
+        ))),
+    ])
+}

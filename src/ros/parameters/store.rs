@@ -1,0 +1,299 @@
+//! Declared parameters with their descriptions, limits and values.
+
+use std::collections::BTreeMap;
+
+use ros2_client::parameters::{NumericRange, ParameterDescriptor, raw};
+use ros2_client::rcl_interfaces::ListParametersResult;
+use ros2_client::{Parameter, ParameterValue};
+
+use crate::ros::args::value::show;
+
+/// What is declared about a parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Declaration {
+    /// Dotted name.
+    pub name: String,
+    /// One sentence with the unit.
+    pub description: String,
+    /// Lowest and highest allowed value of a number, both included.
+    pub range: Option<[f64; 2]>,
+    /// Why it cannot change while the node runs.
+    pub read_only: Option<String>,
+    /// Value; its type is the parameter's type.
+    pub value: ParameterValue,
+}
+
+/// Declared parameters, by name.
+#[derive(Debug, Clone, Default)]
+pub struct ParameterStore {
+    entries: BTreeMap<String, Declaration>,
+}
+
+impl ParameterStore {
+    /// A store of these declarations.
+    pub fn new(declarations: impl IntoIterator<Item = Declaration>) -> Self {
+        Self {
+            entries: declarations
+                .into_iter()
+                .map(|entry| (entry.name.clone(), entry))
+                .collect(),
+        }
+    }
+
+    /// A parameter's value.
+    pub fn get(&self, name: &str) -> Option<&ParameterValue> {
+        self.entries.get(name).map(|entry| &entry.value)
+    }
+
+    /// A number's value; whole numbers too.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        match self.get(name)? {
+            ParameterValue::Double(value) => Some(*value),
+            ParameterValue::Integer(value) => Some(*value as f64),
+            _ => None,
+        }
+    }
+
+    /// All names, sorted.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.entries.keys().map(String::as_str)
+    }
+
+    /// Current values of all parameters.
+    pub fn all(&self) -> Vec<Parameter> {
+        self.entries
+            .values()
+            .map(|entry| Parameter {
+                name: entry.name.clone(),
+                value: entry.value.clone(),
+            })
+            .collect()
+    }
+
+    /// Sets all of `changes` or none. `check` sees the store as it would become. Returns what changed, in the
+    /// parameters' own types.
+    ///
+    /// # Errors
+    /// A sentence for the person who asked: which parameter, which value, which limit, what to do.
+    pub fn set_atomically(
+        &mut self,
+        changes: &[Parameter],
+        check: impl FnOnce(&ParameterStore) -> Result<(), String>,
+    ) -> Result<Vec<Parameter>, String> {
+        let mut candidate = self.clone();
+        let mut accepted = Vec::with_capacity(changes.len());
+        for Parameter { name, value } in changes {
+            let entry = candidate.entries.get_mut(name).ok_or_else(|| unknown(self, name))?;
+            entry.value = allowed(entry, value)?;
+            accepted.push(Parameter {
+                name: name.clone(),
+                value: entry.value.clone(),
+            });
+        }
+        check(&candidate)?;
+        *self = candidate;
+        Ok(accepted)
+    }
+
+    /// What `ros2 param describe` shows.
+    pub fn describe(&self, name: &str) -> raw::ParameterDescriptor {
+        let Some(entry) = self.entries.get(name) else {
+            return ParameterDescriptor::unknown(name).into();
+        };
+        let range = match (&entry.value, entry.range) {
+            (ParameterValue::Integer(_), Some([from, to])) => NumericRange::IntegerRange {
+                from_value: from as i64,
+                to_value: to as i64,
+                step: 0,
+            },
+            (_, Some([from_value, to_value])) => NumericRange::FloatingPointRange {
+                from_value,
+                to_value,
+                step: 0.0,
+            },
+            _ => NumericRange::NotSpecified,
+        };
+        ParameterDescriptor {
+            name: name.to_owned(),
+            param_type: entry.value.to_parameter_type(),
+            description: entry.description.clone(),
+            additional_constraints: entry.read_only.clone().unwrap_or_default(),
+            read_only: entry.read_only.is_some(),
+            dynamic_typing: false,
+            range,
+        }
+        .into()
+    }
+
+    /// Names at or below the prefixes, down to `depth` dots (0: no limit).
+    pub fn list(&self, prefixes: &[String], depth: u64) -> ListParametersResult {
+        let shallow = |rest: &str| depth == 0 || (rest.matches('.').count() as u64) < depth;
+        let wanted = |name: &str| {
+            if prefixes.is_empty() {
+                return shallow(name);
+            }
+            prefixes.iter().any(|prefix| {
+                name == prefix
+                    || name
+                        .strip_prefix(prefix.as_str())
+                        .is_some_and(|rest| rest.starts_with('.') && shallow(rest))
+            })
+        };
+        let names: Vec<String> = self.names().filter(|name| wanted(name)).map(str::to_owned).collect();
+        let mut found: Vec<String> = names
+            .iter()
+            .filter_map(|name| name.rsplit_once('.').map(|(prefix, _)| prefix.to_owned()))
+            .collect();
+        found.sort();
+        found.dedup();
+        ListParametersResult { names, prefixes: found }
+    }
+}
+
+fn unknown(store: &ParameterStore, name: &str) -> String {
+    let last = name.rsplit('.').next().unwrap_or(name);
+    let close: Vec<&str> = store
+        .names()
+        .filter(|known| known.rsplit('.').next() == Some(last))
+        .take(3)
+        .collect();
+    let hint = if close.is_empty() {
+        "see `ros2 param list`".to_owned()
+    } else {
+        format!("did you mean {}?", close.join(" or "))
+    };
+    format!("there is no parameter '{name}'; {hint}")
+}
+
+/// The value in the parameter's own type, if it may take it.
+fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue, String> {
+    let name = &entry.name;
+    if let Some(why) = &entry.read_only {
+        return Err(format!("'{name}' cannot change while the twin runs: {why}"));
+    }
+    let value = match (&entry.value, value) {
+        // A whole number is a fine way to write a real one.
+        (ParameterValue::Double(_), ParameterValue::Integer(whole)) => ParameterValue::Double(*whole as f64),
+        (own, given) if std::mem::discriminant(own) == std::mem::discriminant(given) => given.clone(),
+        (own, given) => {
+            return Err(format!(
+                "'{name}' is a {:?}, not a {:?} ({})",
+                own.to_parameter_type(),
+                given.to_parameter_type(),
+                show(given)
+            ));
+        }
+    };
+    let number = match &value {
+        ParameterValue::Double(number) => *number,
+        ParameterValue::Integer(number) => *number as f64,
+        _ => return Ok(value),
+    };
+    if !number.is_finite() {
+        return Err(format!("'{name}' must be a finite number, not {}", show(&value)));
+    }
+    match entry.range {
+        Some([lowest, _]) if number < lowest => Err(format!(
+            "'{name}' = {} is below its lowest value {lowest:?}",
+            show(&value)
+        )),
+        Some([_, highest]) if number > highest => Err(format!(
+            "'{name}' = {} is above its highest value {highest:?}",
+            show(&value)
+        )),
+        _ => Ok(value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn declare(name: &str, value: ParameterValue, range: Option<[f64; 2]>, read_only: bool) -> Declaration {
+        Declaration {
+            name: name.into(),
+            description: "one sentence".into(),
+            range,
+            read_only: read_only.then(|| "it is part of the mesh".into()),
+            value,
+        }
+    }
+
+    fn store() -> ParameterStore {
+        ParameterStore::new([
+            declare("friction.inner", ParameterValue::Double(0.2), Some([0.0, 1.0]), false),
+            declare("friction.outer", ParameterValue::Double(0.3), Some([0.0, 1.0]), false),
+            declare("tool.links", ParameterValue::Integer(33), None, true),
+            declare("count", ParameterValue::Integer(3), Some([1.0, 9.0]), false),
+        ])
+    }
+
+    fn parameter(name: &str, value: ParameterValue) -> Parameter {
+        Parameter {
+            name: name.into(),
+            value,
+        }
+    }
+
+    #[test]
+    fn all_or_nothing() {
+        let mut store = store();
+        let changes = [
+            parameter("friction.inner", ParameterValue::Double(0.4)),
+            parameter("friction.outer", ParameterValue::Double(7.0)),
+        ];
+        let reason = store.set_atomically(&changes, |_| Ok(())).unwrap_err();
+        assert!(
+            reason.contains("friction.outer") && reason.contains("7.0") && reason.contains("1.0"),
+            "{reason}"
+        );
+        assert_eq!(store.number("friction.inner"), Some(0.2));
+        let refused = store.set_atomically(&changes[..1], |new| {
+            assert_eq!(new.number("friction.inner"), Some(0.4));
+            Err("together they do not fit".into())
+        });
+        assert!(refused.is_err());
+        assert_eq!(store.number("friction.inner"), Some(0.2));
+        assert_eq!(store.set_atomically(&changes[..1], |_| Ok(())).unwrap().len(), 1);
+        assert_eq!(store.number("friction.inner"), Some(0.4));
+    }
+
+    #[test]
+    fn refusals_say_why() {
+        let mut store = store();
+        let mut refuse = |name: &str, value| store.set_atomically(&[parameter(name, value)], |_| Ok(())).unwrap_err();
+        assert!(refuse("tool.links", ParameterValue::Integer(4)).contains("part of the mesh"));
+        assert!(refuse("inner", ParameterValue::Double(0.1)).contains("did you mean friction.inner"));
+        assert!(refuse("friction.inner", ParameterValue::String("low".into())).contains("low"));
+        assert!(refuse("friction.inner", ParameterValue::Double(f64::NAN)).contains("finite"));
+        assert!(refuse("count", ParameterValue::Double(2.0)).contains("Integer"));
+        assert!(refuse("count", ParameterValue::Integer(0)).contains("below"));
+    }
+
+    #[test]
+    fn whole_numbers_are_taken_for_real_ones() {
+        let mut store = store();
+        store
+            .set_atomically(&[parameter("friction.inner", ParameterValue::Integer(1))], |_| Ok(()))
+            .unwrap();
+        assert_eq!(store.get("friction.inner"), Some(&ParameterValue::Double(1.0)));
+    }
+
+    #[test]
+    fn lists_and_descriptions() {
+        let store = store();
+        assert_eq!(
+            store.list(&[], 0).names,
+            ["count", "friction.inner", "friction.outer", "tool.links"]
+        );
+        assert_eq!(
+            store.list(&["friction".into()], 0).names,
+            ["friction.inner", "friction.outer"]
+        );
+        assert_eq!(store.list(&[], 1).names, ["count"]);
+        let described = store.describe("friction.inner");
+        assert_eq!(described.floating_point_range[0].to_value, 1.0);
+        assert!(store.describe("tool.links").read_only);
+        assert_eq!(store.describe("nothing").r#type, 0);
+    }
+}

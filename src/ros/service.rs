@@ -1,0 +1,307 @@
+//! Service servers that answer both kinds of ROS 2 clients.
+//!
+//! ROS 2's two DDS layers send services differently: rmw_fastrtps puts the request's identity beside the data
+//! ("enhanced" mapping), rmw_cyclonedds puts 16 bytes before it ("cyclone" mapping). A request tells which one it is:
+//! its bytes fit the request type exactly with or without those 16 bytes in front. So a server here answers each
+//! client in its own way, and `ros2 param` works from both.
+
+use std::future::Future;
+use std::str::FromStr;
+use std::sync::Arc;
+use std::time::Duration;
+
+use futures::StreamExt;
+use ros2_client::qos::{History, WhenFull};
+use ros2_client::{Name, Node, QosProfile, RmwRequestId, Server, ServiceMapping as Wire, ServiceTypeName};
+use rustdds::{DomainParticipant, GUID};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::NodeError;
+use super::raw::{self, RawCdr};
+
+/// Bytes that rmw_cyclonedds puts before a request and expects before its reply: client id and sequence number.
+const CYCLONE_HEADER: usize = 16;
+/// CDR bodies are padded to a multiple of this many bytes.
+const PADDING: usize = 4;
+/// Requests and replies kept per service; several clients may ask at once.
+const DEPTH: usize = 64;
+/// Longest wait for a new client's reply reader to be discovered.
+const CLIENT_WAIT: Duration = Duration::from_millis(500);
+
+/// Which form of services is served.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ServiceMapping {
+    /// Each client is answered as it asks; the value decides where a request could be read both ways.
+    Auto(Dialect),
+    /// One form only.
+    Only(Dialect),
+}
+
+/// How a request travels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dialect {
+    /// rmw_fastrtps, rmw_connextdds, and plain DDS programs.
+    Enhanced,
+    /// rmw_cyclonedds.
+    Cyclone,
+}
+
+impl Dialect {
+    /// The dialect of the ROS 2 layer that RMW_IMPLEMENTATION names.
+    pub fn of_rmw(rmw_implementation: Option<&str>) -> Self {
+        match rmw_implementation {
+            Some(name) if name.contains("cyclone") => Dialect::Cyclone,
+            _ => Dialect::Enhanced,
+        }
+    }
+}
+
+impl ServiceMapping {
+    /// What a person reads at the start.
+    pub fn describe(self) -> &'static str {
+        match self {
+            ServiceMapping::Auto(_) => "auto (clients on rmw_fastrtps and rmw_cyclonedds are both answered)",
+            ServiceMapping::Only(Dialect::Enhanced) => "enhanced (clients on rmw_fastrtps)",
+            ServiceMapping::Only(Dialect::Cyclone) => "cyclone (clients on rmw_cyclonedds)",
+        }
+    }
+}
+
+impl FromStr for ServiceMapping {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(ServiceMapping::Auto(Dialect::of_rmw(
+                std::env::var("RMW_IMPLEMENTATION").ok().as_deref(),
+            ))),
+            "enhanced" => Ok(ServiceMapping::Only(Dialect::Enhanced)),
+            "cyclone" => Ok(ServiceMapping::Only(Dialect::Cyclone)),
+            other => Err(format!(
+                "'{other}' is not a service mapping; use auto, enhanced or cyclone"
+            )),
+        }
+    }
+}
+
+/// Reads a request in the form it came.
+fn interpret<Req: DeserializeOwned>(mapping: ServiceMapping, body: &[u8]) -> Result<(Dialect, Req), String> {
+    let read = |bytes: Option<&[u8]>| -> Result<Req, String> {
+        let bytes = bytes.ok_or("it is shorter than the header")?;
+        let (request, used) = raw::decode::<Req>(bytes).map_err(|error| error.to_string())?;
+        let left = bytes.len().saturating_sub(used);
+        if left < PADDING {
+            Ok(request)
+        } else {
+            Err(format!("{left} bytes are left over"))
+        }
+    };
+    let enhanced = || read(Some(body)).map(|request| (Dialect::Enhanced, request));
+    let cyclone = || read(body.get(CYCLONE_HEADER..)).map(|request| (Dialect::Cyclone, request));
+    match mapping {
+        ServiceMapping::Auto(Dialect::Enhanced) => enhanced().or_else(|_| cyclone()),
+        ServiceMapping::Auto(Dialect::Cyclone) => cyclone().or_else(|_| enhanced()),
+        ServiceMapping::Only(Dialect::Enhanced) => enhanced(),
+        ServiceMapping::Only(Dialect::Cyclone) => cyclone(),
+    }
+}
+
+/// A service's server, ready to be run as a task.
+pub struct ServiceServer {
+    server: Server<RawCdr, RawCdr>,
+    name: String,
+    mapping: ServiceMapping,
+    participant: DomainParticipant,
+}
+
+impl ServiceServer {
+    /// Creates the server. `name` is absolute, `type_name` as `package/srv/Type`.
+    ///
+    /// # Errors
+    /// When DDS refuses the name or an endpoint.
+    pub fn new(
+        node: &mut Node,
+        participant: &DomainParticipant,
+        name: &str,
+        type_name: &str,
+        mapping: ServiceMapping,
+    ) -> Result<Self, NodeError> {
+        let mut parts = type_name.split('/');
+        let package = parts.next().unwrap_or_default();
+        let service_type = ServiceTypeName::new(package, parts.next_back().unwrap_or_default());
+        let parsed = Name::parse(name).map_err(|error| NodeError::ServiceName {
+            service: name.to_owned(),
+            why: error.to_string(),
+        })?;
+        let qos = QosProfile::publisher_default()
+            .reliability_reliable(WhenFull::Fail)
+            .history(History::KeepLast { depth: DEPTH });
+        // The crate's enhanced mapping is the one that leaves the bytes alone.
+        let server = node
+            .create_server(Wire::Enhanced, &parsed, &service_type, qos.clone(), qos)
+            .map_err(|source| NodeError::Service {
+                service: name.to_owned(),
+                source,
+            })?;
+        Ok(Self {
+            server,
+            name: name.to_owned(),
+            mapping,
+            participant: participant.clone(),
+        })
+    }
+
+    /// Answers requests, one after another, for as long as the future is polled.
+    pub async fn serve<Req, Resp, Handler, Answer>(self, handler: Handler)
+    where
+        Req: DeserializeOwned,
+        Resp: Serialize,
+        Handler: Fn(Req) -> Answer,
+        Answer: Future<Output = Resp>,
+    {
+        let mut requests = self.server.receive_request_stream();
+        while let Some(received) = requests.next().await {
+            let (id, RawCdr(body)) = match received {
+                Ok(request) => request,
+                Err(error) => {
+                    tracing::warn!("service {}: a request could not be received: {error}", self.name);
+                    continue;
+                }
+            };
+            let (dialect, request) = match interpret::<Req>(self.mapping, &body) {
+                Ok(request) => request,
+                Err(why) => {
+                    tracing::warn!(
+                        "service {}: a request of {} bytes could not be read: {why}",
+                        self.name,
+                        body.len()
+                    );
+                    continue;
+                }
+            };
+            let response = handler(request).await;
+            self.wait_for_client(&id).await;
+            self.reply(id, dialect, &body, &response);
+        }
+    }
+
+    fn reply<Resp: Serialize>(&self, id: RmwRequestId, dialect: Dialect, request: &[u8], response: &Resp) {
+        let mut bytes = match dialect {
+            Dialect::Cyclone => request[..CYCLONE_HEADER].to_vec(),
+            Dialect::Enhanced => Vec::new(),
+        };
+        match raw::encode(response) {
+            Ok(encoded) => bytes.extend(encoded),
+            Err(error) => return tracing::error!("service {}: the reply could not be encoded: {error}", self.name),
+        }
+        if let Err(error) = self.server.send_response(id, RawCdr(bytes)) {
+            tracing::warn!("service {}: the reply was not sent: {error}", self.name);
+        }
+    }
+
+    /// A client's request can arrive before DDS has matched its reply reader; a reply sent then would be lost.
+    async fn wait_for_client(&self, id: &RmwRequestId) {
+        let client = GUID::from(id.writer_gid).prefix;
+        let topic = format!("rr{}Reply", self.name);
+        let known = || {
+            self.participant.discovered_readers().iter().any(|reader| {
+                reader.subscription_topic_data.topic_name == topic
+                    && reader.reader_proxy.remote_reader_guid.prefix == client
+            })
+        };
+        let deadline = tokio::time::Instant::now() + CLIENT_WAIT;
+        let mut waited = false;
+        while !known() && tokio::time::Instant::now() < deadline {
+            waited = true;
+            tokio::time::sleep(Duration::from_millis(5)).await;
+        }
+        if waited {
+            // Discovery knows the reader a moment before the writer is matched with it.
+            tokio::time::sleep(Duration::from_millis(10)).await;
+        }
+    }
+}
+
+/// A handler that needs no waiting.
+pub fn at_once<Req, Resp>(answer: impl Fn(Req) -> Resp) -> impl Fn(Req) -> std::future::Ready<Resp> {
+    move |request| std::future::ready(answer(request))
+}
+
+/// Shares what a handler needs with the future it returns.
+pub fn shared<S, Req, Answer>(state: Arc<S>, answer: impl Fn(Arc<S>, Req) -> Answer) -> impl Fn(Req) -> Answer {
+    move |request| answer(Arc::clone(&state), request)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    struct Names {
+        names: Vec<String>,
+    }
+
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    struct List {
+        prefixes: Vec<String>,
+        depth: u64,
+    }
+
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    struct Nothing {
+        unused: u8,
+    }
+
+    fn both_ways<T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(request: &T) {
+        let plain = raw::encode(request).unwrap();
+        let headed: Vec<u8> = (0..16u8)
+            .map(|i| i.wrapping_mul(37) ^ 0xa5)
+            .chain(plain.iter().copied())
+            .collect();
+        let padded = |bytes: &[u8]| {
+            bytes
+                .iter()
+                .copied()
+                .chain(std::iter::repeat_n(0, bytes.len().wrapping_neg() % 4))
+                .collect::<Vec<u8>>()
+        };
+        for preferred in [Dialect::Enhanced, Dialect::Cyclone] {
+            let auto = ServiceMapping::Auto(preferred);
+            for (bytes, dialect) in [(&plain, Dialect::Enhanced), (&headed, Dialect::Cyclone)] {
+                for bytes in [bytes.clone(), padded(bytes)] {
+                    let (found, read) = interpret::<T>(auto, &bytes).unwrap();
+                    assert_eq!((found, &read), (dialect, request), "{} bytes", bytes.len());
+                }
+            }
+        }
+        assert!(interpret::<T>(ServiceMapping::Only(Dialect::Enhanced), &padded(&headed)).is_err());
+    }
+
+    #[test]
+    fn the_form_of_a_request_is_seen_from_its_bytes() {
+        both_ways(&Names {
+            names: vec!["use_sim_time".into()],
+        });
+        both_ways(&Names {
+            names: vec!["rates.joint_deflections".into(), "bit.friction_factor".into()],
+        });
+        both_ways(&List {
+            prefixes: vec![],
+            depth: 0,
+        });
+        both_ways(&List {
+            prefixes: vec!["rates".into()],
+            depth: 2,
+        });
+        both_ways(&Nothing { unused: 0 });
+    }
+
+    #[test]
+    fn rmw_implementation_gives_the_preference() {
+        assert_eq!(Dialect::of_rmw(Some("rmw_cyclonedds_cpp")), Dialect::Cyclone);
+        assert_eq!(Dialect::of_rmw(Some("rmw_fastrtps_cpp")), Dialect::Enhanced);
+        assert_eq!(Dialect::of_rmw(None), Dialect::Enhanced);
+    }
+}
