@@ -2,8 +2,12 @@
 //!
 //! The node, replay, verification and sweeps all drive this one thing.
 
+mod run;
+mod schedule;
 mod simulation;
 mod snapshot;
 
+pub use run::{Frame, Run, RunInputs};
+pub use schedule::{Due, Output, Schedule, Timeline};
 pub use simulation::{BuildError, Inputs, Simulation, SimulationSettings};
 pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot, SolverCounters};
