@@ -1,1 +1,19 @@
-//! ROS 2 message types, generated from `msg/*.msg`.
+//! ROS 2 message types: generated from `msg/*.msg` and `external/`, their bytes, and how they are filled from a
+//! snapshot of the twin.
+
+mod cdr;
+pub mod generator;
+pub mod large_array;
+mod message;
+mod time;
+
+#[rustfmt::skip]
+pub mod generated;
+
+pub use cdr::{CdrError, from_cdr, to_cdr, to_cdr_into};
+pub use generated::flexdrill::*;
+pub use generated::{
+    builtin_interfaces, diagnostic_msgs, geometry_msgs, rcl_interfaces, rosgraph_msgs, sensor_msgs, std_msgs, std_srvs,
+    visualization_msgs,
+};
+pub use message::{Message, TypeInfo, find_type};

@@ -1,0 +1,1610 @@
+//! Generated from `msg/` and `src/messages/external/` by `flexdrill generate-messages`. Do not edit.
+
+use super::TypeInfo;
+
+/// Messages of the ROS package `builtin_interfaces`.
+pub mod builtin_interfaces {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `builtin_interfaces/msg/Duration`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Duration {
+        pub sec: i32,
+        pub nanosec: u32,
+    }
+
+    impl Message for Duration {
+        const PACKAGE: &'static str = "builtin_interfaces";
+        const NAME: &'static str = "Duration";
+        const ROS_TYPE: &'static str = "builtin_interfaces/msg/Duration";
+        const DDS_TYPE: &'static str = "builtin_interfaces::msg::dds_::Duration_";
+        const RIHS01: &'static str = "RIHS01_e8d009f659816f758b75334ee1a9ca5b5c0b859843261f14c7f937349599d93b";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/builtin_interfaces/msg/Duration.msg");
+    }
+
+    /// `builtin_interfaces/msg/Time`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Time {
+        pub sec: i32,
+        pub nanosec: u32,
+    }
+
+    impl Message for Time {
+        const PACKAGE: &'static str = "builtin_interfaces";
+        const NAME: &'static str = "Time";
+        const ROS_TYPE: &'static str = "builtin_interfaces/msg/Time";
+        const DDS_TYPE: &'static str = "builtin_interfaces::msg::dds_::Time_";
+        const RIHS01: &'static str = "RIHS01_b106235e25a4c5ed35098aa0a61a3ee9c9b18d197f398b0e4206cea9acf9c197";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg");
+    }
+}
+
+/// Messages of the ROS package `diagnostic_msgs`.
+pub mod diagnostic_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `diagnostic_msgs/msg/DiagnosticArray`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct DiagnosticArray {
+        pub header: super::std_msgs::Header,
+        pub status: Vec<DiagnosticStatus>,
+    }
+
+    impl Message for DiagnosticArray {
+        const PACKAGE: &'static str = "diagnostic_msgs";
+        const NAME: &'static str = "DiagnosticArray";
+        const ROS_TYPE: &'static str = "diagnostic_msgs/msg/DiagnosticArray";
+        const DDS_TYPE: &'static str = "diagnostic_msgs::msg::dds_::DiagnosticArray_";
+        const RIHS01: &'static str = "RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/diagnostic_msgs/msg/DiagnosticArray.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: diagnostic_msgs/DiagnosticStatus\n",
+            include_str!("../../src/messages/external/diagnostic_msgs/msg/DiagnosticStatus.msg"),
+            "================================================================================\nMSG: diagnostic_msgs/KeyValue\n",
+            include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg"),
+        );
+    }
+
+    /// `diagnostic_msgs/msg/DiagnosticStatus`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct DiagnosticStatus {
+        pub level: u8,
+        pub name: std::string::String,
+        pub message: std::string::String,
+        pub hardware_id: std::string::String,
+        pub values: Vec<KeyValue>,
+    }
+
+    impl DiagnosticStatus {
+        pub const OK: u8 = 0;
+        pub const WARN: u8 = 1;
+        pub const ERROR: u8 = 2;
+        pub const STALE: u8 = 3;
+    }
+
+    impl Message for DiagnosticStatus {
+        const PACKAGE: &'static str = "diagnostic_msgs";
+        const NAME: &'static str = "DiagnosticStatus";
+        const ROS_TYPE: &'static str = "diagnostic_msgs/msg/DiagnosticStatus";
+        const DDS_TYPE: &'static str = "diagnostic_msgs::msg::dds_::DiagnosticStatus_";
+        const RIHS01: &'static str = "RIHS01_b0e3e692ea2d54a8af2f4ef1930e81556a2db55216b771f8a7d2724ed47bf0e4";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/diagnostic_msgs/msg/DiagnosticStatus.msg"),
+            "================================================================================\nMSG: diagnostic_msgs/KeyValue\n",
+            include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg"),
+        );
+    }
+
+    /// `diagnostic_msgs/msg/KeyValue`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct KeyValue {
+        pub key: std::string::String,
+        pub value: std::string::String,
+    }
+
+    impl Message for KeyValue {
+        const PACKAGE: &'static str = "diagnostic_msgs";
+        const NAME: &'static str = "KeyValue";
+        const ROS_TYPE: &'static str = "diagnostic_msgs/msg/KeyValue";
+        const DDS_TYPE: &'static str = "diagnostic_msgs::msg::dds_::KeyValue_";
+        const RIHS01: &'static str = "RIHS01_d68081eaa540288c5440753baecef0c4e16e81a5f78ad68902ded5100413bb42";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg");
+    }
+}
+
+/// Messages of the ROS package `flexdrill`.
+pub mod flexdrill {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// What drives the model from a step on, sent when anything of it changes. The sequence of these messages and the
+    /// configuration determine a run to the bit.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct AppliedInputs {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Number of model steps taken before these values act: they act on the step that starts then.
+        pub step: u64,
+        /// Steps skipped so far because the model was late.
+        pub skipped_steps: u64,
+        /// The model went back to its state after the start before this step; step counts from 0 again.
+        pub reset: bool,
+        /// Target speed of the drive, before the slew limit (rad/s).
+        pub rotary_speed: f64,
+        /// Target weight on bit, before the slew limit (N).
+        pub weight_on_bit: f64,
+        /// Slew limit of the rotary speed (rad/s2).
+        pub rotary_speed_slew: f64,
+        /// Slew limit of the weight on bit (N/s).
+        pub weight_on_bit_slew: f64,
+        /// Coulomb coefficients between pipe and guide pipe: around the circumference, along the axis.
+        pub inner_friction: [f64; 2],
+        /// Coulomb coefficients between guide pipe and wall: around the circumference, along the axis.
+        pub outer_friction: [f64; 2],
+        /// Friction factor between bit and rock.
+        pub bit_friction_factor: f64,
+        /// Other numeric parameters that were changed at this step, by their ROS name.
+        pub parameter_name: Vec<std::string::String>,
+        /// Their new values, in the parameter's unit.
+        pub parameter_value: Vec<f64>,
+    }
+
+    impl Message for AppliedInputs {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "AppliedInputs";
+        const ROS_TYPE: &'static str = "flexdrill/msg/AppliedInputs";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AppliedInputs_";
+        const RIHS01: &'static str = "RIHS01_bbca596ba80471afab835254ade345132aff7c9e1238239f12cfc4c1814e5b8b";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/AppliedInputs.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// The bit.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct BitState {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Torque of the rock against the bit (N m, positive against the drive's sense).
+        pub torque: f64,
+        /// Rotary speed of the bit (rad/s, positive in the drive's sense).
+        pub rotary_speed: f64,
+        /// Weight on bit as applied to the model (N).
+        pub weight_on_bit: f64,
+        /// (max - min) / (2 mean) of the rotary speed over its window; 0 while the tool hardly turns.
+        pub stick_slip_index: f64,
+        /// Root mean square over the publishing interval of spin acceleration times bit radius (m/s2).
+        pub tangential_acceleration: f64,
+        /// Root mean square over the publishing interval of the axial acceleration (m/s2).
+        pub axial_acceleration: f64,
+        /// Root mean square over the publishing interval of the lateral acceleration one station above the bit (m/s2).
+        pub lateral_acceleration: f64,
+    }
+
+    impl Message for BitState {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "BitState";
+        const ROS_TYPE: &'static str = "flexdrill/msg/BitState";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::BitState_";
+        const RIHS01: &'static str = "RIHS01_464083ad5e78e39b4dfb960b3816401dfe31a1526e9fe2eee8497e8a4850063e";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/BitState.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// Contact between pipe and guide pipe and between guide pipe and bore wall. All arrays have one entry per station, top
+    /// to bottom. Collisions are shorter than the publishing interval: see the peak and rms arrays.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ContactForces {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Largest normal force between pipe and guide pipe in the publishing interval (N).
+        pub max_pipe_guide_force: f64,
+        /// Entry of its station in the arrays below.
+        pub max_pipe_guide_station: u32,
+        /// Largest normal force between guide pipe and wall in the publishing interval (N).
+        pub max_guide_wall_force: f64,
+        /// Entry of its station in the arrays below.
+        pub max_guide_wall_station: u32,
+        /// Place along the bore from the kick-off (m).
+        pub measured_depth: Vec<f64>,
+        /// Inclination of the bore there, 0 is straight down (rad).
+        pub inclination: Vec<f64>,
+        /// FREE, INNER, OUTER or BOTH at the stamp.
+        pub state: Vec<u8>,
+        /// Clearance left between pipe and guide pipe (m, negative is penetration).
+        pub pipe_guide_gap: Vec<f64>,
+        /// Normal force at the stamp (N, \>= 0).
+        pub pipe_guide_normal: Vec<f64>,
+        /// Friction around the circumference on the pipe (N, positive in the drive's sense).
+        pub pipe_guide_tangential: Vec<f64>,
+        /// Friction along the axis on the pipe (N, positive downhole).
+        pub pipe_guide_axial: Vec<f64>,
+        /// Largest normal force in the publishing interval (N).
+        pub pipe_guide_normal_peak: Vec<f64>,
+        /// Root mean square of the normal force over the publishing interval (N).
+        pub pipe_guide_normal_rms: Vec<f64>,
+        /// Clearance left between guide pipe and wall (m, negative is penetration).
+        pub guide_wall_gap: Vec<f64>,
+        /// Normal force at the stamp (N, \>= 0).
+        pub guide_wall_normal: Vec<f64>,
+        /// Friction around the circumference on the guide pipe (N, positive in the drive's sense).
+        pub guide_wall_tangential: Vec<f64>,
+        /// Friction along the axis on the guide pipe (N, positive downhole).
+        pub guide_wall_axial: Vec<f64>,
+        /// Largest normal force in the publishing interval (N).
+        pub guide_wall_normal_peak: Vec<f64>,
+        /// Root mean square of the normal force over the publishing interval (N).
+        pub guide_wall_normal_rms: Vec<f64>,
+    }
+
+    impl ContactForces {
+        /// Nothing touches at this station.
+        pub const FREE: u8 = 0;
+        /// Pipe and guide pipe touch.
+        pub const INNER: u8 = 1;
+        /// Guide pipe and wall touch.
+        pub const OUTER: u8 = 2;
+        /// Both layers touch.
+        pub const BOTH: u8 = 3;
+    }
+
+    impl Message for ContactForces {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "ContactForces";
+        const ROS_TYPE: &'static str = "flexdrill/msg/ContactForces";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::ContactForces_";
+        const RIHS01: &'static str = "RIHS01_edb3b8d6e322b6d2b28d9cdcd431d3ff833dbe615eb0273efcc0db95fc182a6f";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/ContactForces.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
+    /// entry 0 is joint_01 of joint_states.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct JointDeflections {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Largest bend angle of all joints (rad, \>= 0).
+        pub max_bend_angle: f64,
+        /// Entry of that joint in the arrays below.
+        pub max_bend_joint: u32,
+        /// Number of joints whose bend angle has reached the limit.
+        pub joints_at_limit: u32,
+        /// Place along the bore from the kick-off (m).
+        pub measured_depth: Vec<f64>,
+        /// Inclination of the bore there, 0 is straight down (rad).
+        pub inclination: Vec<f64>,
+        /// Angle between the axes of the two links (rad, \>= 0).
+        pub bend_angle: Vec<f64>,
+        /// Toolface of the bend: the direction in which the lower link turns away, from the high side, clockwise looking down
+        /// the hole (rad, -pi to pi).
+        pub bend_direction: Vec<f64>,
+        /// Bend angle at which the joint's stop begins (rad).
+        pub limit_angle: Vec<f64>,
+        /// Moment of the stop (N m, \>= 0, zero below the limit).
+        pub stop_moment: Vec<f64>,
+        /// Horizontal transverse displacement from the bore axis (m).
+        pub lateral_y: Vec<f64>,
+        /// Displacement from the bore axis towards the low side (m).
+        pub lateral_z: Vec<f64>,
+        /// Spin rate of the link below the joint (rad/s, positive in the drive's sense).
+        pub spin_rate: Vec<f64>,
+        /// Axial force through the joint (N, tension positive).
+        pub axial_force: Vec<f64>,
+        /// Magnitude of the shear force through the joint (N, \>= 0).
+        pub shear_force: Vec<f64>,
+        /// Torque through the joint (N m, positive in the drive's sense).
+        pub torque: Vec<f64>,
+    }
+
+    impl Message for JointDeflections {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "JointDeflections";
+        const ROS_TYPE: &'static str = "flexdrill/msg/JointDeflections";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::JointDeflections_";
+        const RIHS01: &'static str = "RIHS01_0cbbe142f2c40f82a157ed05b518531c55256d8c6b5212d55b61a70e92292388";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/JointDeflections.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// What a run was made with, so that a recording stands alone.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SessionInfo {
+        /// Stamp: start of the run on the rig's clock. Frame: the tool, as in all messages of this run.
+        pub header: super::std_msgs::Header,
+        /// Version of flexdrill.
+        pub version: std::string::String,
+        /// SHA-256 of the configuration.
+        pub config_hash: std::string::String,
+        /// Model step (s).
+        pub time_step: f64,
+        /// Time of model step 0 on the rig's clock.
+        pub start: super::builtin_interfaces::Time,
+        /// The whole configuration, YAML.
+        pub configuration: std::string::String,
+    }
+
+    impl Message for SessionInfo {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "SessionInfo";
+        const ROS_TYPE: &'static str = "flexdrill/msg/SessionInfo";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::SessionInfo_";
+        const RIHS01: &'static str = "RIHS01_0a3eff65416a497c5640cf09c4b8823cc1454df0723a6441ab160a5110ef22b9";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/SessionInfo.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// Health of the twin. The sequence is its heartbeat: when it stops, the twin has stopped.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TwinStatus {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Heartbeat, one more in every message.
+        pub sequence: u64,
+        /// STARTING, RUNNING, PAUSED or FAILED.
+        pub state: u8,
+        /// Model time since the start or the last reset (s).
+        pub model_time: f64,
+        /// Model steps since the start or the last reset.
+        pub step_count: u64,
+        /// Model step (s).
+        pub time_step: f64,
+        /// Model time gained per second of wall time, over the last second; 1 keeps up.
+        pub real_time_factor: f64,
+        /// How far the model is behind its deadlines now (s, \>= 0).
+        pub lateness: f64,
+        /// Steps that ended after their deadline.
+        pub deadline_misses: u64,
+        /// Whole step periods given up to catch up.
+        pub steps_skipped: u64,
+        /// Median computing time of a step in the last interval (s).
+        pub step_time_p50: f64,
+        /// 99th percentile of the computing time of a step in the last interval (s).
+        pub step_time_p99: f64,
+        /// Longest computing time of a step in the last interval (s).
+        pub step_time_max: f64,
+        /// Mean Newton iterations per step in the last interval.
+        pub newton_iterations_mean: f64,
+        /// Sub-steps rejected since the start.
+        pub rejected_steps: u64,
+        /// Steps that had to be split since the start.
+        pub halved_steps: u64,
+        /// Steps that failed at the smallest sub-step since the start.
+        pub failed_steps: u64,
+        /// Cause of the last rejection, empty if there was none.
+        pub last_rejection_cause: std::string::String,
+        /// Station of the last rejection, 0 is the uppermost.
+        pub last_rejection_station: u32,
+        /// Place of that station along the bore from the kick-off (m).
+        pub last_rejection_measured_depth: f64,
+        /// Work in, less energy out, less energy stored since the start (J); zero is exact.
+        pub energy_error: f64,
+        /// Magnitude of energy_error over the drive's work.
+        pub energy_error_ratio: f64,
+        /// RECORDING_OFF, RECORDING_ON or RECORDING_FAILED.
+        pub recording_state: u8,
+        /// File that is recorded to, empty if none.
+        pub recording_path: std::string::String,
+        /// Messages recorded.
+        pub recording_messages: u64,
+        /// Messages that the recording lost.
+        pub recording_drops: u64,
+        /// SHA-256 of the configuration in force.
+        pub config_hash: std::string::String,
+        /// Version of flexdrill.
+        pub version: std::string::String,
+        /// Per input: rotary_speed, weight_on_bit.
+        pub input_name: Vec<std::string::String>,
+        /// INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED.
+        pub input_state: Vec<u8>,
+        /// Time since the newest good sample (s), NaN if there was none.
+        pub input_age: Vec<f64>,
+        /// Newest sample as received, in SI (rad/s, N), NaN if there was none.
+        pub input_received: Vec<f64>,
+        /// Value that acts on the model, in SI (rad/s, N).
+        pub input_applied: Vec<f64>,
+        /// Samples refused since the start.
+        pub input_rejected: Vec<u64>,
+        /// Per output: topic with namespace.
+        pub output_topic: Vec<std::string::String>,
+        /// Messages sent since the start.
+        pub output_sent: Vec<u64>,
+        /// Messages lost since the start.
+        pub output_dropped: Vec<u64>,
+        /// Per phase of a step: its name.
+        pub phase_name: Vec<std::string::String>,
+        /// Mean time per step in the last interval (s).
+        pub phase_time: Vec<f64>,
+    }
+
+    impl TwinStatus {
+        /// The tool is being brought to rest under gravity and weight on bit.
+        pub const STARTING: u8 = 0;
+        /// Model time advances.
+        pub const RUNNING: u8 = 1;
+        /// Paused by service.
+        pub const PAUSED: u8 = 2;
+        /// The model stands still because a step failed; reset it.
+        pub const FAILED: u8 = 3;
+        /// No sample yet: the twin runs on its configured start values.
+        pub const INPUT_NOT_RECEIVED: u8 = 0;
+        /// Fresh.
+        pub const INPUT_OK: u8 = 1;
+        /// Later than expected, not yet stale.
+        pub const INPUT_SLOW: u8 = 2;
+        /// Too old: held, then brought to the safe value.
+        pub const INPUT_STALE: u8 = 3;
+        /// The newest sample was refused, the last good one is held.
+        pub const INPUT_REJECTED: u8 = 4;
+        /// Not recording.
+        pub const RECORDING_OFF: u8 = 0;
+        /// Recording to recording_path.
+        pub const RECORDING_ON: u8 = 1;
+        /// The recording stopped on an error; what was written before is kept.
+        pub const RECORDING_FAILED: u8 = 2;
+    }
+
+    impl Message for TwinStatus {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "TwinStatus";
+        const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
+        const RIHS01: &'static str = "RIHS01_d1b871a5a116250bbd6e2ca380a1495db6b3da5a5e14380b28354b0bb5d78933";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/TwinStatus.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// Whirl of every watched place. All arrays have one entry per watched station and pipe.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhirlState {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Place along the bore from the kick-off (m).
+        pub measured_depth: Vec<f64>,
+        /// Inclination of the bore there, 0 is straight down (rad).
+        pub inclination: Vec<f64>,
+        /// PIPE or GUIDE.
+        pub body: Vec<u8>,
+        /// NONE, FORWARD, BACKWARD or CHAOTIC.
+        pub kind: Vec<u8>,
+        /// Rate of the orbit (rad/s, positive in the sense of the rotation).
+        pub whirl_rate: Vec<f64>,
+        /// Rate of the orbit over the rotary speed, 0 while the tool does not turn.
+        pub whirl_ratio: Vec<f64>,
+        /// Root mean square radius about the running mean (m).
+        pub orbit_radius: Vec<f64>,
+        /// Largest distance from the gap's centre in the window over the clearance.
+        pub clearance_ratio: Vec<f64>,
+        /// Part of the window in contact (0 to 1).
+        pub contact_duty: Vec<f64>,
+        /// Confidence in the kind (0 to 1).
+        pub confidence: Vec<f64>,
+    }
+
+    impl WhirlState {
+        /// No orbit worth the name.
+        pub const NONE: u8 = 0;
+        /// The orbit turns in the sense of the rotation.
+        pub const FORWARD: u8 = 1;
+        /// The orbit turns against the rotation.
+        pub const BACKWARD: u8 = 2;
+        /// Large motion without a steady direction.
+        pub const CHAOTIC: u8 = 3;
+        /// The flexible pipe.
+        pub const PIPE: u8 = 0;
+        /// The guide pipe.
+        pub const GUIDE: u8 = 1;
+    }
+
+    impl Message for WhirlState {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhirlState";
+        const ROS_TYPE: &'static str = "flexdrill/msg/WhirlState";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhirlState_";
+        const RIHS01: &'static str = "RIHS01_82508eb983209d898b358cf43079706bfd1c22da501df06a213c44101aeb8155";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/WhirlState.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// The level at which the whirl warning stands, sent when it changes. Latched: of several received, the one with the
+    /// highest sequence holds.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhirlWarning {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// OK, WATCH, WARNING or CRITICAL.
+        pub severity: u8,
+        /// NONE, FORWARD, BACKWARD or CHAOTIC.
+        pub kind: u8,
+        /// PIPE or GUIDE.
+        pub body: u8,
+        /// Place along the bore from the kick-off (m).
+        pub measured_depth: f64,
+        /// Inclination of the bore there, 0 is straight down (rad).
+        pub inclination: f64,
+        /// Evidence: rate of the orbit over the rotary speed.
+        pub whirl_ratio: f64,
+        /// Evidence: largest distance from the gap's centre over the clearance.
+        pub clearance_ratio: f64,
+        /// Evidence: part of the window in contact (0 to 1).
+        pub contact_duty: f64,
+        /// Length of the window that the evidence was taken from (s).
+        pub window: f64,
+        /// When this level was reached, on the rig's clock.
+        pub since: super::builtin_interfaces::Time,
+        /// The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED.
+        pub input_quality: u8,
+        /// Number of changes of the level so far.
+        pub sequence: u64,
+        /// The same for a person, in one sentence.
+        pub message: std::string::String,
+    }
+
+    impl WhirlWarning {
+        /// Nothing to do.
+        pub const OK: u8 = 0;
+        /// Keep an eye on it.
+        pub const WATCH: u8 = 1;
+        /// Act soon.
+        pub const WARNING: u8 = 2;
+        /// Act now.
+        pub const CRITICAL: u8 = 3;
+        /// No orbit worth the name.
+        pub const NONE: u8 = 0;
+        /// The orbit turns in the sense of the rotation.
+        pub const FORWARD: u8 = 1;
+        /// The orbit turns against the rotation.
+        pub const BACKWARD: u8 = 2;
+        /// Large motion without a steady direction.
+        pub const CHAOTIC: u8 = 3;
+        /// The flexible pipe.
+        pub const PIPE: u8 = 0;
+        /// The guide pipe.
+        pub const GUIDE: u8 = 1;
+        /// No sample yet: the twin runs on its configured start values.
+        pub const INPUT_NOT_RECEIVED: u8 = 0;
+        /// Fresh.
+        pub const INPUT_OK: u8 = 1;
+        /// Later than expected, not yet stale.
+        pub const INPUT_SLOW: u8 = 2;
+        /// Too old: held, then brought to the safe value.
+        pub const INPUT_STALE: u8 = 3;
+        /// The newest sample was refused, the last good one is held.
+        pub const INPUT_REJECTED: u8 = 4;
+    }
+
+    impl Message for WhirlWarning {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhirlWarning";
+        const ROS_TYPE: &'static str = "flexdrill/msg/WhirlWarning";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhirlWarning_";
+        const RIHS01: &'static str = "RIHS01_bae03bfb3ff07c1dcbede1f4e6500b679b80dfcec77b1f4fce90c626bf75d461";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/WhirlWarning.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+}
+
+/// Messages of the ROS package `geometry_msgs`.
+pub mod geometry_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `geometry_msgs/msg/Point`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Point {
+        pub x: f64,
+        pub y: f64,
+        pub z: f64,
+    }
+
+    impl Message for Point {
+        const PACKAGE: &'static str = "geometry_msgs";
+        const NAME: &'static str = "Point";
+        const ROS_TYPE: &'static str = "geometry_msgs/msg/Point";
+        const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Point_";
+        const RIHS01: &'static str = "RIHS01_6963084842a9b04494d6b2941d11444708d892da2f4b09843b9c43f42a7f6881";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg");
+    }
+
+    /// `geometry_msgs/msg/Pose`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Pose {
+        pub position: Point,
+        pub orientation: Quaternion,
+    }
+
+    impl Message for Pose {
+        const PACKAGE: &'static str = "geometry_msgs";
+        const NAME: &'static str = "Pose";
+        const ROS_TYPE: &'static str = "geometry_msgs/msg/Pose";
+        const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Pose_";
+        const RIHS01: &'static str = "RIHS01_d501954e9476cea2996984e812054b68026ae0bfae789d9a10b23daf35cc90fa";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/geometry_msgs/msg/Pose.msg"),
+            "================================================================================\nMSG: geometry_msgs/Point\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg"),
+            "================================================================================\nMSG: geometry_msgs/Quaternion\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+        );
+    }
+
+    /// `geometry_msgs/msg/Quaternion`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Quaternion {
+        pub x: f64,
+        pub y: f64,
+        pub z: f64,
+        pub w: f64,
+    }
+
+    impl Message for Quaternion {
+        const PACKAGE: &'static str = "geometry_msgs";
+        const NAME: &'static str = "Quaternion";
+        const ROS_TYPE: &'static str = "geometry_msgs/msg/Quaternion";
+        const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Quaternion_";
+        const RIHS01: &'static str = "RIHS01_8a765f66778c8ff7c8ab94afcc590a2ed5325a1d9a076ffff38fbce36f458684";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg");
+    }
+
+    /// `geometry_msgs/msg/Vector3`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Vector3 {
+        pub x: f64,
+        pub y: f64,
+        pub z: f64,
+    }
+
+    impl Message for Vector3 {
+        const PACKAGE: &'static str = "geometry_msgs";
+        const NAME: &'static str = "Vector3";
+        const ROS_TYPE: &'static str = "geometry_msgs/msg/Vector3";
+        const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Vector3_";
+        const RIHS01: &'static str = "RIHS01_cc12fe83e4c02719f1ce8070bfd14aecd40f75a96696a67a2a1f37f7dbb0765d";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg");
+    }
+}
+
+/// Messages of the ROS package `rcl_interfaces`.
+pub mod rcl_interfaces {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `rcl_interfaces/msg/FloatingPointRange`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct FloatingPointRange {
+        pub from_value: f64,
+        pub to_value: f64,
+        pub step: f64,
+    }
+
+    impl Message for FloatingPointRange {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "FloatingPointRange";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/FloatingPointRange";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::FloatingPointRange_";
+        const RIHS01: &'static str = "RIHS01_e6af23a23c177fee5f3075c8b1e435162a9b63c863d78c06017460b49684262d";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/FloatingPointRange.msg");
+    }
+
+    /// `rcl_interfaces/msg/IntegerRange`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct IntegerRange {
+        pub from_value: i64,
+        pub to_value: i64,
+        pub step: u64,
+    }
+
+    impl Message for IntegerRange {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "IntegerRange";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/IntegerRange";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::IntegerRange_";
+        const RIHS01: &'static str = "RIHS01_f7b7fdc0f65f07702e099218e13288c3963bcb9345bde78b560e6cd19800fc5a";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg");
+    }
+
+    /// `rcl_interfaces/msg/ListParametersResult`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ListParametersResult {
+        pub names: Vec<std::string::String>,
+        pub prefixes: Vec<std::string::String>,
+    }
+
+    impl Message for ListParametersResult {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "ListParametersResult";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/ListParametersResult";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ListParametersResult_";
+        const RIHS01: &'static str = "RIHS01_237ae3428413dcbcfb452b510c42355f3a2b021dc091afa3e18526d57022f1cd";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ListParametersResult.msg");
+    }
+
+    /// `rcl_interfaces/msg/Log`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Log {
+        pub stamp: super::builtin_interfaces::Time,
+        pub level: u8,
+        pub name: std::string::String,
+        pub msg: std::string::String,
+        pub file: std::string::String,
+        pub function: std::string::String,
+        pub line: u32,
+    }
+
+    impl Log {
+        pub const DEBUG: u8 = 10;
+        pub const INFO: u8 = 20;
+        pub const WARN: u8 = 30;
+        pub const ERROR: u8 = 40;
+        pub const FATAL: u8 = 50;
+    }
+
+    impl Message for Log {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "Log";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/Log";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::Log_";
+        const RIHS01: &'static str = "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/rcl_interfaces/msg/Log.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/msg/Parameter`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Parameter {
+        pub name: std::string::String,
+        pub value: ParameterValue,
+    }
+
+    impl Message for Parameter {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "Parameter";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/Parameter";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::Parameter_";
+        const RIHS01: &'static str = "RIHS01_ddfe6442cffc462317adb5c92536a7b6dd55858c5c3e1e328165a6b73c2831af";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/rcl_interfaces/msg/Parameter.msg"),
+            "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/msg/ParameterDescriptor`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ParameterDescriptor {
+        pub name: std::string::String,
+        pub type_: u8,
+        pub description: std::string::String,
+        pub additional_constraints: std::string::String,
+        pub read_only: bool,
+        pub dynamic_typing: bool,
+        pub floating_point_range: Vec<FloatingPointRange>,
+        pub integer_range: Vec<IntegerRange>,
+    }
+
+    impl Message for ParameterDescriptor {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "ParameterDescriptor";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/ParameterDescriptor";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterDescriptor_";
+        const RIHS01: &'static str = "RIHS01_52175dbfda6c51153101d33d2a9da05743f66f02d5ab2ca9ec4709b46b73d704";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterDescriptor.msg"),
+            "================================================================================\nMSG: rcl_interfaces/FloatingPointRange\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/FloatingPointRange.msg"),
+            "================================================================================\nMSG: rcl_interfaces/IntegerRange\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/msg/ParameterEvent`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ParameterEvent {
+        pub stamp: super::builtin_interfaces::Time,
+        pub node: std::string::String,
+        pub new_parameters: Vec<Parameter>,
+        pub changed_parameters: Vec<Parameter>,
+        pub deleted_parameters: Vec<Parameter>,
+    }
+
+    impl Message for ParameterEvent {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "ParameterEvent";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/ParameterEvent";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterEvent_";
+        const RIHS01: &'static str = "RIHS01_043e627780fcad87a22d225bc2a037361dba713fca6a6b9f4b869a5aa0393204";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterEvent.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: rcl_interfaces/Parameter\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/Parameter.msg"),
+            "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/msg/ParameterType`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ParameterType {
+        /// Carries nothing; DDS has no empty struct.
+        pub structure_needs_at_least_one_member: u8,
+    }
+
+    impl ParameterType {
+        pub const PARAMETER_NOT_SET: u8 = 0;
+        pub const PARAMETER_BOOL: u8 = 1;
+        pub const PARAMETER_INTEGER: u8 = 2;
+        pub const PARAMETER_DOUBLE: u8 = 3;
+        pub const PARAMETER_STRING: u8 = 4;
+        pub const PARAMETER_BYTE_ARRAY: u8 = 5;
+        pub const PARAMETER_BOOL_ARRAY: u8 = 6;
+        pub const PARAMETER_INTEGER_ARRAY: u8 = 7;
+        pub const PARAMETER_DOUBLE_ARRAY: u8 = 8;
+        pub const PARAMETER_STRING_ARRAY: u8 = 9;
+    }
+
+    impl Message for ParameterType {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "ParameterType";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/ParameterType";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterType_";
+        const RIHS01: &'static str = "RIHS01_df29ed057a834862187be24dd187d981790ff3ea6502f4cd27b432cbc42c6d46";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterType.msg");
+    }
+
+    /// `rcl_interfaces/msg/ParameterValue`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ParameterValue {
+        pub type_: u8,
+        pub bool_value: bool,
+        pub integer_value: i64,
+        pub double_value: f64,
+        pub string_value: std::string::String,
+        pub byte_array_value: Vec<u8>,
+        pub bool_array_value: Vec<bool>,
+        pub integer_array_value: Vec<i64>,
+        pub double_array_value: Vec<f64>,
+        pub string_array_value: Vec<std::string::String>,
+    }
+
+    impl Message for ParameterValue {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "ParameterValue";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/ParameterValue";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterValue_";
+        const RIHS01: &'static str = "RIHS01_115fc089a387e23c7ecd3525c9189c379109119d6ab82e8dfbde0fdf6a7f9b68";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg");
+    }
+
+    /// `rcl_interfaces/msg/SetParametersResult`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetParametersResult {
+        pub successful: bool,
+        pub reason: std::string::String,
+    }
+
+    impl Message for SetParametersResult {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "SetParametersResult";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/SetParametersResult";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::SetParametersResult_";
+        const RIHS01: &'static str = "RIHS01_cfcc0fb0371ee5159b403960ef4300f8f9d2f1fd6117c8666b7f9654d528a9b1";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg");
+    }
+
+    /// `rcl_interfaces/srv/DescribeParameters_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct DescribeParametersRequest {
+        pub names: Vec<std::string::String>,
+    }
+
+    impl Message for DescribeParametersRequest {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "DescribeParameters_Request";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/DescribeParameters_Request";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::DescribeParameters_Request_";
+        const RIHS01: &'static str = "RIHS01_05dd1c2bc87dec2627105c8070d6f9725c781a4f2ab852975bf105462b82b644";
+        const SCHEMA: &'static str = "string[] names\n";
+    }
+
+    /// `rcl_interfaces/srv/DescribeParameters_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct DescribeParametersResponse {
+        pub descriptors: Vec<ParameterDescriptor>,
+    }
+
+    impl Message for DescribeParametersResponse {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "DescribeParameters_Response";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/DescribeParameters_Response";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::DescribeParameters_Response_";
+        const RIHS01: &'static str = "RIHS01_ad6747319613c6131589e062e095b469a46cc764f7d0f12a001a49e6cd893995";
+        const SCHEMA: &'static str = concat!(
+            "ParameterDescriptor[] descriptors\n",
+            "================================================================================\nMSG: rcl_interfaces/ParameterDescriptor\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterDescriptor.msg"),
+            "================================================================================\nMSG: rcl_interfaces/FloatingPointRange\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/FloatingPointRange.msg"),
+            "================================================================================\nMSG: rcl_interfaces/IntegerRange\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/GetParameterTypes_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetParameterTypesRequest {
+        pub names: Vec<std::string::String>,
+    }
+
+    impl Message for GetParameterTypesRequest {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "GetParameterTypes_Request";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/GetParameterTypes_Request";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetParameterTypes_Request_";
+        const RIHS01: &'static str = "RIHS01_87d7ec5ef545d4daa289d500025d31fb2437bc8b8365ca367161c4dac4be33fd";
+        const SCHEMA: &'static str = "string[] names\n";
+    }
+
+    /// `rcl_interfaces/srv/GetParameterTypes_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetParameterTypesResponse {
+        pub types: Vec<u8>,
+    }
+
+    impl Message for GetParameterTypesResponse {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "GetParameterTypes_Response";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/GetParameterTypes_Response";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetParameterTypes_Response_";
+        const RIHS01: &'static str = "RIHS01_ac1335dce67c478e669434f6ac2fbff34fcd529580f272d3006785ba8b54e47f";
+        const SCHEMA: &'static str = "uint8[] types\n";
+    }
+
+    /// `rcl_interfaces/srv/GetParameters_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetParametersRequest {
+        pub names: Vec<std::string::String>,
+    }
+
+    impl Message for GetParametersRequest {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "GetParameters_Request";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/GetParameters_Request";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetParameters_Request_";
+        const RIHS01: &'static str = "RIHS01_135a9e1c3d7cebef792f6687d7ddf99949b21a0bd9a320d863a9110a3f5cf4d6";
+        const SCHEMA: &'static str = "string[] names\n";
+    }
+
+    /// `rcl_interfaces/srv/GetParameters_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetParametersResponse {
+        pub values: Vec<ParameterValue>,
+    }
+
+    impl Message for GetParametersResponse {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "GetParameters_Response";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/GetParameters_Response";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetParameters_Response_";
+        const RIHS01: &'static str = "RIHS01_9fa773b46e39cc5d02db6224d8fd520bb9caeeffc2b27c96c1e59431baba9f2a";
+        const SCHEMA: &'static str = concat!(
+            "ParameterValue[] values\n",
+            "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/ListParameters_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ListParametersRequest {
+        pub prefixes: Vec<std::string::String>,
+        pub depth: u64,
+    }
+
+    impl ListParametersRequest {
+        pub const DEPTH_RECURSIVE: u64 = 0;
+    }
+
+    impl Message for ListParametersRequest {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "ListParameters_Request";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/ListParameters_Request";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::ListParameters_Request_";
+        const RIHS01: &'static str = "RIHS01_a1b0b5d6b967a5b8ac5bc8563c3ea678f349e312a6a4967227c5a96bc5ce38df";
+        const SCHEMA: &'static str = "uint64 DEPTH_RECURSIVE = 0\nstring[] prefixes\nuint64 depth\n";
+    }
+
+    /// `rcl_interfaces/srv/ListParameters_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ListParametersResponse {
+        pub result: ListParametersResult,
+    }
+
+    impl Message for ListParametersResponse {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "ListParameters_Response";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/ListParameters_Response";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::ListParameters_Response_";
+        const RIHS01: &'static str = "RIHS01_31b937b82de3612426be79f231e386259f97e8dc843e3f2845288b4bfa296bdd";
+        const SCHEMA: &'static str = concat!(
+            "ListParametersResult result\n",
+            "================================================================================\nMSG: rcl_interfaces/ListParametersResult\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ListParametersResult.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/SetParametersAtomically_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetParametersAtomicallyRequest {
+        pub parameters: Vec<Parameter>,
+    }
+
+    impl Message for SetParametersAtomicallyRequest {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "SetParametersAtomically_Request";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/SetParametersAtomically_Request";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::SetParametersAtomically_Request_";
+        const RIHS01: &'static str = "RIHS01_db0bd950ed5ed867a0e90b225e44dea382d762c0762ff3e0ee842190042a59e5";
+        const SCHEMA: &'static str = concat!(
+            "Parameter[] parameters\n",
+            "================================================================================\nMSG: rcl_interfaces/Parameter\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/Parameter.msg"),
+            "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/SetParametersAtomically_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetParametersAtomicallyResponse {
+        pub result: SetParametersResult,
+    }
+
+    impl Message for SetParametersAtomicallyResponse {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "SetParametersAtomically_Response";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/SetParametersAtomically_Response";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::SetParametersAtomically_Response_";
+        const RIHS01: &'static str = "RIHS01_31b1a38c5b0b9d893ee24da45f69638f4561c78461d82d52750f429b534502b8";
+        const SCHEMA: &'static str = concat!(
+            "SetParametersResult result\n",
+            "================================================================================\nMSG: rcl_interfaces/SetParametersResult\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/SetParameters_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetParametersRequest {
+        pub parameters: Vec<Parameter>,
+    }
+
+    impl Message for SetParametersRequest {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "SetParameters_Request";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/SetParameters_Request";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::SetParameters_Request_";
+        const RIHS01: &'static str = "RIHS01_130d46386b7e84ea9ecf60608a4d83cbe5e5cb7c6cc5b712b7a4e3a6c254e932";
+        const SCHEMA: &'static str = concat!(
+            "Parameter[] parameters\n",
+            "================================================================================\nMSG: rcl_interfaces/Parameter\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/Parameter.msg"),
+            "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/SetParameters_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetParametersResponse {
+        pub results: Vec<SetParametersResult>,
+    }
+
+    impl Message for SetParametersResponse {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "SetParameters_Response";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/SetParameters_Response";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::SetParameters_Response_";
+        const RIHS01: &'static str = "RIHS01_7a0e8140a0b8d98308fa81a5403a766e610af29a239caf54b7553227906fc266";
+        const SCHEMA: &'static str = concat!(
+            "SetParametersResult[] results\n",
+            "================================================================================\nMSG: rcl_interfaces/SetParametersResult\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg"),
+        );
+    }
+}
+
+/// Messages of the ROS package `rosgraph_msgs`.
+pub mod rosgraph_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `rosgraph_msgs/msg/Clock`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Clock {
+        pub clock: super::builtin_interfaces::Time,
+    }
+
+    impl Message for Clock {
+        const PACKAGE: &'static str = "rosgraph_msgs";
+        const NAME: &'static str = "Clock";
+        const ROS_TYPE: &'static str = "rosgraph_msgs/msg/Clock";
+        const DDS_TYPE: &'static str = "rosgraph_msgs::msg::dds_::Clock_";
+        const RIHS01: &'static str = "RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/rosgraph_msgs/msg/Clock.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+}
+
+/// Messages of the ROS package `sensor_msgs`.
+pub mod sensor_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `sensor_msgs/msg/CompressedImage`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct CompressedImage {
+        pub header: super::std_msgs::Header,
+        pub format: std::string::String,
+        pub data: Vec<u8>,
+    }
+
+    impl Message for CompressedImage {
+        const PACKAGE: &'static str = "sensor_msgs";
+        const NAME: &'static str = "CompressedImage";
+        const ROS_TYPE: &'static str = "sensor_msgs/msg/CompressedImage";
+        const DDS_TYPE: &'static str = "sensor_msgs::msg::dds_::CompressedImage_";
+        const RIHS01: &'static str = "RIHS01_15640771531571185e2efc8a100baf923961a4d15d5569652e6cb6691e8e371a";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/sensor_msgs/msg/CompressedImage.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// `sensor_msgs/msg/JointState`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct JointState {
+        pub header: super::std_msgs::Header,
+        pub name: Vec<std::string::String>,
+        pub position: Vec<f64>,
+        pub velocity: Vec<f64>,
+        pub effort: Vec<f64>,
+    }
+
+    impl Message for JointState {
+        const PACKAGE: &'static str = "sensor_msgs";
+        const NAME: &'static str = "JointState";
+        const ROS_TYPE: &'static str = "sensor_msgs/msg/JointState";
+        const DDS_TYPE: &'static str = "sensor_msgs::msg::dds_::JointState_";
+        const RIHS01: &'static str = "RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/sensor_msgs/msg/JointState.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+}
+
+/// Messages of the ROS package `std_msgs`.
+pub mod std_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `std_msgs/msg/ColorRGBA`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ColorRGBA {
+        pub r: f32,
+        pub g: f32,
+        pub b: f32,
+        pub a: f32,
+    }
+
+    impl Message for ColorRGBA {
+        const PACKAGE: &'static str = "std_msgs";
+        const NAME: &'static str = "ColorRGBA";
+        const ROS_TYPE: &'static str = "std_msgs/msg/ColorRGBA";
+        const DDS_TYPE: &'static str = "std_msgs::msg::dds_::ColorRGBA_";
+        const RIHS01: &'static str = "RIHS01_77a7a5b9ae477306097665106e0413ba74440245b1f3d0c6d6405fe5c7813fe8";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/ColorRGBA.msg");
+    }
+
+    /// `std_msgs/msg/Float64`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Float64 {
+        pub data: f64,
+    }
+
+    impl Message for Float64 {
+        const PACKAGE: &'static str = "std_msgs";
+        const NAME: &'static str = "Float64";
+        const ROS_TYPE: &'static str = "std_msgs/msg/Float64";
+        const DDS_TYPE: &'static str = "std_msgs::msg::dds_::Float64_";
+        const RIHS01: &'static str = "RIHS01_705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/Float64.msg");
+    }
+
+    /// `std_msgs/msg/Header`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Header {
+        pub stamp: super::builtin_interfaces::Time,
+        pub frame_id: std::string::String,
+    }
+
+    impl Message for Header {
+        const PACKAGE: &'static str = "std_msgs";
+        const NAME: &'static str = "Header";
+        const ROS_TYPE: &'static str = "std_msgs/msg/Header";
+        const DDS_TYPE: &'static str = "std_msgs::msg::dds_::Header_";
+        const RIHS01: &'static str = "RIHS01_f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// `std_msgs/msg/String`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct String {
+        pub data: std::string::String,
+    }
+
+    impl Message for String {
+        const PACKAGE: &'static str = "std_msgs";
+        const NAME: &'static str = "String";
+        const ROS_TYPE: &'static str = "std_msgs/msg/String";
+        const DDS_TYPE: &'static str = "std_msgs::msg::dds_::String_";
+        const RIHS01: &'static str = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/String.msg");
+    }
+}
+
+/// Messages of the ROS package `std_srvs`.
+pub mod std_srvs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `std_srvs/srv/SetBool_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetBoolRequest {
+        pub data: bool,
+    }
+
+    impl Message for SetBoolRequest {
+        const PACKAGE: &'static str = "std_srvs";
+        const NAME: &'static str = "SetBool_Request";
+        const ROS_TYPE: &'static str = "std_srvs/srv/SetBool_Request";
+        const DDS_TYPE: &'static str = "std_srvs::srv::dds_::SetBool_Request_";
+        const RIHS01: &'static str = "RIHS01_c62fbb99d94e1b25e8ef9e109f9581956bb1b3361a45a4e5810c36a90d29932e";
+        const SCHEMA: &'static str = "bool data\n";
+    }
+
+    /// `std_srvs/srv/SetBool_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetBoolResponse {
+        pub success: bool,
+        pub message: std::string::String,
+    }
+
+    impl Message for SetBoolResponse {
+        const PACKAGE: &'static str = "std_srvs";
+        const NAME: &'static str = "SetBool_Response";
+        const ROS_TYPE: &'static str = "std_srvs/srv/SetBool_Response";
+        const DDS_TYPE: &'static str = "std_srvs::srv::dds_::SetBool_Response_";
+        const RIHS01: &'static str = "RIHS01_d0814e7f7b4880ab77e9c57426c7aa1562ab69f11eef8e2e968812f9cbd0b059";
+        const SCHEMA: &'static str = "bool success\nstring message\n";
+    }
+
+    /// `std_srvs/srv/Trigger_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TriggerRequest {
+        /// Carries nothing; DDS has no empty struct.
+        pub structure_needs_at_least_one_member: u8,
+    }
+
+    impl Message for TriggerRequest {
+        const PACKAGE: &'static str = "std_srvs";
+        const NAME: &'static str = "Trigger_Request";
+        const ROS_TYPE: &'static str = "std_srvs/srv/Trigger_Request";
+        const DDS_TYPE: &'static str = "std_srvs::srv::dds_::Trigger_Request_";
+        const RIHS01: &'static str = "RIHS01_d010825374ce8918e72bfd826c82603e60f45419e932ea976f807b74a863a199";
+        const SCHEMA: &'static str = "";
+    }
+
+    /// `std_srvs/srv/Trigger_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TriggerResponse {
+        pub success: bool,
+        pub message: std::string::String,
+    }
+
+    impl Message for TriggerResponse {
+        const PACKAGE: &'static str = "std_srvs";
+        const NAME: &'static str = "Trigger_Response";
+        const ROS_TYPE: &'static str = "std_srvs/srv/Trigger_Response";
+        const DDS_TYPE: &'static str = "std_srvs::srv::dds_::Trigger_Response_";
+        const RIHS01: &'static str = "RIHS01_2d946c21e2fc3f1e9ca6986a8191d85fcc70097a8bb7771a053564bc47009cdf";
+        const SCHEMA: &'static str = "bool success\nstring message\n";
+    }
+}
+
+/// Messages of the ROS package `visualization_msgs`.
+pub mod visualization_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `visualization_msgs/msg/Marker`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Marker {
+        pub header: super::std_msgs::Header,
+        pub ns: std::string::String,
+        pub id: i32,
+        pub type_: i32,
+        pub action: i32,
+        pub pose: super::geometry_msgs::Pose,
+        pub scale: super::geometry_msgs::Vector3,
+        pub color: super::std_msgs::ColorRGBA,
+        pub lifetime: super::builtin_interfaces::Duration,
+        pub frame_locked: bool,
+        pub points: Vec<super::geometry_msgs::Point>,
+        pub colors: Vec<super::std_msgs::ColorRGBA>,
+        pub texture_resource: std::string::String,
+        pub texture: super::sensor_msgs::CompressedImage,
+        pub uv_coordinates: Vec<UVCoordinate>,
+        pub text: std::string::String,
+        pub mesh_resource: std::string::String,
+        pub mesh_file: MeshFile,
+        pub mesh_use_embedded_materials: bool,
+    }
+
+    impl Marker {
+        pub const ARROW: i32 = 0;
+        pub const CUBE: i32 = 1;
+        pub const SPHERE: i32 = 2;
+        pub const CYLINDER: i32 = 3;
+        pub const LINE_STRIP: i32 = 4;
+        pub const LINE_LIST: i32 = 5;
+        pub const CUBE_LIST: i32 = 6;
+        pub const SPHERE_LIST: i32 = 7;
+        pub const POINTS: i32 = 8;
+        pub const TEXT_VIEW_FACING: i32 = 9;
+        pub const MESH_RESOURCE: i32 = 10;
+        pub const TRIANGLE_LIST: i32 = 11;
+        pub const ARROW_STRIP: i32 = 12;
+        pub const ADD: i32 = 0;
+        pub const MODIFY: i32 = 0;
+        pub const DELETE: i32 = 2;
+        pub const DELETEALL: i32 = 3;
+    }
+
+    impl Message for Marker {
+        const PACKAGE: &'static str = "visualization_msgs";
+        const NAME: &'static str = "Marker";
+        const ROS_TYPE: &'static str = "visualization_msgs/msg/Marker";
+        const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::Marker_";
+        const RIHS01: &'static str = "RIHS01_45b13ccf791f225962bf74e746f9644518855d783a6f42ba0cc14fde2b4f3ce0";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/visualization_msgs/msg/Marker.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: geometry_msgs/Pose\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Pose.msg"),
+            "================================================================================\nMSG: geometry_msgs/Point\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg"),
+            "================================================================================\nMSG: geometry_msgs/Quaternion\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+            "================================================================================\nMSG: geometry_msgs/Vector3\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            "================================================================================\nMSG: std_msgs/ColorRGBA\n",
+            include_str!("../../src/messages/external/std_msgs/msg/ColorRGBA.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Duration\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Duration.msg"),
+            "================================================================================\nMSG: sensor_msgs/CompressedImage\n",
+            include_str!("../../src/messages/external/sensor_msgs/msg/CompressedImage.msg"),
+            "================================================================================\nMSG: visualization_msgs/UVCoordinate\n",
+            include_str!("../../src/messages/external/visualization_msgs/msg/UVCoordinate.msg"),
+            "================================================================================\nMSG: visualization_msgs/MeshFile\n",
+            include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg"),
+        );
+    }
+
+    /// `visualization_msgs/msg/MarkerArray`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct MarkerArray {
+        pub markers: Vec<Marker>,
+    }
+
+    impl Message for MarkerArray {
+        const PACKAGE: &'static str = "visualization_msgs";
+        const NAME: &'static str = "MarkerArray";
+        const ROS_TYPE: &'static str = "visualization_msgs/msg/MarkerArray";
+        const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::MarkerArray_";
+        const RIHS01: &'static str = "RIHS01_86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/visualization_msgs/msg/MarkerArray.msg"),
+            "================================================================================\nMSG: visualization_msgs/Marker\n",
+            include_str!("../../src/messages/external/visualization_msgs/msg/Marker.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: geometry_msgs/Pose\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Pose.msg"),
+            "================================================================================\nMSG: geometry_msgs/Point\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg"),
+            "================================================================================\nMSG: geometry_msgs/Quaternion\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+            "================================================================================\nMSG: geometry_msgs/Vector3\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            "================================================================================\nMSG: std_msgs/ColorRGBA\n",
+            include_str!("../../src/messages/external/std_msgs/msg/ColorRGBA.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Duration\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Duration.msg"),
+            "================================================================================\nMSG: sensor_msgs/CompressedImage\n",
+            include_str!("../../src/messages/external/sensor_msgs/msg/CompressedImage.msg"),
+            "================================================================================\nMSG: visualization_msgs/UVCoordinate\n",
+            include_str!("../../src/messages/external/visualization_msgs/msg/UVCoordinate.msg"),
+            "================================================================================\nMSG: visualization_msgs/MeshFile\n",
+            include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg"),
+        );
+    }
+
+    /// `visualization_msgs/msg/MeshFile`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct MeshFile {
+        pub filename: std::string::String,
+        pub data: Vec<u8>,
+    }
+
+    impl Message for MeshFile {
+        const PACKAGE: &'static str = "visualization_msgs";
+        const NAME: &'static str = "MeshFile";
+        const ROS_TYPE: &'static str = "visualization_msgs/msg/MeshFile";
+        const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::MeshFile_";
+        const RIHS01: &'static str = "RIHS01_7710ece15a148fb7c9b546364cfb215bb06098087bd6394fe5b73a493508f8c4";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg");
+    }
+
+    /// `visualization_msgs/msg/UVCoordinate`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct UVCoordinate {
+        pub u: f32,
+        pub v: f32,
+    }
+
+    impl Message for UVCoordinate {
+        const PACKAGE: &'static str = "visualization_msgs";
+        const NAME: &'static str = "UVCoordinate";
+        const ROS_TYPE: &'static str = "visualization_msgs/msg/UVCoordinate";
+        const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::UVCoordinate_";
+        const RIHS01: &'static str = "RIHS01_f27f7ed21fe360c6066944f856b801a0c0d1e94e815b6886444b42d90b196a26";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/visualization_msgs/msg/UVCoordinate.msg");
+    }
+}
+
+/// Every generated type, sorted by name.
+pub const TYPES: &[TypeInfo] = &[
+    <builtin_interfaces::Duration as super::Message>::INFO,
+    <builtin_interfaces::Time as super::Message>::INFO,
+    <diagnostic_msgs::DiagnosticArray as super::Message>::INFO,
+    <diagnostic_msgs::DiagnosticStatus as super::Message>::INFO,
+    <diagnostic_msgs::KeyValue as super::Message>::INFO,
+    <flexdrill::AppliedInputs as super::Message>::INFO,
+    <flexdrill::BitState as super::Message>::INFO,
+    <flexdrill::ContactForces as super::Message>::INFO,
+    <flexdrill::JointDeflections as super::Message>::INFO,
+    <flexdrill::SessionInfo as super::Message>::INFO,
+    <flexdrill::TwinStatus as super::Message>::INFO,
+    <flexdrill::WhirlState as super::Message>::INFO,
+    <flexdrill::WhirlWarning as super::Message>::INFO,
+    <geometry_msgs::Point as super::Message>::INFO,
+    <geometry_msgs::Pose as super::Message>::INFO,
+    <geometry_msgs::Quaternion as super::Message>::INFO,
+    <geometry_msgs::Vector3 as super::Message>::INFO,
+    <rcl_interfaces::FloatingPointRange as super::Message>::INFO,
+    <rcl_interfaces::IntegerRange as super::Message>::INFO,
+    <rcl_interfaces::ListParametersResult as super::Message>::INFO,
+    <rcl_interfaces::Log as super::Message>::INFO,
+    <rcl_interfaces::Parameter as super::Message>::INFO,
+    <rcl_interfaces::ParameterDescriptor as super::Message>::INFO,
+    <rcl_interfaces::ParameterEvent as super::Message>::INFO,
+    <rcl_interfaces::ParameterType as super::Message>::INFO,
+    <rcl_interfaces::ParameterValue as super::Message>::INFO,
+    <rcl_interfaces::SetParametersResult as super::Message>::INFO,
+    <rcl_interfaces::DescribeParametersRequest as super::Message>::INFO,
+    <rcl_interfaces::DescribeParametersResponse as super::Message>::INFO,
+    <rcl_interfaces::GetParameterTypesRequest as super::Message>::INFO,
+    <rcl_interfaces::GetParameterTypesResponse as super::Message>::INFO,
+    <rcl_interfaces::GetParametersRequest as super::Message>::INFO,
+    <rcl_interfaces::GetParametersResponse as super::Message>::INFO,
+    <rcl_interfaces::ListParametersRequest as super::Message>::INFO,
+    <rcl_interfaces::ListParametersResponse as super::Message>::INFO,
+    <rcl_interfaces::SetParametersAtomicallyRequest as super::Message>::INFO,
+    <rcl_interfaces::SetParametersAtomicallyResponse as super::Message>::INFO,
+    <rcl_interfaces::SetParametersRequest as super::Message>::INFO,
+    <rcl_interfaces::SetParametersResponse as super::Message>::INFO,
+    <rosgraph_msgs::Clock as super::Message>::INFO,
+    <sensor_msgs::CompressedImage as super::Message>::INFO,
+    <sensor_msgs::JointState as super::Message>::INFO,
+    <std_msgs::ColorRGBA as super::Message>::INFO,
+    <std_msgs::Float64 as super::Message>::INFO,
+    <std_msgs::Header as super::Message>::INFO,
+    <std_msgs::String as super::Message>::INFO,
+    <std_srvs::SetBoolRequest as super::Message>::INFO,
+    <std_srvs::SetBoolResponse as super::Message>::INFO,
+    <std_srvs::TriggerRequest as super::Message>::INFO,
+    <std_srvs::TriggerResponse as super::Message>::INFO,
+    <visualization_msgs::Marker as super::Message>::INFO,
+    <visualization_msgs::MarkerArray as super::Message>::INFO,
+    <visualization_msgs::MeshFile as super::Message>::INFO,
+    <visualization_msgs::UVCoordinate as super::Message>::INFO,
+];

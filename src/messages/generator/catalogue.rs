@@ -1,0 +1,169 @@
+//! All definitions of the repository: our own in `msg/`, the foreign ones that we use in `src/messages/external/`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use super::definition::{Definition, Source, TypeName};
+use super::{GenerateError, parser};
+
+/// Folder of our own messages, from the repository's root.
+const OWN: &str = "msg";
+/// Folder of the foreign messages, from the repository's root.
+const EXTERNAL: &str = "src/messages/external";
+/// Our package.
+const PACKAGE: &str = "flexdrill";
+
+/// Definitions by name.
+#[derive(Debug, Clone, Default)]
+pub struct Catalogue {
+    definitions: BTreeMap<TypeName, Definition>,
+}
+
+impl Catalogue {
+    /// Reads every definition below the repository's `root`.
+    ///
+    /// # Errors
+    /// When a folder or file cannot be read, a definition cannot be parsed, or names a message that is not there.
+    pub fn read(root: &Path) -> Result<Self, GenerateError> {
+        let mut catalogue = Self::default();
+        catalogue.read_folder(root, PACKAGE, "msg", OWN)?;
+        for package in entries(&root.join(EXTERNAL))? {
+            let name = file_name(&package);
+            for kind in entries(&package)? {
+                let folder = format!("{EXTERNAL}/{name}/{}", file_name(&kind));
+                catalogue.read_folder(root, &name, if kind.ends_with("srv") { "srv" } else { "msg" }, &folder)?;
+            }
+        }
+        for definition in catalogue.definitions.values() {
+            catalogue.dependencies(definition)?;
+        }
+        Ok(catalogue)
+    }
+
+    fn read_folder(
+        &mut self,
+        root: &Path,
+        package: &str,
+        kind: &'static str,
+        folder: &str,
+    ) -> Result<(), GenerateError> {
+        for path in entries(&root.join(folder))? {
+            let text = std::fs::read_to_string(&path).map_err(|source| GenerateError::Read {
+                path: path.clone(),
+                source,
+            })?;
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+            let file = format!("{folder}/{}", file_name(&path));
+            let added = match extension.as_str() {
+                "msg" => self.add_message(package, &stem, &text, Source::File(file)),
+                "srv" => self.add_service(package, &stem, &text),
+                _ => continue,
+            };
+            added.map_err(|source| GenerateError::Parse { path, kind, source })?;
+        }
+        Ok(())
+    }
+
+    /// Adds one message from its text.
+    ///
+    /// # Errors
+    /// When it cannot be parsed.
+    pub fn add_message(
+        &mut self,
+        package: &str,
+        name: &str,
+        text: &str,
+        source: Source,
+    ) -> Result<(), parser::ParseError> {
+        let definition = parser::parse(TypeName::message(package, name), text, source, 1)?;
+        self.definitions.insert(definition.name.clone(), definition);
+        Ok(())
+    }
+
+    /// Adds both halves of a service.
+    fn add_service(&mut self, package: &str, name: &str, text: &str) -> Result<(), parser::ParseError> {
+        let lines: Vec<&str> = text.lines().collect();
+        let Some(cut) = lines.iter().position(|line| line.trim() == "---") else {
+            return Err(parser::ParseError {
+                line: lines.len(),
+                problem: "a service needs a line `---` between request and response".to_owned(),
+            });
+        };
+        for (half, part, first_line) in [("Request", &lines[..cut], 1), ("Response", &lines[cut + 1..], cut + 2)] {
+            let text: String = part.iter().flat_map(|line| [*line, "\n"]).collect();
+            let type_name = TypeName {
+                package: package.to_owned(),
+                kind: "srv",
+                name: format!("{name}_{half}"),
+            };
+            let definition = parser::parse(type_name, &text, Source::Text, first_line)?;
+            self.definitions.insert(definition.name.clone(), definition);
+        }
+        Ok(())
+    }
+
+    /// All definitions, sorted by name.
+    pub fn iter(&self) -> impl Iterator<Item = &Definition> {
+        self.definitions.values()
+    }
+
+    /// The definition of that name.
+    pub fn get(&self, name: &TypeName) -> Option<&Definition> {
+        self.definitions.get(name)
+    }
+
+    /// Every message that `definition` is made of, directly or not, once each, in the order of first use.
+    ///
+    /// # Errors
+    /// When one of them is not in the catalogue, or messages contain each other.
+    pub fn dependencies(&self, definition: &Definition) -> Result<Vec<&Definition>, GenerateError> {
+        let mut found = Vec::new();
+        let mut seen = BTreeSet::new();
+        self.collect(definition, &mut vec![definition.name.clone()], &mut seen, &mut found)?;
+        Ok(found)
+    }
+
+    fn collect<'a>(
+        &'a self,
+        definition: &Definition,
+        path: &mut Vec<TypeName>,
+        seen: &mut BTreeSet<TypeName>,
+        found: &mut Vec<&'a Definition>,
+    ) -> Result<(), GenerateError> {
+        for name in definition.nested() {
+            if path.contains(name) {
+                return Err(GenerateError::Recursive(name.to_string()));
+            }
+            let nested = self.definitions.get(name).ok_or_else(|| GenerateError::UnknownType {
+                name: name.to_string(),
+                used_in: definition.name.to_string(),
+            })?;
+            if seen.insert(name.clone()) {
+                found.push(nested);
+                path.push(name.clone());
+                self.collect(nested, path, seen, found)?;
+                path.pop();
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Entries of a folder, sorted, so that the output does not depend on the file system.
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, GenerateError> {
+    let read = |source| GenerateError::Read {
+        path: folder.to_owned(),
+        source,
+    };
+    let mut paths = std::fs::read_dir(folder)
+        .map_err(read)?
+        .map(|entry| entry.map(|entry| entry.path()).map_err(read))
+        .collect::<Result<Vec<_>, _>>()?;
+    paths.sort();
+    Ok(paths)
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}

@@ -1,0 +1,104 @@
+//! RIHS01, ROS 2's type hash (REP-2016): SHA-256 over a canonical JSON of the type and all types it is made of.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use sha2::{Digest, Sha256};
+
+use super::GenerateError;
+use super::catalogue::Catalogue;
+use super::definition::{Array, Base, Definition, FieldType, Primitive};
+
+/// The hash of `definition` as ROS 2 writes it, `RIHS01_` and 64 hexadecimal digits.
+///
+/// # Errors
+/// When it names a message that the catalogue does not have.
+pub fn rihs01(definition: &Definition, catalogue: &Catalogue) -> Result<String, GenerateError> {
+    let mut hash = String::from("RIHS01_");
+    for byte in Sha256::digest(description(definition, catalogue)?) {
+        let _ = write!(hash, "{byte:02x}");
+    }
+    Ok(hash)
+}
+
+/// The canonical JSON: keys in a fixed order, `, ` and `: ` between, referenced types sorted by name.
+fn description(definition: &Definition, catalogue: &Catalogue) -> Result<String, GenerateError> {
+    let referenced: BTreeSet<_> = catalogue
+        .dependencies(definition)?
+        .into_iter()
+        .map(|dependency| (dependency.name.to_string(), individual(dependency)))
+        .collect();
+    let referenced: Vec<_> = referenced.into_iter().map(|(_, text)| text).collect();
+    Ok(format!(
+        r#"{{"type_description": {}, "referenced_type_descriptions": [{}]}}"#,
+        individual(definition),
+        referenced.join(", ")
+    ))
+}
+
+fn individual(definition: &Definition) -> String {
+    let mut fields: Vec<String> = definition
+        .fields
+        .iter()
+        .map(|each| field(&each.name, &each.kind))
+        .collect();
+    if fields.is_empty() {
+        let filler = FieldType {
+            base: Base::Primitive(Primitive::Uint8),
+            array: Array::Single,
+        };
+        fields.push(field(super::EMPTY_STRUCT_MEMBER, &filler));
+    }
+    format!(
+        r#"{{"type_name": "{}", "fields": [{}]}}"#,
+        definition.name,
+        fields.join(", ")
+    )
+}
+
+fn field(name: &str, kind: &FieldType) -> String {
+    let (offset, capacity) = match kind.array {
+        Array::Single => (0, 0),
+        Array::Fixed(size) => (48, size),
+        Array::Bounded(most) => (96, most),
+        Array::Unbounded => (144, 0),
+    };
+    let (id, string_capacity, nested) = match &kind.base {
+        Base::Nested(name) => (1, 0, name.to_string()),
+        Base::Primitive(primitive) => {
+            let (id, string_capacity) = type_id(*primitive);
+            (id, string_capacity, String::new())
+        }
+    };
+    format!(
+        concat!(
+            r#"{{"name": "{}", "type": {{"type_id": {}, "capacity": {}, "#,
+            r#""string_capacity": {}, "nested_type_name": "{}"}}}}"#
+        ),
+        name,
+        offset + id,
+        capacity,
+        string_capacity,
+        nested
+    )
+}
+
+/// Number of a built-in type in `type_description_interfaces/FieldType`, and a string's bound.
+fn type_id(primitive: Primitive) -> (u32, u64) {
+    match primitive {
+        Primitive::Int8 => (2, 0),
+        Primitive::Uint8 => (3, 0),
+        Primitive::Int16 => (4, 0),
+        Primitive::Uint16 => (5, 0),
+        Primitive::Int32 => (6, 0),
+        Primitive::Uint32 => (7, 0),
+        Primitive::Int64 => (8, 0),
+        Primitive::Uint64 => (9, 0),
+        Primitive::Float32 => (10, 0),
+        Primitive::Float64 => (11, 0),
+        Primitive::Bool => (15, 0),
+        Primitive::Byte => (16, 0),
+        Primitive::String { bound: None } => (17, 0),
+        Primitive::String { bound: Some(most) } => (21, most),
+    }
+}

@@ -1,0 +1,53 @@
+//! What is known about a message type beside its fields.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::generated;
+
+/// A ROS 2 message type.
+pub trait Message: Serialize + DeserializeOwned {
+    /// ROS package: `flexdrill`.
+    const PACKAGE: &'static str;
+    /// Name within the package: `BitState`.
+    const NAME: &'static str;
+    /// Full name: `flexdrill/msg/BitState`.
+    const ROS_TYPE: &'static str;
+    /// Name of the DDS type: `flexdrill::msg::dds_::BitState_`.
+    const DDS_TYPE: &'static str;
+    /// Type hash: `RIHS01_` and 64 hexadecimal digits.
+    const RIHS01: &'static str;
+    /// Schema `ros2msg`, complete with the messages it is made of.
+    const SCHEMA: &'static str;
+    /// All of that as a value.
+    const INFO: TypeInfo = TypeInfo {
+        package: Self::PACKAGE,
+        name: Self::NAME,
+        ros_type: Self::ROS_TYPE,
+        dds_type: Self::DDS_TYPE,
+        rihs01: Self::RIHS01,
+        schema: Self::SCHEMA,
+    };
+}
+
+/// The constants of a [`Message`] as a value, for tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TypeInfo {
+    /// [`Message::PACKAGE`].
+    pub package: &'static str,
+    /// [`Message::NAME`].
+    pub name: &'static str,
+    /// [`Message::ROS_TYPE`].
+    pub ros_type: &'static str,
+    /// [`Message::DDS_TYPE`].
+    pub dds_type: &'static str,
+    /// [`Message::RIHS01`].
+    pub rihs01: &'static str,
+    /// [`Message::SCHEMA`].
+    pub schema: &'static str,
+}
+
+/// The type of that full name, such as `std_msgs/msg/Float64`.
+pub fn find_type(ros_type: &str) -> Option<&'static TypeInfo> {
+    generated::TYPES.iter().find(|info| info.ros_type == ros_type)
+}
