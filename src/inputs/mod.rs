@@ -1,1 +1,3 @@
-//! Inputs at the door: units, limits, age and state.
+//! Inputs from the rig: units, limits, age and state.
+
+pub mod units;

@@ -1,0 +1,117 @@
+//! `flexdrill check CONFIG`: reads a configuration, says what it comes to or what is wrong with it.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::config::Config;
+use crate::inputs::units::kn_to_n;
+use crate::mechanics::JointKind;
+
+/// Checks a configuration file and prints a summary.
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// The configuration file (YAML).
+    config: PathBuf,
+    /// Print the complete configuration, defaults included, instead of the summary.
+    #[arg(long)]
+    full: bool,
+}
+
+/// # Errors
+/// When the configuration is refused; the error lists every problem.
+pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
+    let config = Config::load(&args.config)?;
+    if args.full {
+        print!("{}", config.to_yaml()?);
+    } else {
+        print!("{}", Summary(&config));
+    }
+    Ok(())
+}
+
+struct Summary<'a>(&'a Config);
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let config = self.0;
+        let tool = &config.tool;
+        let mut row = |name: &str, value: String| writeln!(f, "{name:<16} {value}");
+        if !config.run.title.is_empty() {
+            row("title", config.run.title.clone())?;
+        }
+        let end = config.well.end_inclination_deg();
+        row(
+            "well",
+            format!(
+                "{:.3} m, inclination {:.1} to {end:.1} deg, hole {:.1} mm",
+                config.well.length(),
+                config.well.start_inclination_deg,
+                config.well.hole_diameter * 1e3
+            ),
+        )?;
+        row(
+            "links",
+            format!(
+                "{} of {:.4} m with {} elements; {:.2} deg of build per joint, limit {} deg, {}",
+                tool.links,
+                config.link_length(),
+                tool.elements_per_link,
+                config.build_angle_per_link_deg(),
+                tool.joint.limit_deg,
+                joint_name(tool.joint.kind),
+            ),
+        )?;
+        row(
+            "clearance",
+            format!(
+                "pipe-guide {:.2} mm (a link's chord takes up to {:.2} mm of it), guide-wall {:.2} mm",
+                config.inner_clearance() * 1e3,
+                config.chord_sagitta() * 1e3,
+                config.outer_clearance() * 1e3
+            ),
+        )?;
+        let count = config.unknowns();
+        row(
+            "unknowns",
+            format!(
+                "{} = 6 x ({} pipe + {} guide nodes) + {} joint rows, supports included",
+                count.total(),
+                count.pipe_nodes,
+                count.guide_nodes,
+                count.joint_rows
+            ),
+        )?;
+        row(
+            "bit torque",
+            format!("{:.2} N m per kN of weight on bit (Eq. 1)", kn_to_n(tool.bit.torque_arm())),
+        )?;
+        row(
+            "step",
+            format!("{} ms, Newmark gamma {}", config.solver.time_step * 1e3, config.solver.gamma),
+        )?;
+        let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
+        row(
+            "rotary speed",
+            format!("{} to {} r/min, starts at {}", speed.min_rpm, speed.max_rpm, speed.initial_rpm),
+        )?;
+        row(
+            "weight on bit",
+            format!("{} to {} kN, starts at {}", weight.min_kn, weight.max_kn, weight.initial_kn),
+        )?;
+        row("hash", config.hash())?;
+        for warning in config.warnings() {
+            row("warning", warning)?;
+        }
+        Ok(())
+    }
+}
+
+fn joint_name(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Universal => "universal joints",
+        JointKind::BallCage => "ball cage joints",
+        JointKind::Revolute => "revolute joints",
+    }
+}

@@ -1,0 +1,24 @@
+//! `run`: what the file is for.
+
+use serde::{Deserialize, Serialize};
+
+use super::checker::{Bound, Checker};
+
+/// The run.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Run {
+    /// A name for people. Default empty.
+    pub title: String,
+    /// Model time after which a run ends by itself (s). Default: it goes on until stopped.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration: Option<f64>,
+}
+
+impl Run {
+    pub(super) fn check(&self, c: &mut Checker) {
+        if let Some(duration) = self.duration {
+            c.number("duration", duration, Bound::above(0.0, 1e7), "s", "some months");
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! `start` and `initial`: how a run begins.
+
+use serde::{Deserialize, Serialize};
+
+use super::checker::{Bound, Checker};
+
+/// How a run begins.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// At rest under gravity and the initial weight on bit, so that the run does not begin with a drop.
+    #[default]
+    Static,
+    /// On the bore's centre line with the motion given in `initial`.
+    AsGiven,
+}
+
+/// Motion of every pipe node at the start; only with `start: as_given`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Initial {
+    /// (u, v, w) in the station frame (m/s). Default 0.
+    pub velocity: [f64; 3],
+    /// (u, v, w) in the station frame (m). Default 0.
+    pub displacement: [f64; 3],
+    /// Default 0.
+    pub spin_rpm: f64,
+}
+
+impl Initial {
+    pub(super) fn check(&self, c: &mut Checker, start: Start) {
+        for (index, name) in ["0", "1", "2"].into_iter().enumerate() {
+            c.below("velocity", |c| {
+                let reason = "a drilling tool does not move faster";
+                c.number(name, self.velocity[index], Bound::within(-100.0, 100.0), "m/s", reason);
+            });
+            c.below("displacement", |c| {
+                let reason = "of the order of the clearances";
+                c.number(name, self.displacement[index], Bound::within(-1.0, 1.0), "m", reason);
+            });
+        }
+        let reason = "far above any drive";
+        c.number(
+            "spin_rpm",
+            self.spin_rpm,
+            Bound::within(-10_000.0, 10_000.0),
+            "r/min",
+            reason,
+        );
+        c.require(
+            start == Start::AsGiven || *self == Self::default(),
+            "",
+            "a motion",
+            "",
+            "left out with start: static",
+            "a static start is at rest; write start: as_given",
+        );
+    }
+}

@@ -1,0 +1,58 @@
+//! The only place where units are converted: everything inside is SI.
+
+use std::f64::consts::PI;
+
+/// r/min to rad/s.
+pub fn rpm_to_rad_per_s(rpm: f64) -> f64 {
+    rpm * PI / 30.0
+}
+
+/// rad/s to r/min.
+pub fn rad_per_s_to_rpm(rad_per_s: f64) -> f64 {
+    rad_per_s * 30.0 / PI
+}
+
+/// kN to N.
+pub fn kn_to_n(kn: f64) -> f64 {
+    kn * 1e3
+}
+
+/// N to kN.
+pub fn n_to_kn(n: f64) -> f64 {
+    n / 1e3
+}
+
+/// Degrees to radians.
+pub fn deg_to_rad(deg: f64) -> f64 {
+    deg * PI / 180.0
+}
+
+/// Radians to degrees.
+pub fn rad_to_deg(rad: f64) -> f64 {
+    rad * 180.0 / PI
+}
+
+/// Thousand pounds-force to kN: 1 lbf = 0.45359237 kg x 9.80665 m/s2, exact by definition.
+pub fn klbf_to_kn(klbf: f64) -> f64 {
+    klbf * 4.448_221_615_260_5
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_values() {
+        assert_eq!(rpm_to_rad_per_s(30.0), PI);
+        assert_eq!(kn_to_n(10.0), 1e4);
+        assert_eq!(deg_to_rad(180.0), PI);
+        assert!((klbf_to_kn(100.0) - 444.822).abs() < 1e-3);
+    }
+
+    #[test]
+    fn conversions_invert() {
+        assert!((rad_per_s_to_rpm(rpm_to_rad_per_s(40.0)) - 40.0).abs() < 1e-12);
+        assert!((rad_to_deg(deg_to_rad(2.7)) - 2.7).abs() < 1e-12);
+        assert_eq!(n_to_kn(kn_to_n(10.0)), 10.0);
+    }
+}
