@@ -85,20 +85,33 @@ impl fmt::Display for Summary<'_> {
         )?;
         row(
             "bit torque",
-            format!("{:.2} N m per kN of weight on bit (Eq. 1)", kn_to_n(tool.bit.torque_arm())),
+            format!(
+                "{:.2} N m per kN of weight on bit (Eq. 1)",
+                kn_to_n(tool.bit.torque_arm())
+            ),
         )?;
         row(
             "step",
-            format!("{} ms, Newmark gamma {}", config.solver.time_step * 1e3, config.solver.gamma),
+            format!(
+                "{} ms, Newmark gamma {}",
+                config.solver.time_step * 1e3,
+                config.solver.gamma
+            ),
         )?;
         let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
         row(
             "rotary speed",
-            format!("{} to {} r/min, starts at {}", speed.min_rpm, speed.max_rpm, speed.initial_rpm),
+            format!(
+                "{} to {} r/min, starts at {}",
+                speed.min_rpm, speed.max_rpm, speed.initial_rpm
+            ),
         )?;
         row(
             "weight on bit",
-            format!("{} to {} kN, starts at {}", weight.min_kn, weight.max_kn, weight.initial_kn),
+            format!(
+                "{} to {} kN, starts at {}",
+                weight.min_kn, weight.max_kn, weight.initial_kn
+            ),
         )?;
         row("hash", config.hash())?;
         for warning in config.warnings() {

@@ -1,5 +1,6 @@
 //! The command line, one file per subcommand. Exit codes: 0 done, 1 failed with a reason, 2 wrong use.
 
+mod check;
 mod generate_messages;
 
 use std::process::ExitCode;
@@ -16,6 +17,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Check(check::CheckArgs),
     #[command(hide = true)]
     GenerateMessages(generate_messages::Args),
 }
@@ -24,6 +26,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let result: anyhow::Result<()> = match cli.command {
+        Command::Check(args) => check::run(&args),
         Command::GenerateMessages(args) => generate_messages::run(&args),
     };
     match result {

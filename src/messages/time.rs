@@ -13,7 +13,10 @@ impl Time {
                 sec,
                 nanosec: nanoseconds.rem_euclid(NANOSECONDS_PER_SECOND) as u32,
             },
-            Err(_) if seconds < 0 => Self { sec: i32::MIN, nanosec: 0 },
+            Err(_) if seconds < 0 => Self {
+                sec: i32::MIN,
+                nanosec: 0,
+            },
             Err(_) => Self {
                 sec: i32::MAX,
                 nanosec: 999_999_999,
