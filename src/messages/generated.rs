@@ -142,6 +142,8 @@ pub mod flexdrill {
         pub rotary_speed: f64,
         /// Target weight on bit, before the slew limit (N).
         pub weight_on_bit: f64,
+        /// The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED.
+        pub input_quality: u8,
         /// Slew limit of the rotary speed (rad/s2).
         pub rotary_speed_slew: f64,
         /// Slew limit of the weight on bit (N/s).
@@ -158,12 +160,25 @@ pub mod flexdrill {
         pub parameter_value: Vec<f64>,
     }
 
+    impl AppliedInputs {
+        /// No sample yet: the twin runs on its configured start values.
+        pub const INPUT_NOT_RECEIVED: u8 = 0;
+        /// Fresh.
+        pub const INPUT_OK: u8 = 1;
+        /// Later than expected, not yet stale.
+        pub const INPUT_SLOW: u8 = 2;
+        /// Too old: held, then brought to the safe value.
+        pub const INPUT_STALE: u8 = 3;
+        /// The newest sample was refused, the last good one is held.
+        pub const INPUT_REJECTED: u8 = 4;
+    }
+
     impl Message for AppliedInputs {
         const PACKAGE: &'static str = "flexdrill";
         const NAME: &'static str = "AppliedInputs";
         const ROS_TYPE: &'static str = "flexdrill/msg/AppliedInputs";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AppliedInputs_";
-        const RIHS01: &'static str = "RIHS01_bbca596ba80471afab835254ade345132aff7c9e1238239f12cfc4c1814e5b8b";
+        const RIHS01: &'static str = "RIHS01_eb1f03f477bd3089c929c8efa805e4f61044b3d91e00cb6de582fe77703b493f";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/AppliedInputs.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",

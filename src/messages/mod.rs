@@ -2,10 +2,12 @@
 //! snapshot of the twin.
 
 mod cdr;
+pub mod fill;
 pub mod generator;
 pub mod large_array;
 mod message;
 mod time;
+pub mod topics;
 
 #[rustfmt::skip]
 pub mod generated;

@@ -1,0 +1,18 @@
+//! [`BitState`].
+
+use crate::messages::BitState;
+use crate::messages::std_msgs::Header;
+use crate::twin::Snapshot;
+
+/// Fills `out`.
+pub fn bit_state(snapshot: &Snapshot, header: &Header, out: &mut BitState) {
+    super::stamp(&mut out.header, header);
+    let bit = &snapshot.bit;
+    out.torque = bit.torque;
+    out.rotary_speed = bit.rotary_speed;
+    out.weight_on_bit = bit.weight_on_bit;
+    out.stick_slip_index = bit.stick_slip_index;
+    out.tangential_acceleration = bit.tangential_acceleration;
+    out.axial_acceleration = bit.axial_acceleration;
+    out.lateral_acceleration = bit.lateral_acceleration;
+}

@@ -1,0 +1,33 @@
+//! [`ContactForces`].
+
+use super::{copy, largest};
+use crate::messages::ContactForces;
+use crate::messages::std_msgs::Header;
+use crate::twin::Snapshot;
+
+/// Fills `out`. The largest forces are those of the publishing interval, not of the instant.
+pub fn contact_forces(snapshot: &Snapshot, header: &Header, out: &mut ContactForces) {
+    super::stamp(&mut out.header, header);
+    let contacts = &snapshot.contacts;
+    (out.max_pipe_guide_force, out.max_pipe_guide_station) = largest(&contacts.pipe_guide.normal_peak);
+    (out.max_guide_wall_force, out.max_guide_wall_station) = largest(&contacts.guide_wall.normal_peak);
+    copy(&mut out.measured_depth, &contacts.measured_depth);
+    copy(&mut out.inclination, &contacts.inclination);
+    copy(&mut out.state, &contacts.state);
+
+    let inner = &contacts.pipe_guide;
+    copy(&mut out.pipe_guide_gap, &inner.gap);
+    copy(&mut out.pipe_guide_normal, &inner.normal);
+    copy(&mut out.pipe_guide_tangential, &inner.tangential);
+    copy(&mut out.pipe_guide_axial, &inner.axial);
+    copy(&mut out.pipe_guide_normal_peak, &inner.normal_peak);
+    copy(&mut out.pipe_guide_normal_rms, &inner.normal_rms);
+
+    let outer = &contacts.guide_wall;
+    copy(&mut out.guide_wall_gap, &outer.gap);
+    copy(&mut out.guide_wall_normal, &outer.normal);
+    copy(&mut out.guide_wall_tangential, &outer.tangential);
+    copy(&mut out.guide_wall_axial, &outer.axial);
+    copy(&mut out.guide_wall_normal_peak, &outer.normal_peak);
+    copy(&mut out.guide_wall_normal_rms, &outer.normal_rms);
+}

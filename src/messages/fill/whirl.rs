@@ -1,0 +1,83 @@
+//! [`WhirlState`] and [`WhirlWarning`].
+
+use super::copy;
+use crate::analysis::{Severity, WhirlKind};
+use crate::mechanics::Body;
+use crate::messages::std_msgs::Header;
+use crate::messages::{WhirlState, WhirlWarning};
+use crate::twin::Snapshot;
+
+fn body_code(body: Body) -> u8 {
+    match body {
+        Body::Pipe => WhirlState::PIPE,
+        Body::Guide => WhirlState::GUIDE,
+    }
+}
+
+/// Fills `out`.
+pub fn whirl_state(snapshot: &Snapshot, header: &Header, out: &mut WhirlState) {
+    super::stamp(&mut out.header, header);
+    let whirl = &snapshot.whirl;
+    copy(&mut out.measured_depth, &whirl.measured_depth);
+    copy(&mut out.inclination, &whirl.inclination);
+    out.body.clear();
+    out.body.extend(whirl.body.iter().map(|body| body_code(*body)));
+    out.kind.clear();
+    out.kind.extend(whirl.kind.iter().map(|kind| *kind as u8));
+    copy(&mut out.whirl_rate, &whirl.whirl_rate);
+    copy(&mut out.whirl_ratio, &whirl.whirl_ratio);
+    copy(&mut out.orbit_radius, &whirl.orbit_radius);
+    copy(&mut out.clearance_ratio, &whirl.clearance_ratio);
+    copy(&mut out.contact_duty, &whirl.contact_duty);
+    copy(&mut out.confidence, &whirl.confidence);
+}
+
+/// Fills `out`. `input_quality` is the worse of the inputs' states, in the message's INPUT_ constants.
+pub fn whirl_warning(snapshot: &Snapshot, header: &Header, input_quality: u8, out: &mut WhirlWarning) {
+    super::stamp(&mut out.header, header);
+    let (level, whirl) = (&snapshot.warning, &snapshot.whirl);
+    let body = whirl.body.get(level.entry).copied().unwrap_or_default();
+    out.severity = level.severity as u8;
+    out.kind = level.kind as u8;
+    out.body = body_code(body);
+    out.measured_depth = whirl.measured_depth.get(level.entry).copied().unwrap_or_default();
+    out.inclination = whirl.inclination.get(level.entry).copied().unwrap_or_default();
+    out.whirl_ratio = level.whirl_ratio;
+    out.clearance_ratio = level.clearance_ratio;
+    out.contact_duty = level.contact_duty;
+    out.window = level.window;
+    out.since = header.stamp.plus_seconds(level.since - snapshot.time);
+    out.input_quality = input_quality;
+    out.sequence = level.sequence;
+    out.message = sentence(out, level.severity, level.kind, body);
+}
+
+/// What a person reads.
+fn sentence(warning: &WhirlWarning, severity: Severity, kind: WhirlKind, body: Body) -> String {
+    let severity = match severity {
+        Severity::Ok => return "No whirl that needs attention.".to_owned(),
+        Severity::Watch => "Watch",
+        Severity::Warning => "Warning",
+        Severity::Critical => "Critical",
+    };
+    let kind = match kind {
+        WhirlKind::None => "large lateral motion",
+        WhirlKind::Forward => "forward whirl",
+        WhirlKind::Backward => "backward whirl",
+        WhirlKind::Chaotic => "chaotic whirl",
+    };
+    let body = match body {
+        Body::Pipe => "flexible pipe",
+        Body::Guide => "guide pipe",
+    };
+    format!(
+        "{severity}: {kind} of the {body} at {:.2} m (inclination {:.0} deg), {:.1} times the rotary speed, {:.0} % of the \
+         clearance, in contact {:.0} % of the last {:.1} s.",
+        warning.measured_depth,
+        warning.inclination.to_degrees(),
+        warning.whirl_ratio,
+        100.0 * warning.clearance_ratio,
+        100.0 * warning.contact_duty,
+        warning.window,
+    )
+}

@@ -1,0 +1,168 @@
+//! All topics: name, type, rate and quality of service. The node and the bags share this table.
+
+use super::{
+    AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo, TwinStatus, TypeInfo, WhirlState,
+    WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, visualization_msgs,
+};
+
+/// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Qos {
+    /// Reliable, else best effort.
+    pub reliable: bool,
+    /// Transient local (late joiners get the newest), else volatile.
+    pub transient_local: bool,
+    /// History depth.
+    pub depth: u32,
+}
+
+/// Reliable and volatile with that depth.
+const fn reliable(depth: u32) -> Qos {
+    Qos {
+        reliable: true,
+        transient_local: false,
+        depth,
+    }
+}
+
+/// Best effort, the newest only.
+const BEST_EFFORT: Qos = Qos {
+    reliable: false,
+    transient_local: false,
+    depth: 1,
+};
+
+/// The newest is kept for late joiners.
+const LATCHED: Qos = Qos {
+    reliable: true,
+    transient_local: true,
+    depth: 1,
+};
+
+/// When a topic carries a message.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cadence {
+    /// Sent by us at the rate that stands under this key in the configuration's `outputs.rates`.
+    Rate(&'static str),
+    /// Sent by us when its content changes.
+    OnChange,
+    /// Received: others decide.
+    Received,
+}
+
+/// One topic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TopicInfo {
+    /// Name; without a leading `/` it is relative to the node's namespace.
+    pub name: &'static str,
+    /// Type.
+    pub kind: TypeInfo,
+    /// When it carries a message.
+    pub cadence: Cadence,
+    /// Quality of service.
+    pub qos: Qos,
+}
+
+impl TopicInfo {
+    const fn new(name: &'static str, kind: TypeInfo, cadence: Cadence, qos: Qos) -> Self {
+        Self {
+            name,
+            kind,
+            cadence,
+            qos,
+        }
+    }
+}
+
+/// Input: speed of the top drive in r/min.
+pub const ROTARY_SPEED_RPM: TopicInfo = TopicInfo::new(
+    "rig/rotary_speed_rpm",
+    std_msgs::Float64::INFO,
+    Cadence::Received,
+    BEST_EFFORT,
+);
+/// Input: weight on bit in kN.
+pub const WEIGHT_ON_BIT_KN: TopicInfo = TopicInfo::new(
+    "rig/weight_on_bit_kn",
+    std_msgs::Float64::INFO,
+    Cadence::Received,
+    BEST_EFFORT,
+);
+/// Input: the rig's clock, with `use_sim_time` only.
+pub const CLOCK: TopicInfo = TopicInfo::new("/clock", rosgraph_msgs::Clock::INFO, Cadence::Received, BEST_EFFORT);
+/// Output: per joint.
+pub const JOINT_DEFLECTIONS: TopicInfo = TopicInfo::new(
+    "twin/joint_deflections",
+    JointDeflections::INFO,
+    Cadence::Rate("joint_deflections"),
+    reliable(10),
+);
+/// Output: per station.
+pub const CONTACT_FORCES: TopicInfo = TopicInfo::new(
+    "twin/contact_forces",
+    ContactForces::INFO,
+    Cadence::Rate("contact_forces"),
+    reliable(10),
+);
+/// Output: per watched place.
+pub const WHIRL: TopicInfo = TopicInfo::new("twin/whirl", WhirlState::INFO, Cadence::Rate("whirl"), reliable(10));
+/// Output: the warning level.
+pub const WHIRL_WARNINGS: TopicInfo =
+    TopicInfo::new("twin/whirl_warnings", WhirlWarning::INFO, Cadence::OnChange, LATCHED);
+/// Output: the bit.
+pub const BIT_STATE: TopicInfo = TopicInfo::new(
+    "twin/bit_state",
+    BitState::INFO,
+    Cadence::Rate("bit_state"),
+    reliable(10),
+);
+/// Output: health and heartbeat.
+pub const STATUS: TopicInfo = TopicInfo::new("twin/status", TwinStatus::INFO, Cadence::Rate("status"), reliable(10));
+/// Output: picture of the tool.
+pub const TOOL_SHAPE: TopicInfo = TopicInfo::new(
+    "twin/tool_shape",
+    visualization_msgs::MarkerArray::INFO,
+    Cadence::Rate("tool_shape"),
+    BEST_EFFORT,
+);
+/// Output: what drives the model from which step on.
+pub const APPLIED_INPUTS: TopicInfo = TopicInfo::new(
+    "twin/applied_inputs",
+    AppliedInputs::INFO,
+    Cadence::OnChange,
+    reliable(100),
+);
+/// Output: configuration and version of the run.
+pub const SESSION: TopicInfo = TopicInfo::new("twin/session", SessionInfo::INFO, Cadence::OnChange, LATCHED);
+/// Output: joints for stock tools.
+pub const JOINT_STATES: TopicInfo = TopicInfo::new(
+    "joint_states",
+    sensor_msgs::JointState::INFO,
+    Cadence::Rate("joint_states"),
+    reliable(10),
+);
+/// Output: diagnostics, in ROS's own place.
+pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
+    "/diagnostics",
+    diagnostic_msgs::DiagnosticArray::INFO,
+    Cadence::Rate("diagnostics"),
+    reliable(10),
+);
+
+/// All of them, inputs first.
+pub const ALL: [TopicInfo; 14] = [
+    ROTARY_SPEED_RPM,
+    WEIGHT_ON_BIT_KN,
+    CLOCK,
+    JOINT_DEFLECTIONS,
+    CONTACT_FORCES,
+    WHIRL,
+    WHIRL_WARNINGS,
+    BIT_STATE,
+    STATUS,
+    TOOL_SHAPE,
+    APPLIED_INPUTS,
+    SESSION,
+    JOINT_STATES,
+    DIAGNOSTICS,
+];

@@ -1,0 +1,137 @@
+//! Messages made from a snapshot say what the snapshot says.
+
+use flexdrill::analysis::{Severity, WhirlKind};
+use flexdrill::mechanics::Body;
+use flexdrill::messages::builtin_interfaces::Time;
+use flexdrill::messages::fill::{self, ShapeStyle};
+use flexdrill::messages::std_msgs::Header;
+use flexdrill::messages::visualization_msgs::{Marker, MarkerArray};
+use flexdrill::messages::{ContactForces, JointDeflections, WhirlWarning, sensor_msgs};
+use flexdrill::twin::{ContactLayer, Snapshot};
+
+fn header() -> Header {
+    Header {
+        stamp: Time {
+            sec: 100,
+            nanosec: 500_000_000,
+        },
+        frame_id: "tool".to_owned(),
+    }
+}
+
+fn layer(normal: [f64; 2]) -> ContactLayer {
+    ContactLayer {
+        gap: vec![0.0; 2],
+        normal: normal.to_vec(),
+        tangential: vec![0.0; 2],
+        axial: vec![0.0; 2],
+        normal_peak: normal.iter().map(|force| force * 2.0).collect(),
+        normal_rms: normal.to_vec(),
+    }
+}
+
+fn snapshot() -> Snapshot {
+    let mut snapshot = Snapshot {
+        time: 3.0,
+        ..Snapshot::default()
+    };
+    snapshot.joints.bend_angle = vec![0.01, 0.06, 0.05];
+    snapshot.joints.limit_angle = vec![0.05; 3];
+    snapshot.contacts.state = vec![ContactForces::INNER, ContactForces::FREE];
+    snapshot.contacts.pipe_guide = layer([1000.0, 0.0]);
+    snapshot.contacts.guide_wall = layer([0.0, 0.0]);
+    snapshot.shape.bore = vec![[0.0; 3], [0.0, 0.0, 1.0]];
+    snapshot.shape.low_side = vec![[-1.0, 0.0, 0.0]; 2];
+    snapshot.shape.pipe = vec![[0.0, 0.002], [0.0, 0.0]];
+    snapshot.shape.guide = vec![[0.0, 0.0]; 2];
+    snapshot
+}
+
+#[test]
+fn joints_name_the_largest_bend_and_count_those_at_the_limit() {
+    let mut message = JointDeflections::default();
+    fill::joint_deflections(&snapshot(), &header(), &mut message);
+    assert_eq!(message.header, header());
+    assert_eq!((message.max_bend_angle, message.max_bend_joint), (0.06, 1));
+    assert_eq!(message.joints_at_limit, 2);
+
+    let mut stock = sensor_msgs::JointState::default();
+    fill::joint_state(&snapshot(), &header(), &mut stock);
+    assert_eq!(stock.name, ["joint_01", "joint_02", "joint_03"]);
+    assert_eq!(stock.position, [0.01, 0.06, 0.05]);
+}
+
+#[test]
+fn the_largest_contact_force_is_the_interval_s_peak() {
+    let mut message = ContactForces::default();
+    fill::contact_forces(&snapshot(), &header(), &mut message);
+    assert_eq!(
+        (message.max_pipe_guide_force, message.max_pipe_guide_station),
+        (2000.0, 0)
+    );
+    assert_eq!((message.max_guide_wall_force, message.max_guide_wall_station), (0.0, 0));
+    assert_eq!(message.state, [1, 0]);
+}
+
+#[test]
+fn a_warning_names_its_place_and_when_it_began() {
+    let mut snapshot = snapshot();
+    snapshot.whirl.measured_depth = vec![1.0, 2.5];
+    snapshot.whirl.inclination = vec![0.0, 0.5];
+    snapshot.whirl.body = vec![Body::Pipe, Body::Guide];
+    snapshot.warning.entry = 1;
+    snapshot.warning.severity = Severity::Warning;
+    snapshot.warning.kind = WhirlKind::Backward;
+    snapshot.warning.since = 2.0;
+    let mut message = WhirlWarning::default();
+    fill::whirl_warning(&snapshot, &header(), WhirlWarning::INPUT_SLOW, &mut message);
+    assert_eq!(message.body, WhirlWarning::GUIDE);
+    assert_eq!(message.measured_depth, 2.5);
+    assert_eq!(
+        message.since,
+        Time {
+            sec: 99,
+            nanosec: 500_000_000
+        }
+    );
+    assert_eq!(message.input_quality, WhirlWarning::INPUT_SLOW);
+    assert!(
+        message
+            .message
+            .starts_with("Warning: backward whirl of the guide pipe at 2.50 m"),
+        "{}",
+        message.message
+    );
+
+    snapshot.warning.entry = 9;
+    fill::whirl_warning(&snapshot, &header(), 0, &mut message);
+    assert_eq!(message.measured_depth, 0.0);
+}
+
+#[test]
+fn the_shape_is_exaggerated_and_contacts_push_towards_the_axis() {
+    let mut message = MarkerArray::default();
+    fill::tool_shape(&snapshot(), &header(), &ShapeStyle::new(10.0), &mut message);
+    let marker = |name: &str| message.markers.iter().find(|marker| marker.ns == name).unwrap();
+    // 2 mm towards the low side, which is -X here, ten times enlarged.
+    assert!((marker("flexible_pipe").points[0].x + 0.02).abs() < 1e-12);
+    let contact = marker("pipe_guide_contact");
+    assert_eq!(contact.type_, Marker::LINE_LIST);
+    assert_eq!((contact.points.len(), contact.colors.len()), (6, 6));
+    assert!(
+        contact.points[1].x > contact.points[0].x,
+        "the force on the pipe points away from the low side"
+    );
+    assert_eq!(marker("guide_wall_contact").action, Marker::DELETE);
+}
+
+#[test]
+fn an_empty_snapshot_fills_everything() {
+    let (empty, header) = (Snapshot::default(), Header::default());
+    let mut shape = MarkerArray::default();
+    fill::tool_shape(&empty, &header, &ShapeStyle::new(1.0), &mut shape);
+    assert!(shape.markers.iter().all(|marker| marker.action == Marker::DELETE));
+    let mut joints = JointDeflections::default();
+    fill::joint_deflections(&empty, &header, &mut joints);
+    assert_eq!(joints.max_bend_joint, 0);
+}
