@@ -6,6 +6,7 @@ pub mod parameters;
 pub mod publisher;
 pub mod raw;
 pub mod service;
+pub mod solver;
 
 use ros2_client::CreateError;
 

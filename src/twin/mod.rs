@@ -7,7 +7,7 @@ mod schedule;
 mod simulation;
 mod snapshot;
 
-pub use run::{Frame, Run, RunInputs};
+pub use run::{Frame, Model, Run, RunInputs};
 pub use schedule::{Due, Output, Schedule, Timeline};
 pub use simulation::{BuildError, Inputs, Simulation, SimulationSettings};
 pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot, SolverCounters};

@@ -4,7 +4,7 @@
 //! bit; nothing here looks at a clock.
 
 use super::schedule::Due;
-use super::{Inputs, Schedule, Simulation, Snapshot};
+use super::{Inputs, Schedule, Simulation, SimulationSettings, Snapshot};
 use crate::mechanics::{LiveParameters, StepOutcome};
 
 /// What drives the model from a step on.
@@ -41,17 +41,74 @@ pub struct Frame {
     pub input_quality: u8,
 }
 
+/// What a [`Run`] needs of a model; the [`Simulation`] is the one there is, tests bring scripted ones.
+pub trait Model {
+    /// See [`Simulation::settings`].
+    fn settings(&self) -> &SimulationSettings;
+    /// See [`Simulation::advance`].
+    fn advance(&mut self, inputs: &Inputs) -> StepOutcome;
+    /// See [`Simulation::step`].
+    fn step(&self) -> u64;
+    /// See [`Simulation::new_snapshot`].
+    fn new_snapshot(&self) -> Snapshot;
+    /// See [`Simulation::snapshot`].
+    fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool);
+    /// See [`Simulation::live`].
+    fn live(&self) -> LiveParameters;
+    /// See [`Simulation::set_live`].
+    fn set_live(&mut self, live: LiveParameters);
+    /// See [`Simulation::set_slew`].
+    fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64);
+    /// See [`Simulation::reset`].
+    fn reset(&mut self);
+    /// See [`Simulation::checkpoint`].
+    fn checkpoint(&self) -> Vec<u8>;
+}
+
+impl Model for Simulation {
+    fn settings(&self) -> &SimulationSettings {
+        self.settings()
+    }
+    fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
+        self.advance(inputs)
+    }
+    fn step(&self) -> u64 {
+        self.step()
+    }
+    fn new_snapshot(&self) -> Snapshot {
+        self.new_snapshot()
+    }
+    fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
+        self.snapshot(out, end_interval);
+    }
+    fn live(&self) -> LiveParameters {
+        self.live()
+    }
+    fn set_live(&mut self, live: LiveParameters) {
+        self.set_live(live);
+    }
+    fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) {
+        self.set_slew(rotary_speed, weight_on_bit);
+    }
+    fn reset(&mut self) {
+        self.reset();
+    }
+    fn checkpoint(&self) -> Vec<u8> {
+        self.checkpoint()
+    }
+}
+
 /// A simulation with what drives it.
-pub struct Run {
-    simulation: Simulation,
+pub struct Run<M = Simulation> {
+    simulation: M,
     applied: RunInputs,
     /// Steps taken before the last reset.
     before_reset: u64,
 }
 
-impl Run {
+impl<M: Model> Run<M> {
     /// Takes over a simulation at its start.
-    pub fn new(simulation: Simulation, schedule: Schedule) -> Self {
+    pub fn new(simulation: M, schedule: Schedule) -> Self {
         let settings = simulation.settings();
         let applied = RunInputs {
             step: 0,
@@ -134,7 +191,7 @@ impl Run {
     }
 
     /// The simulation.
-    pub fn simulation(&self) -> &Simulation {
+    pub fn simulation(&self) -> &M {
         &self.simulation
     }
 }
