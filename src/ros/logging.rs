@@ -1,0 +1,113 @@
+//! Logging: to standard error with a filter, and to `/rosout` so that `ros2` tools show it.
+
+use std::fmt::Write as _;
+use std::sync::{Arc, OnceLock, PoisonError, RwLock};
+
+use ros2_client::Node;
+use ros2_client::builtin_interfaces::Time;
+use ros2_client::log::Log;
+use rustdds::DomainParticipant;
+use tracing::field::{Field, Visit};
+use tracing::{Event, Level, Subscriber};
+use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
+use tracing_subscriber::util::SubscriberInitExt;
+use tracing_subscriber::{EnvFilter, fmt};
+
+use super::NodeError;
+use super::args::RosArgs;
+use super::publisher::{Offer, TopicPublisher};
+use super::raw::encode;
+
+/// RustDDS warns of every datagram above 1500 bytes and of peers that go; ros2-client of every plain DDS client.
+const LIBRARIES: &str = "rustdds=error,ros2_client=error,mio=error";
+
+/// Where log lines go while the node is up.
+#[derive(Default)]
+struct Rosout {
+    target: RwLock<Option<(TopicPublisher, String)>>,
+}
+
+static ROSOUT: OnceLock<Arc<Rosout>> = OnceLock::new();
+
+/// Starts logging. The filter is RUST_LOG if set, else `--log-level` or `info`, with the libraries' noise left out. May
+/// be called more than once; only the first call counts.
+pub fn start(arguments: &RosArgs) {
+    let mut filter = format!("{},{LIBRARIES}", arguments.log_level.as_deref().unwrap_or("info"));
+    for (logger, level) in &arguments.logger_levels {
+        // Writing to a string does not fail.
+        let _ = write!(filter, ",{logger}={level}");
+    }
+    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(filter));
+    let rosout = ROSOUT.get_or_init(Arc::default);
+    let lines = fmt::layer().with_writer(std::io::stderr).with_target(false);
+    // A second subscriber is refused; the first one stays.
+    let _ = tracing_subscriber::registry().with(filter).with(lines).with(RosoutLayer(Arc::clone(rosout))).try_init();
+}
+
+/// Publishes log lines of this crate on `/rosout` until [`disconnect`].
+///
+/// # Errors
+/// When the topic cannot be created.
+pub fn connect(node: &mut Node, participant: &DomainParticipant) -> Result<(), NodeError> {
+    let offer = Offer { reliable: true, latched: true, depth: 100, rate: 10.0 };
+    let publisher = TopicPublisher::new(node, participant, "/rosout", "rcl_interfaces/msg/Log", offer)?;
+    let name = node.fully_qualified_name().trim_start_matches('/').replace('/', ".");
+    let rosout = ROSOUT.get_or_init(Arc::default);
+    *rosout.target.write().unwrap_or_else(PoisonError::into_inner) = Some((publisher, name));
+    Ok(())
+}
+
+/// Lets go of the topic; to be called before the node is dropped.
+pub fn disconnect() {
+    if let Some(rosout) = ROSOUT.get() {
+        *rosout.target.write().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+}
+
+struct RosoutLayer(Arc<Rosout>);
+
+impl<S: Subscriber> Layer<S> for RosoutLayer {
+    fn on_event(&self, event: &Event<'_>, _context: Context<'_, S>) {
+        let metadata = event.metadata();
+        // Lines of the DDS library come while it holds its own locks; and one about this topic would never end.
+        if !metadata.target().starts_with("flexdrill") {
+            return;
+        }
+        let Ok(target) = self.0.target.try_read() else { return };
+        let Some((publisher, name)) = target.as_ref() else { return };
+        let mut text = Text::default();
+        event.record(&mut text);
+        let line = Log {
+            stamp: Time::now(),
+            level: match *metadata.level() {
+                Level::ERROR => Log::ERROR,
+                Level::WARN => Log::WARN,
+                Level::INFO => Log::INFO,
+                _ => Log::DEBUG,
+            },
+            name: name.clone(),
+            msg: text.0,
+            file: metadata.file().unwrap_or_default().to_owned(),
+            function: metadata.target().to_owned(),
+            line: metadata.line().unwrap_or_default(),
+        };
+        if let Ok(body) = encode(&line) {
+            publisher.publish(&body);
+        }
+    }
+}
+
+#[derive(Default)]
+struct Text(String);
+
+impl Visit for Text {
+    fn record_debug(&mut self, field: &Field, value: &dyn std::fmt::Debug) {
+        let result = if field.name() == "message" {
+            write!(self.0, "{value:?}")
+        } else {
+            write!(self.0, " {}={value:?}", field.name())
+        };
+        // Writing to a string does not fail.
+        let _ = result;
+    }
+}

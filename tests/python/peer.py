@@ -1,0 +1,128 @@
+"""A DDS program from another vendor (Cyclone DDS), told what to do by one JSON object per line on standard input.
+
+Answers one JSON object per line. Commands: subscribe, take, publish, call, matched, quit.
+"""
+
+import json
+import math
+import sys
+import time
+
+from cyclonedds.core import Policy, Qos
+from cyclonedds.domain import DomainParticipant
+from cyclonedds.pub import DataWriter
+from cyclonedds.sub import DataReader
+from cyclonedds.topic import Topic
+from cyclonedds.util import duration
+
+import ros_types
+
+# What this client calls itself in the header of rmw_cyclonedds.
+CLIENT = 0x1122334455667788
+
+
+def qos(kind, depth=50):
+    """`reliable`, `best_effort`, `latched` (reliable and transient local)."""
+    policies = [Policy.History.KeepLast(depth)]
+    if kind == "best_effort":
+        policies.append(Policy.Reliability.BestEffort)
+    else:
+        policies.append(Policy.Reliability.Reliable(duration(milliseconds=100)))
+    policies.append(Policy.Durability.TransientLocal if kind == "latched" else Policy.Durability.Volatile)
+    return Qos(*policies)
+
+
+class Peer:
+    def __init__(self, domain):
+        self.participant = DomainParticipant(domain)
+        self.readers = {}
+        self.writers = {}
+        self.sequence = 0
+
+    def reader(self, name, made, kind, depth=50):
+        return DataReader(self.participant, Topic(self.participant, name, made), qos=qos(kind, depth))
+
+    def subscribe(self, topic, type, kind="reliable", depth=50):
+        self.readers[topic] = self.reader("rt" + topic, ros_types.make(type), kind, depth)
+        return {}
+
+    def take(self, topic, seconds=0.0, count=1):
+        """Messages until there are `count` or time is up."""
+        found, deadline = [], time.monotonic() + seconds
+        while True:
+            found += [ros_types.to_plain(sample) for sample in self.readers[topic].take(N=1000) if hasattr(sample, "__dataclass_fields__") and not hasattr(sample, "key")]
+            if len(found) >= count or time.monotonic() >= deadline:
+                return {"messages": found}
+            time.sleep(0.005)
+
+    def publish(self, topic, type, value, kind="reliable", wait=5.0):
+        made = ros_types.make(type)
+        if topic not in self.writers:
+            self.writers[topic] = DataWriter(self.participant, Topic(self.participant, "rt" + topic, made), qos=qos(kind))
+        writer, deadline = self.writers[topic], time.monotonic() + wait
+        while not writer.get_matched_subscriptions() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        writer.write(ros_types.from_plain(made, value))
+        return {"matched": len(writer.get_matched_subscriptions())}
+
+    def matched(self, topic):
+        return {"matched": len(self.readers[topic].get_matched_publications())}
+
+    def call(self, service, type, request, header=False, seconds=5.0):
+        """Calls a service: plain, or with the header of rmw_cyclonedds."""
+        wrap = ros_types.with_cyclone_header if header else ros_types.make
+        request_type, reply_type = wrap(type + "_Request"), wrap(type + "_Response")
+        key = (service, header)
+        if key not in self.writers:
+            self.writers[key] = (
+                DataWriter(self.participant, Topic(self.participant, f"rq{service}Request", request_type), qos=qos("reliable")),
+                self.reader(f"rr{service}Reply", reply_type, "reliable"),
+            )
+        writer, reader = self.writers[key]
+        deadline = time.monotonic() + seconds
+        while not (writer.get_matched_subscriptions() and reader.get_matched_publications()):
+            if time.monotonic() > deadline:
+                return {"error": "no server"}
+            time.sleep(0.01)
+        self.sequence += 1
+        identity = {"client_id": CLIENT, "sequence": self.sequence} if header else {}
+        message = ros_types.from_plain(request_type, {**identity, **request})
+        reader.take(N=1000)
+        writer.write(message)
+        while time.monotonic() < deadline:
+            for sample in reader.take(N=100):
+                plain = ros_types.to_plain(sample)
+                if all(plain.pop(field) == value for field, value in identity.items()):
+                    return {"reply": plain}
+            time.sleep(0.002)
+        return {"error": "no reply"}
+
+
+def finite(value):
+    """NaN and infinities are not JSON."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    if isinstance(value, dict):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [finite(item) for item in value]
+    return value
+
+
+def main():
+    peer = Peer(int(sys.argv[1]) if len(sys.argv) > 1 else 0)
+    print(json.dumps({"ready": True}), flush=True)
+    for line in sys.stdin:
+        command = json.loads(line)
+        name = command.pop("do")
+        if name == "quit":
+            break
+        try:
+            answer = getattr(peer, name)(**command)
+        except Exception as error:  # told to the test, which fails on it
+            answer = {"error": f"{type(error).__name__}: {error}"}
+        print(json.dumps(finite(answer)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
