@@ -1,0 +1,4 @@
+//! How the twin is doing, in figures (`twin/status`) and judgements (`/diagnostics`).
+
+pub mod diagnostics;
+pub mod meters;
