@@ -6,6 +6,7 @@ pub mod fill;
 pub mod generator;
 pub mod large_array;
 mod message;
+pub mod outputs;
 mod time;
 pub mod topics;
 

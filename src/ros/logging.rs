@@ -41,7 +41,11 @@ pub fn start(arguments: &RosArgs) {
     let rosout = ROSOUT.get_or_init(Arc::default);
     let lines = fmt::layer().with_writer(std::io::stderr).with_target(false);
     // A second subscriber is refused; the first one stays.
-    let _ = tracing_subscriber::registry().with(filter).with(lines).with(RosoutLayer(Arc::clone(rosout))).try_init();
+    let _ = tracing_subscriber::registry()
+        .with(filter)
+        .with(lines)
+        .with(RosoutLayer(Arc::clone(rosout)))
+        .try_init();
 }
 
 /// Publishes log lines of this crate on `/rosout` until [`disconnect`].
@@ -49,7 +53,12 @@ pub fn start(arguments: &RosArgs) {
 /// # Errors
 /// When the topic cannot be created.
 pub fn connect(node: &mut Node, participant: &DomainParticipant) -> Result<(), NodeError> {
-    let offer = Offer { reliable: true, latched: true, depth: 100, rate: 10.0 };
+    let offer = Offer {
+        reliable: true,
+        latched: true,
+        depth: 100,
+        rate: 10.0,
+    };
     let publisher = TopicPublisher::new(node, participant, "/rosout", "rcl_interfaces/msg/Log", offer)?;
     let name = node.fully_qualified_name().trim_start_matches('/').replace('/', ".");
     let rosout = ROSOUT.get_or_init(Arc::default);
@@ -74,7 +83,9 @@ impl<S: Subscriber> Layer<S> for RosoutLayer {
             return;
         }
         let Ok(target) = self.0.target.try_read() else { return };
-        let Some((publisher, name)) = target.as_ref() else { return };
+        let Some((publisher, name)) = target.as_ref() else {
+            return;
+        };
         let mut text = Text::default();
         event.record(&mut text);
         let line = Log {

@@ -1,6 +1,7 @@
 //! The ROS 2 node.
 
 pub mod args;
+pub mod health;
 pub mod logging;
 pub mod network;
 pub mod parameters;

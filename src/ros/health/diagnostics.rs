@@ -107,11 +107,14 @@ fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
         TwinStatus::FAILED => (DiagnosticStatus::OK, "model time stands still, see solver".to_owned()),
         _ if factor < FAR_BEHIND => (
             DiagnosticStatus::ERROR,
-            format!("not in real time: the model gains {factor:.2} s per second; take a coarser mesh or a faster machine"),
+            format!(
+                "not in real time: the model gains {factor:.2} s per second; take a coarser mesh or a faster machine"
+            ),
         ),
-        _ if factor < KEEPS_UP || skipped > 0 => {
-            (DiagnosticStatus::WARN, format!("late: {skipped} steps skipped since the last report, factor {factor:.3}"))
-        }
+        _ if factor < KEEPS_UP || skipped > 0 => (
+            DiagnosticStatus::WARN,
+            format!("late: {skipped} steps skipped since the last report, factor {factor:.3}"),
+        ),
         _ => (DiagnosticStatus::OK, "in real time".to_owned()),
     };
     Judgement {
@@ -141,9 +144,18 @@ fn solver(status: &TwinStatus, previous: &TwinStatus, evidence: &Evidence) -> Ju
         );
         (DiagnosticStatus::ERROR, message)
     } else if steps > 0 && halved * 20 > steps {
-        (DiagnosticStatus::WARN, format!("{halved} of the last {steps} steps had to be split"))
+        (
+            DiagnosticStatus::WARN,
+            format!("{halved} of the last {steps} steps had to be split"),
+        )
     } else if status.energy_error_ratio > DOUBTFUL_ENERGY && status.energy_error.abs() > LITTLE_WORK {
-        (DiagnosticStatus::WARN, format!("the energy balance is off by {:.1} % of the drive's work", 100.0 * status.energy_error_ratio))
+        (
+            DiagnosticStatus::WARN,
+            format!(
+                "the energy balance is off by {:.1} % of the drive's work",
+                100.0 * status.energy_error_ratio
+            ),
+        )
     } else {
         (DiagnosticStatus::OK, "converging".to_owned())
     };
@@ -152,7 +164,10 @@ fn solver(status: &TwinStatus, previous: &TwinStatus, evidence: &Evidence) -> Ju
         level,
         message,
         values: vec![
-            ("newton_iterations_mean", format!("{:.2}", status.newton_iterations_mean)),
+            (
+                "newton_iterations_mean",
+                format!("{:.2}", status.newton_iterations_mean),
+            ),
             ("rejected_steps", status.rejected_steps.to_string()),
             ("halved_steps", status.halved_steps.to_string()),
             ("failed_steps", status.failed_steps.to_string()),
@@ -176,7 +191,10 @@ pub fn describe(failure: &StepFailure) -> String {
         crate::mechanics::Body::Pipe => "pipe",
         crate::mechanics::Body::Guide => "guide pipe",
     };
-    format!("{cause} (station {} of the {body}, worst value {:.3e}, sub-step {:.3e} s)", failure.station, failure.value, failure.step)
+    format!(
+        "{cause} (station {} of the {body}, worst value {:.3e}, sub-step {:.3e} s)",
+        failure.station, failure.value, failure.step
+    )
 }
 
 fn inputs(status: &TwinStatus) -> Judgement {
@@ -186,24 +204,49 @@ fn inputs(status: &TwinStatus) -> Judgement {
         TwinStatus::INPUT_STALE => DiagnosticStatus::ERROR,
         _ => DiagnosticStatus::WARN,
     };
-    let level = status.input_state.iter().map(|state| level_of(*state)).max().unwrap_or(DiagnosticStatus::OK);
+    let level = status
+        .input_state
+        .iter()
+        .map(|state| level_of(*state))
+        .max()
+        .unwrap_or(DiagnosticStatus::OK);
     let word = |state: u8| words.get(usize::from(state)).copied().unwrap_or("unknown");
-    let said: Vec<String> =
-        status.input_name.iter().zip(&status.input_state).map(|(name, state)| format!("{name} {}", word(*state))).collect();
+    let said: Vec<String> = status
+        .input_name
+        .iter()
+        .zip(&status.input_state)
+        .map(|(name, state)| format!("{name} {}", word(*state)))
+        .collect();
     let mut values = Vec::new();
     for index in 0..status.input_name.len() {
         let get = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);
         let rejected = status.input_rejected.get(index).copied().unwrap_or_default();
         let (received, applied) = (get(&status.input_received), get(&status.input_applied));
         let shown = if index == 0 {
-            format!("received {:.2} r/min, applied {:.2} r/min", rad_per_s_to_rpm(received), rad_per_s_to_rpm(applied))
+            format!(
+                "received {:.2} r/min, applied {:.2} r/min",
+                rad_per_s_to_rpm(received),
+                rad_per_s_to_rpm(applied)
+            )
         } else {
-            format!("received {:.2} kN, applied {:.2} kN", n_to_kn(received), n_to_kn(applied))
+            format!(
+                "received {:.2} kN, applied {:.2} kN",
+                n_to_kn(received),
+                n_to_kn(applied)
+            )
         };
         let key = if index == 0 { "rotary_speed" } else { "weight_on_bit" };
-        values.push((key, format!("{shown}, age {:.2} s, {rejected} refused", get(&status.input_age))));
+        values.push((
+            key,
+            format!("{shown}, age {:.2} s, {rejected} refused", get(&status.input_age)),
+        ));
     }
-    Judgement { name: "inputs", level, message: said.join(", "), values }
+    Judgement {
+        name: "inputs",
+        level,
+        message: said.join(", "),
+        values,
+    }
 }
 
 fn whirl(evidence: &Evidence) -> Judgement {
@@ -228,10 +271,17 @@ fn whirl(evidence: &Evidence) -> Judgement {
 fn recording(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
     let lost = status.recording_drops.saturating_sub(previous.recording_drops);
     let (level, message) = match status.recording_state {
-        TwinStatus::RECORDING_FAILED => {
-            (DiagnosticStatus::ERROR, format!("the recording to {} stopped on an error; the twin goes on", status.recording_path))
-        }
-        TwinStatus::RECORDING_ON if lost > 0 => (DiagnosticStatus::WARN, format!("{lost} messages lost: the disk is too slow")),
+        TwinStatus::RECORDING_FAILED => (
+            DiagnosticStatus::ERROR,
+            format!(
+                "the recording to {} stopped on an error; the twin goes on",
+                status.recording_path
+            ),
+        ),
+        TwinStatus::RECORDING_ON if lost > 0 => (
+            DiagnosticStatus::WARN,
+            format!("{lost} messages lost: the disk is too slow"),
+        ),
         TwinStatus::RECORDING_ON => (DiagnosticStatus::OK, format!("recording to {}", status.recording_path)),
         _ => (DiagnosticStatus::OK, "not recording".to_owned()),
     };
@@ -277,7 +327,10 @@ mod tests {
         let mut diagnostics = Diagnostics::default();
         let evidence = Evidence::default();
         assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 0);
-        let late = TwinStatus { real_time_factor: 0.5, ..running() };
+        let late = TwinStatus {
+            real_time_factor: 0.5,
+            ..running()
+        };
         assert_eq!(level(&diagnostics.judge("n", &late, &evidence), "pacing"), 2);
         assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 2);
         assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 2);
@@ -294,8 +347,18 @@ mod tests {
             body: crate::mechanics::Body::Guide,
             value: 3.0,
         };
-        let evidence = Evidence { failure: Some(failure), ..Evidence::default() };
-        let items = Diagnostics::default().judge("n", &TwinStatus { state: TwinStatus::FAILED, ..running() }, &evidence);
+        let evidence = Evidence {
+            failure: Some(failure),
+            ..Evidence::default()
+        };
+        let items = Diagnostics::default().judge(
+            "n",
+            &TwinStatus {
+                state: TwinStatus::FAILED,
+                ..running()
+            },
+            &evidence,
+        );
         let solver = items.iter().find(|item| item.name == "n: solver").unwrap();
         assert_eq!(solver.level, DiagnosticStatus::ERROR);
         for part in ["station 42", "guide pipe", "did not converge", "~/reset"] {
@@ -305,7 +368,10 @@ mod tests {
 
     #[test]
     fn the_worse_input_counts() {
-        let stale = TwinStatus { input_state: vec![TwinStatus::INPUT_OK, TwinStatus::INPUT_STALE], ..running() };
+        let stale = TwinStatus {
+            input_state: vec![TwinStatus::INPUT_OK, TwinStatus::INPUT_STALE],
+            ..running()
+        };
         let items = Diagnostics::default().judge("n", &stale, &Evidence::default());
         assert_eq!(level(&items, "inputs"), DiagnosticStatus::ERROR);
         assert!(items.iter().any(|item| item.message.contains("weight_on_bit stale")));

@@ -32,7 +32,9 @@ impl StepTimes {
     /// # Errors
     /// None with these bounds; the histogram's own error otherwise.
     pub fn new() -> Result<Self, hdrhistogram::CreationError> {
-        Ok(Self { histogram: Histogram::new_with_bounds(1, LONGEST_STEP, 3)? })
+        Ok(Self {
+            histogram: Histogram::new_with_bounds(1, LONGEST_STEP, 3)?,
+        })
     }
 
     /// Counts a step (ns).
@@ -100,7 +102,11 @@ mod tests {
         let mut factor = RealTimeFactor::default();
         assert_eq!(factor.update(start, 0.0), 0.0);
         for tenth in 1..=20 {
-            let gained = if tenth <= 10 { 0.1 * f64::from(tenth) } else { 1.0 + 0.05 * f64::from(tenth - 10) };
+            let gained = if tenth <= 10 {
+                0.1 * f64::from(tenth)
+            } else {
+                1.0 + 0.05 * f64::from(tenth - 10)
+            };
             let value = factor.update(start + Duration::from_millis(100 * tenth as u64), gained);
             if tenth == 10 {
                 assert!((value - 1.0).abs() < 1e-9);

@@ -201,7 +201,7 @@ impl<C: Clock, M: Model> Solver<C, M> {
                 ..next
             } == told
         });
-        if same && !next.reset {
+        if same && !next.reset && !self.changed {
             return;
         }
         if next.reset {

@@ -1,0 +1,245 @@
+//! From a frame to the messages that are due, in the order in which they are published. The node and a replay both
+//! use this, so that they give the same bytes.
+
+use super::fill::{self, ShapeStyle};
+use super::std_msgs::Header;
+use super::topics::{self, TopicInfo};
+use super::{
+    AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, SessionInfo, WhirlState, WhirlWarning,
+    builtin_interfaces::Time, sensor_msgs::JointState, to_cdr_into, visualization_msgs::MarkerArray,
+};
+use crate::config::Config;
+use crate::twin::{Frame, Output, RunInputs, Schedule, Timeline};
+
+/// A message ready to be sent and recorded.
+#[derive(Debug, Clone, Copy)]
+pub struct Encoded<'a> {
+    /// Where it belongs.
+    pub topic: &'static TopicInfo,
+    /// Instant on the rig's clock (ns since 1970).
+    pub stamp: i64,
+    /// CDR with its header of four bytes.
+    pub cdr: &'a [u8],
+}
+
+/// A parameter changed while running, that [`AppliedInputs`] has no field for.
+pub type ParameterChange = (String, f64);
+
+/// Makes messages, keeping their memory.
+pub struct Outputs {
+    timeline: Timeline,
+    style: ShapeStyle,
+    header: Header,
+    bytes: Vec<u8>,
+    joint_deflections: JointDeflections,
+    joint_states: JointState,
+    contact_forces: ContactForces,
+    bit_state: BitState,
+    whirl: WhirlState,
+    warning: WhirlWarning,
+    tool_shape: MarkerArray,
+    /// Sequence of the warning that was sent last.
+    warned: Option<u64>,
+}
+
+/// The publishing schedule of a configuration.
+pub fn schedule(config: &Config) -> Schedule {
+    let rates = &config.outputs.rates;
+    Schedule::new(config.solver.time_step, |output| match output {
+        Output::JointDeflections => rates.joint_deflections,
+        Output::JointStates => rates.joint_states,
+        Output::ContactForces => rates.contact_forces,
+        Output::BitState => rates.bit_state,
+        Output::Whirl => rates.whirl,
+        Output::ToolShape => rates.tool_shape,
+    })
+}
+
+impl Outputs {
+    /// For a run that began at `start` (ns since 1970, on the rig's clock).
+    pub fn new(config: &Config, start: i64) -> Self {
+        Self {
+            timeline: Timeline {
+                start,
+                time_step: config.solver.time_step,
+            },
+            style: ShapeStyle::new(config.outputs.exaggeration),
+            header: Header {
+                frame_id: config.outputs.frame_id.clone(),
+                ..Header::default()
+            },
+            bytes: Vec::new(),
+            joint_deflections: JointDeflections::default(),
+            joint_states: JointState::default(),
+            contact_forces: ContactForces::default(),
+            bit_state: BitState::default(),
+            whirl: WhirlState::default(),
+            warning: WhirlWarning::default(),
+            tool_shape: MarkerArray::default(),
+            warned: None,
+        }
+    }
+
+    /// Takes over what of a changed configuration concerns the messages themselves.
+    pub fn reconfigure(&mut self, config: &Config) {
+        self.style = ShapeStyle::new(config.outputs.exaggeration);
+    }
+
+    /// The header of a message at an instant of the run.
+    pub fn header_at(&mut self, ticks: u64) -> Header {
+        self.header.stamp = Time::from_nanoseconds(self.timeline.at(ticks));
+        self.header.clone()
+    }
+
+    /// The instant of so many ticks (ns since 1970).
+    pub fn instant(&self, ticks: u64) -> i64 {
+        self.timeline.at(ticks)
+    }
+
+    /// Sends what is due of a frame. A whirl warning is sent when its level has changed, and at the start.
+    ///
+    /// # Errors
+    /// When a message cannot be encoded, or what `send` says.
+    pub fn frame<E: From<CdrError>>(
+        &mut self,
+        frame: &Frame,
+        mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let header = self.header_at(frame.ticks);
+        let stamp = self.timeline.at(frame.ticks);
+        let snapshot = &frame.snapshot;
+        for output in frame.due.iter() {
+            let topic = match output {
+                Output::JointDeflections => {
+                    fill::joint_deflections(snapshot, &header, &mut self.joint_deflections);
+                    to_cdr_into(&self.joint_deflections, &mut self.bytes)?;
+                    &topics::JOINT_DEFLECTIONS
+                }
+                Output::JointStates => {
+                    fill::joint_state(snapshot, &header, &mut self.joint_states);
+                    to_cdr_into(&self.joint_states, &mut self.bytes)?;
+                    &topics::JOINT_STATES
+                }
+                Output::ContactForces => {
+                    fill::contact_forces(snapshot, &header, &mut self.contact_forces);
+                    to_cdr_into(&self.contact_forces, &mut self.bytes)?;
+                    &topics::CONTACT_FORCES
+                }
+                Output::BitState => {
+                    fill::bit_state(snapshot, &header, &mut self.bit_state);
+                    to_cdr_into(&self.bit_state, &mut self.bytes)?;
+                    &topics::BIT_STATE
+                }
+                Output::Whirl => {
+                    fill::whirl_state(snapshot, &header, &mut self.whirl);
+                    to_cdr_into(&self.whirl, &mut self.bytes)?;
+                    &topics::WHIRL
+                }
+                Output::ToolShape => {
+                    fill::tool_shape(snapshot, &header, &self.style, &mut self.tool_shape);
+                    to_cdr_into(&self.tool_shape, &mut self.bytes)?;
+                    &topics::TOOL_SHAPE
+                }
+            };
+            send(Encoded {
+                topic,
+                stamp,
+                cdr: &self.bytes,
+            })?;
+        }
+        if snapshot.step == 0 || self.warned != Some(snapshot.warning.sequence) {
+            self.warned = Some(snapshot.warning.sequence);
+            fill::whirl_warning(snapshot, &header, frame.input_quality, &mut self.warning);
+            to_cdr_into(&self.warning, &mut self.bytes)?;
+            send(Encoded {
+                topic: &topics::WHIRL_WARNINGS,
+                stamp,
+                cdr: &self.bytes,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Sends what drives the run from `ticks` on.
+    ///
+    /// # Errors
+    /// As [`Outputs::frame`].
+    pub fn applied<E: From<CdrError>>(
+        &mut self,
+        inputs: &RunInputs,
+        changes: &[ParameterChange],
+        ticks: u64,
+        mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let message = AppliedInputs {
+            header: self.header_at(ticks),
+            step: inputs.step,
+            skipped_steps: inputs.skipped,
+            reset: inputs.reset,
+            rotary_speed: inputs.inputs.rotary_speed,
+            weight_on_bit: inputs.inputs.weight_on_bit,
+            input_quality: inputs.input_quality,
+            rotary_speed_slew: inputs.slew[0],
+            weight_on_bit_slew: inputs.slew[1],
+            inner_friction: inputs.live.inner_friction,
+            outer_friction: inputs.live.outer_friction,
+            bit_friction_factor: inputs.live.bit_friction_factor,
+            parameter_name: changes.iter().map(|(name, _)| name.clone()).collect(),
+            parameter_value: changes.iter().map(|(_, value)| *value).collect(),
+        };
+        to_cdr_into(&message, &mut self.bytes)?;
+        send(Encoded {
+            topic: &topics::APPLIED_INPUTS,
+            stamp: self.timeline.at(ticks),
+            cdr: &self.bytes,
+        })
+    }
+
+    /// Sends what the run is made with.
+    ///
+    /// # Errors
+    /// As [`Outputs::frame`].
+    pub fn session<E: From<CdrError>>(
+        &mut self,
+        config_hash: &str,
+        configuration: &str,
+        mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let header = self.header_at(0);
+        let message = SessionInfo {
+            start: header.stamp.clone(),
+            header,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            config_hash: config_hash.to_owned(),
+            time_step: self.timeline.time_step,
+            configuration: configuration.to_owned(),
+        };
+        to_cdr_into(&message, &mut self.bytes)?;
+        send(Encoded {
+            topic: &topics::SESSION,
+            stamp: self.timeline.at(0),
+            cdr: &self.bytes,
+        })
+    }
+}
+
+/// The drive of a run as a recorded message tells it; `schedule` is what the message leaves to the configuration.
+pub fn run_inputs(message: &AppliedInputs, schedule: Schedule) -> RunInputs {
+    RunInputs {
+        step: message.step,
+        skipped: message.skipped_steps,
+        reset: message.reset,
+        inputs: crate::twin::Inputs {
+            rotary_speed: message.rotary_speed,
+            weight_on_bit: message.weight_on_bit,
+        },
+        slew: [message.rotary_speed_slew, message.weight_on_bit_slew],
+        live: crate::mechanics::LiveParameters {
+            inner_friction: message.inner_friction,
+            outer_friction: message.outer_friction,
+            bit_friction_factor: message.bit_friction_factor,
+        },
+        input_quality: message.input_quality,
+        schedule,
+    }
+}
