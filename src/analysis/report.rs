@@ -6,6 +6,7 @@ use crate::mechanics::Body;
 
 /// Kinds of whirl, in the words of D-WIS. The discriminants are those of the messages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[repr(u8)]
 pub enum WhirlKind {
     /// No orbit worth the name.
@@ -21,6 +22,7 @@ pub enum WhirlKind {
 
 /// How bad.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[repr(u8)]
 pub enum Severity {
     /// Nothing to do.
@@ -60,7 +62,7 @@ pub struct WhirlReport {
 }
 
 /// State of the warning logic.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct WhirlWarningLevel {
     /// Level.
     pub severity: Severity,

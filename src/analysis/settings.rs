@@ -1,58 +1,139 @@
-//! What the whirl analysis and its warnings are told, SI. The reasons for the default numbers stand in
-//! `config/default.yaml`.
+//! Settings of the analysis: plain numbers in SI with their reasons.
 
 use serde::{Deserialize, Serialize};
 
-/// Settings of the whirl analysis.
+use super::Severity;
+
+/// How whirl is found and judged.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WhirlSettings {
-    /// Length of the sliding window (s).
-    pub window: f64,
-    /// Samples of the motion per second (Hz).
-    pub sample_rate: f64,
-    /// Which places are watched.
-    pub watched: Watched,
-    /// Below this rotary speed nothing is called whirl (rad/s).
-    pub gate_speed: f64,
-    /// Orbits whose RMS radius is below this part of the clearance are not called whirl.
+    /// Length of the long window in turns of the tool. Four turns hold one turn of a whirl at a quarter of the tool's
+    /// speed, the slowest that is told apart from a drift.
+    pub window_turns: f64,
+    /// Shortest long window (s), for fast tools.
+    pub min_window: f64,
+    /// Longest long window (s), for slow or standing tools. Sets the memory: one record per sample and place.
+    pub max_window: f64,
+    /// Length of the short window in turns of the strongest whirl line. It follows a change of direction within two
+    /// whirl turns: the new direction leads once it fills more than half of the window. Shorter windows take chance for
+    /// whirl: at 1.6 turns one broad-band motion in ten is misnamed, at 2 one in twenty.
+    pub short_window_turns: f64,
+    /// Time between two evaluations of the same place (s). Places take turns, so that the cost is spread over the
+    /// samples.
+    pub evaluation_interval: f64,
+    /// Evaluations in a row that must agree before the kind changes.
+    pub confirmations: u32,
+    /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 0.5
+    /// rad/s is 5 r/min.
+    pub min_rotary_speed: f64,
+    /// RMS orbit radius over clearance from which a motion counts as an orbit. Below a tenth of the clearance the
+    /// motion is that of a pipe at rest on a wall with a trembling contact.
     pub min_orbit_ratio: f64,
-    /// A large orbit whose direction is less certain than this (0 to 1) is chaotic.
-    pub min_confidence: f64,
-    /// A level is left only when its quantities are below threshold x (1 - hysteresis).
+    /// Minor over major axis below which the motion is a line, not an orbit. A pipe that rocks along the low side by
+    /// 50 degrees to each side draws an arc of 0.23.
+    pub min_axis_ratio: f64,
+    /// Share of direction, (forward - backward) / (forward + backward) line power of the orbit stretched to a circle,
+    /// from which the direction is steady. 1 is a pure whirl, 0 has no direction. Broad-band motion over four turns
+    /// scatters by about 0.2 around 0.
+    pub steady_direction: f64,
+    /// Part of a threshold by which a value must fall below it to count as left, 0 to 1.
     pub hysteresis: f64,
-    /// And have been there for this long (s).
+    /// Longest gap between samples that is bridged by straight lines (s); after a longer one the window starts anew.
+    pub max_bridged_gap: f64,
+    /// Confidence from which a place may raise the level.
+    pub min_confidence: f64,
+    /// Relative difference to the rate of rolling without slip, `- spin * d / (D - d)`, within which backward whirl
+    /// counts as rolling. Rolling loads the pipe with bending at several times its turning rate, so it raises the
+    /// level by one step when it is in contact.
+    pub rolling_tolerance: f64,
+    /// Highest level that forward whirl reaches by itself: it wears one side but bends the pipe little per turn.
+    pub forward_limit: Severity,
+    /// First level.
+    pub watch: LevelThresholds,
+    /// Second level.
+    pub warning: LevelThresholds,
+    /// Third level.
+    pub critical: LevelThresholds,
+    /// Time for which a level is held after its conditions have gone (s).
     pub hold_off: f64,
-    /// When to watch.
-    pub watch: WhirlThresholds,
-    /// When to warn.
-    pub warning: WhirlThresholds,
-    /// When it is critical.
-    pub critical: WhirlThresholds,
+    /// Time for which CRITICAL stands at least (s), so that a person sees it; a value longer
+    /// than any run means until acknowledged.
+    pub latch: f64,
 }
 
-/// A level is reached when `duration` long either there is whirl with both `clearance_ratio` and `contact_duty`
-/// exceeded, or the contact force exceeds `force`.
+/// When a place reaches a level: whirl of any kind and *all* of these for `duration`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WhirlThresholds {
+pub struct LevelThresholds {
     /// Largest distance from the gap's centre over the clearance.
     pub clearance_ratio: f64,
-    /// Part of the window in contact, 0 to 1.
+    /// Part of the time in contact, 0 to 1.
     pub contact_duty: f64,
-    /// Peak normal contact force (N).
+    /// Peak normal force in the window (N).
     pub force: f64,
-    /// How long (s).
+    /// s.
     pub duration: f64,
 }
 
-/// Which places are watched, on both pipes.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Watched {
-    /// The stations of the joints.
-    #[default]
-    Joints,
-    /// Every station.
-    All,
-    /// These stations, 0-based from the top.
-    Stations(Vec<usize>),
+impl Default for WhirlSettings {
+    fn default() -> Self {
+        Self {
+            window_turns: 4.0,
+            min_window: 0.5,
+            max_window: 6.0,
+            short_window_turns: 2.0,
+            evaluation_interval: 0.05,
+            confirmations: 2,
+            min_rotary_speed: 0.5,
+            min_orbit_ratio: 0.1,
+            min_axis_ratio: 0.25,
+            steady_direction: 0.6,
+            hysteresis: 0.15,
+            max_bridged_gap: 0.1,
+            min_confidence: 0.5,
+            rolling_tolerance: 0.15,
+            forward_limit: Severity::Warning,
+            // Whirl that reaches half of the clearance, for one turn at 40 r/min.
+            watch: LevelThresholds {
+                clearance_ratio: 0.5,
+                contact_duty: 0.0,
+                force: 0.0,
+                duration: 1.5,
+            },
+            // It strikes: a quarter of the effective force at the paper's worst place (20 kN), for two turns.
+            warning: LevelThresholds {
+                clearance_ratio: 0.95,
+                contact_duty: 0.1,
+                force: 5e3,
+                duration: 3.0,
+            },
+            // The effective force of the paper's worst place itself.
+            critical: LevelThresholds {
+                clearance_ratio: 1.0,
+                contact_duty: 0.3,
+                force: 20e3,
+                duration: 3.0,
+            },
+            hold_off: 5.0,
+            latch: 30.0,
+        }
+    }
+}
+
+/// How the stick-slip index is formed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct StickSlipSettings {
+    /// s. Two turns at 40 r/min hold four periods of the joints' ripple.
+    pub window: f64,
+    /// Mean bit speed below which the index is 0 (rad/s): near standstill the quotient means nothing. A quarter of 40
+    /// r/min.
+    pub gate_speed: f64,
+}
+
+impl Default for StickSlipSettings {
+    fn default() -> Self {
+        Self {
+            window: 3.0,
+            gate_speed: 1.05,
+        }
+    }
 }

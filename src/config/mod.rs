@@ -50,7 +50,7 @@ pub use solver::Solver;
 pub use start::{Initial, Start};
 pub use tool::{Bit, Damping, Joint, Material, Tool};
 pub use well::{Section, Well};
-pub use whirl::{Level, Levels, Whirl};
+pub use whirl::{Level, Levels, Watched, Whirl};
 
 use crate::analysis::WhirlSettings;
 use crate::inputs::units::{kn_to_n, rpm_to_rad_per_s};

@@ -4,47 +4,73 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use super::place::Mesh;
-use crate::analysis::{Watched, WhirlSettings, WhirlThresholds};
-use crate::inputs::units::{kn_to_n, rpm_to_rad_per_s};
+use crate::analysis::{LevelThresholds, Severity, WhirlSettings};
+use crate::inputs::units::{kn_to_n, n_to_kn, rpm_to_rad_per_s};
 
 /// Whirl analysis and warnings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Whirl {
-    /// Length of the sliding window (s). Default 3: two turns at 40 r/min.
-    pub window: f64,
-    /// Samples of the motion per second (Hz). Default 200.
+    /// Length of the sliding window in turns of the tool. Default 4.
+    pub window_turns: f64,
+    /// Longest window, for a slow or standing tool (s). Default 6: four turns at 40 r/min.
+    pub max_window: f64,
+    /// Samples of the motion per second (Hz). Default 250.
     pub sample_rate: f64,
     /// `joints`, `all` or `{stations: [5, 10]}`. Default joints, where contact is.
     pub watched: Watched,
-    /// Below this rotary speed nothing is called whirl. Default 5.
+    /// Below this rotary speed the tool counts as standing and no ratio is given. Default 5.
     pub gate_speed_rpm: f64,
     /// RMS orbit radius over clearance below which nothing is called whirl. Default 0.1.
     pub min_orbit_ratio: f64,
-    /// Below this certainty of direction a large orbit is called chaotic. Default 0.5.
+    /// Part of direction, 0 to 1, from which an orbit is forward or backward and below which it is chaotic. Default 0.6.
+    pub steady_direction: f64,
+    /// Below this confidence nothing raises a level. Default 0.5.
     pub min_confidence: f64,
-    /// A level is left below threshold x (1 - hysteresis). Default 0.1.
+    /// A level is left below threshold x (1 - hysteresis). Default 0.15.
     pub hysteresis: f64,
     /// And after this long there (s). Default 5.
     pub hold_off: f64,
-    /// When to watch.
+    /// Time for which `critical` stands at least (s). Default 30.
+    pub latch: f64,
+    /// Highest level of forward whirl: ok, watch, warning or critical. Default warning.
+    pub forward_limit: Severity,
+    /// When to watch, warn and call critical.
     pub levels: Levels,
 }
 
 impl Default for Whirl {
     fn default() -> Self {
+        let settings = WhirlSettings::default();
         Self {
-            window: 3.0,
-            sample_rate: 200.0,
+            window_turns: settings.window_turns,
+            max_window: settings.max_window,
+            sample_rate: 250.0,
             watched: Watched::Joints,
             gate_speed_rpm: 5.0,
-            min_orbit_ratio: 0.1,
-            min_confidence: 0.5,
-            hysteresis: 0.1,
-            hold_off: 5.0,
+            min_orbit_ratio: settings.min_orbit_ratio,
+            steady_direction: settings.steady_direction,
+            min_confidence: settings.min_confidence,
+            hysteresis: settings.hysteresis,
+            hold_off: settings.hold_off,
+            latch: settings.latch,
+            forward_limit: settings.forward_limit,
             levels: Levels::default(),
         }
     }
+}
+
+/// Which places are watched, on both pipes.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Watched {
+    /// The stations of the joints.
+    #[default]
+    Joints,
+    /// Every station.
+    All,
+    /// These stations, 0-based from the top.
+    Stations(Vec<usize>),
 }
 
 /// Thresholds of the three levels.
@@ -59,7 +85,7 @@ pub struct Levels {
     pub critical: Level,
 }
 
-/// A level is reached when, for `duration`, there is whirl with both ratios exceeded, or the force is exceeded.
+/// A level is reached when, for `duration`, there is whirl with both ratios and the force reached.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Level {
@@ -75,24 +101,38 @@ pub struct Level {
 
 impl Default for Levels {
     fn default() -> Self {
-        let level = |clearance_ratio, contact_duty, force_kn, duration| Level {
-            clearance_ratio,
-            contact_duty,
-            force_kn,
-            duration,
-        };
+        let settings = WhirlSettings::default();
         Self {
-            watch: level(0.8, 0.1, 2.0, 1.0),
-            warning: level(0.95, 0.4, 5.0, 2.0),
-            critical: level(1.0, 0.7, 20.0, 2.0),
+            watch: settings.watch.into(),
+            warning: settings.warning.into(),
+            critical: settings.critical.into(),
+        }
+    }
+}
+
+impl From<LevelThresholds> for Level {
+    fn from(thresholds: LevelThresholds) -> Self {
+        Self {
+            clearance_ratio: thresholds.clearance_ratio,
+            contact_duty: thresholds.contact_duty,
+            force_kn: n_to_kn(thresholds.force),
+            duration: thresholds.duration,
         }
     }
 }
 
 impl Whirl {
     pub(super) fn check(&self, c: &mut Checker, mesh: &Mesh) {
-        let reason = "shorter than a tenth of a turn shows no direction; longer than a minute warns too late";
-        c.number("window", self.window, Bound::within(0.1, 60.0), "s", reason);
+        let reason = "a window must hold a turn of the whirl";
+        c.number(
+            "window_turns",
+            self.window_turns,
+            Bound::within(1.0, 100.0),
+            "turns",
+            reason,
+        );
+        let reason = "shorter than half a second shows no direction; longer than a minute warns too late";
+        c.number("max_window", self.max_window, Bound::within(0.5, 60.0), "s", reason);
         let reason = "an orbit needs some 20 samples per turn";
         c.number(
             "sample_rate",
@@ -129,6 +169,13 @@ impl Whirl {
             reason,
         );
         c.number(
+            "steady_direction",
+            self.steady_direction,
+            Bound::within(0.1, 1.0),
+            "",
+            "broad-band motion scatters by 0.2",
+        );
+        c.number(
             "min_confidence",
             self.min_confidence,
             Bound::within(0.0, 1.0),
@@ -138,22 +185,26 @@ impl Whirl {
         let reason = "at 1 a level would never be left";
         c.number("hysteresis", self.hysteresis, Bound::within(0.0, 0.9), "", reason);
         c.number("hold_off", self.hold_off, Bound::within(0.0, 3600.0), "s", "an hour");
+        c.number("latch", self.latch, Bound::within(0.0, 1e9), "s", "");
         c.below("levels", |c| self.levels.check(c));
     }
 
     pub(super) fn describe(&self) -> WhirlSettings {
         WhirlSettings {
-            window: self.window,
-            sample_rate: self.sample_rate,
-            watched: self.watched.clone(),
-            gate_speed: rpm_to_rad_per_s(self.gate_speed_rpm),
+            window_turns: self.window_turns,
+            max_window: self.max_window,
+            min_rotary_speed: rpm_to_rad_per_s(self.gate_speed_rpm),
             min_orbit_ratio: self.min_orbit_ratio,
+            steady_direction: self.steady_direction,
             min_confidence: self.min_confidence,
             hysteresis: self.hysteresis,
             hold_off: self.hold_off,
+            latch: self.latch,
+            forward_limit: self.forward_limit,
             watch: self.levels.watch.describe(),
             warning: self.levels.warning.describe(),
             critical: self.levels.critical.describe(),
+            ..WhirlSettings::default()
         }
     }
 }
@@ -178,7 +229,7 @@ impl Levels {
                     ("force_kn", lower.force_kn, higher.force_kn, "kN"),
                 ] {
                     let bound = format!("at least that of the level below, {low}");
-                    c.require(!(high < low), name, high, unit, bound, "levels rise");
+                    c.require(low <= high || high.is_nan(), name, high, unit, bound, "levels rise");
                 }
             });
         }
@@ -202,8 +253,13 @@ impl Level {
             "",
             "a part of the window",
         );
-        let reason = "0 would always warn";
-        c.number("force_kn", self.force_kn, Bound::above(0.0, 1e4), "kN", reason);
+        c.number(
+            "force_kn",
+            self.force_kn,
+            Bound::within(0.0, 1e4),
+            "kN",
+            "0 asks for none",
+        );
         c.number(
             "duration",
             self.duration,
@@ -213,8 +269,8 @@ impl Level {
         );
     }
 
-    fn describe(&self) -> WhirlThresholds {
-        WhirlThresholds {
+    fn describe(&self) -> LevelThresholds {
+        LevelThresholds {
             clearance_ratio: self.clearance_ratio,
             contact_duty: self.contact_duty,
             force: kn_to_n(self.force_kn),

@@ -1,0 +1,224 @@
+//! From whirl, reach and contact to a level, with duration, hysteresis, hold-off and latch.
+
+use serde::{Deserialize, Serialize};
+
+use super::settings::{LevelThresholds, WhirlSettings};
+use super::{Severity, WhirlKind};
+
+/// What a level is judged by, at one place.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Evidence {
+    pub(super) kind: WhirlKind,
+    pub(super) clearance_ratio: f64,
+    pub(super) contact_duty: f64,
+    /// N.
+    pub(super) peak_force: f64,
+    pub(super) confidence: f64,
+    /// Backward at the rate of rolling without slip.
+    pub(super) rolling: bool,
+}
+
+/// The level of one place.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct PlaceSeverity {
+    pub(super) level: Severity,
+    /// How long the conditions of WATCH, WARNING and CRITICAL have been met (s).
+    met_for: [f64; 3],
+    /// How long those of the present level have not (s).
+    unmet_for: f64,
+    /// Model time until which CRITICAL is latched (s).
+    latched_until: f64,
+}
+
+const LEVELS: [Severity; 3] = [Severity::Watch, Severity::Warning, Severity::Critical];
+
+impl PlaceSeverity {
+    /// Takes the evidence at model time `time` (s), `elapsed` (s) after the one before.
+    pub(super) fn update(&mut self, time: f64, elapsed: f64, evidence: &Evidence, settings: &WhirlSettings) {
+        let mut raised = Severity::Ok;
+        let mut held = Severity::Ok;
+        for (index, level) in LEVELS.into_iter().enumerate() {
+            let stands = self.level >= level;
+            let factor = if stands { 1.0 - settings.hysteresis } else { 1.0 };
+            let met = meets(level, evidence, factor, settings);
+            let met_for = if met { self.met_for[index] + elapsed } else { 0.0 };
+            self.met_for[index] = met_for;
+            if met && stands {
+                held = level;
+            }
+            if met_for > 0.0 && met_for >= thresholds(level, settings).duration {
+                raised = level;
+            }
+        }
+        if raised > self.level {
+            if raised == Severity::Critical {
+                self.latched_until = time + settings.latch;
+            }
+            self.level = raised;
+            self.unmet_for = 0.0;
+        } else if held >= self.level {
+            self.unmet_for = 0.0;
+        } else {
+            self.unmet_for += elapsed;
+            let latched = self.level == Severity::Critical && time < self.latched_until;
+            if self.unmet_for >= settings.hold_off && !latched {
+                self.level = held;
+                self.unmet_for = 0.0;
+            }
+        }
+    }
+
+    /// Ends the latch.
+    pub(super) fn acknowledge(&mut self) {
+        self.latched_until = 0.0;
+    }
+}
+
+fn thresholds(level: Severity, settings: &WhirlSettings) -> &LevelThresholds {
+    match level {
+        Severity::Ok | Severity::Watch => &settings.watch,
+        Severity::Warning => &settings.warning,
+        Severity::Critical => &settings.critical,
+    }
+}
+
+fn meets(level: Severity, evidence: &Evidence, factor: f64, settings: &WhirlSettings) -> bool {
+    if evidence.kind == WhirlKind::None || evidence.confidence < settings.min_confidence * factor {
+        return false;
+    }
+    if evidence.kind == WhirlKind::Forward && level > settings.forward_limit {
+        return false;
+    }
+    let within = |thresholds: &LevelThresholds| {
+        evidence.clearance_ratio >= thresholds.clearance_ratio * factor
+            && evidence.contact_duty >= thresholds.contact_duty * factor
+            && evidence.peak_force >= thresholds.force * factor
+    };
+    let one_below = match level {
+        Severity::Critical => &settings.warning,
+        _ => &settings.watch,
+    };
+    within(thresholds(level, settings))
+        || (evidence.rolling && evidence.contact_duty >= settings.warning.contact_duty * factor && within(one_below))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEP: f64 = 0.1;
+
+    fn strong() -> Evidence {
+        Evidence {
+            kind: WhirlKind::Backward,
+            clearance_ratio: 1.1,
+            contact_duty: 0.8,
+            peak_force: 30e3,
+            confidence: 0.9,
+            rolling: false,
+        }
+    }
+
+    /// Level after each evaluation.
+    fn run(place: &mut PlaceSeverity, from: f64, evidence: &[Evidence]) -> Vec<Severity> {
+        let settings = WhirlSettings::default();
+        evidence
+            .iter()
+            .enumerate()
+            .map(|(index, evidence)| {
+                place.update(from + index as f64 * STEP, STEP, evidence, &settings);
+                place.level
+            })
+            .collect()
+    }
+
+    #[test]
+    fn levels_need_their_duration() {
+        let levels = run(&mut PlaceSeverity::default(), 0.0, &[strong(); 40]);
+        let first = |level| levels.iter().position(|&got| got >= level);
+        assert_eq!(
+            (first(Severity::Watch), first(Severity::Critical)),
+            (Some(14), Some(29))
+        );
+    }
+
+    #[test]
+    fn critical_is_latched_then_falls_after_the_hold_off() {
+        let mut place = PlaceSeverity::default();
+        run(&mut place, 0.0, &[strong(); 40]);
+        let calm = [Evidence::default(); 400];
+        let levels = run(&mut place, 4.0, &calm);
+        let end = levels
+            .iter()
+            .position(|&level| level < Severity::Critical)
+            .map(|index| 4.0 + index as f64 * STEP);
+        assert!(end.is_some_and(|end| (end - 32.9).abs() < 0.2), "{end:?}");
+        let mut acknowledged = PlaceSeverity::default();
+        run(&mut acknowledged, 0.0, &[strong(); 40]);
+        acknowledged.acknowledge();
+        let end = run(&mut acknowledged, 4.0, &calm)
+            .iter()
+            .position(|&level| level < Severity::Critical);
+        assert!(end.is_some_and(|end| (48..=51).contains(&end)), "{end:?}");
+    }
+
+    #[test]
+    fn no_flapping_at_a_threshold() {
+        let mut place = PlaceSeverity::default();
+        let wavering: Vec<_> = (0..3000)
+            .map(|index| Evidence {
+                clearance_ratio: 0.5 + 0.04 * (index as f64 * 0.37).sin(),
+                peak_force: 0.0,
+                ..strong()
+            })
+            .collect();
+        let settled = [Evidence {
+            clearance_ratio: 0.52,
+            peak_force: 0.0,
+            ..strong()
+        }; 30];
+        run(&mut place, 0.0, &settled);
+        assert!(
+            run(&mut place, 3.0, &wavering)
+                .iter()
+                .all(|&level| level == Severity::Watch)
+        );
+    }
+
+    #[test]
+    fn forward_whirl_stops_at_its_limit_and_rolling_counts_one_more() {
+        let forward = Evidence {
+            kind: WhirlKind::Forward,
+            ..strong()
+        };
+        assert_eq!(
+            run(&mut PlaceSeverity::default(), 0.0, &[forward; 60])[59],
+            Severity::Warning
+        );
+        let light = Evidence {
+            peak_force: 500.0,
+            ..strong()
+        };
+        assert_eq!(
+            run(&mut PlaceSeverity::default(), 0.0, &[light; 60])[59],
+            Severity::Watch
+        );
+        let rolling = Evidence { rolling: true, ..light };
+        assert_eq!(
+            run(&mut PlaceSeverity::default(), 0.0, &[rolling; 60])[59],
+            Severity::Warning
+        );
+    }
+
+    #[test]
+    fn doubtful_evidence_raises_nothing() {
+        let doubtful = Evidence {
+            confidence: 0.3,
+            ..strong()
+        };
+        assert_eq!(
+            run(&mut PlaceSeverity::default(), 0.0, &[doubtful; 60])[59],
+            Severity::Ok
+        );
+    }
+}
