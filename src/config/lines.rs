@@ -81,6 +81,17 @@ impl Lines {
         }
     }
 
+    /// Whether `key` is written in the file.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.place(key).is_some()
+    }
+
+    /// Line and column of `key`.
+    pub(super) fn place(&self, key: &str) -> Option<(u64, u64)> {
+        let entry = self.entries.iter().find(|entry| entry.key == key)?;
+        Some((entry.line, entry.column))
+    }
+
     /// The last key that begins at or before a place in the file; empty if none.
     pub(super) fn key_at(&self, line: u64, column: u64) -> &str {
         self.entries

@@ -20,6 +20,7 @@ mod loads;
 mod outputs;
 mod pipe;
 mod place;
+mod reading;
 mod run;
 mod solver;
 mod start;
@@ -127,9 +128,9 @@ impl Config {
     /// When the file cannot be read, is not YAML of this schema, or does not make sense.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigError> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|source| ConfigError::Read {
+        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Read {
             path: path.to_path_buf(),
-            source,
+            reason,
         })?;
         Self::from_text(&path.display().to_string(), &text)
     }
@@ -140,16 +141,7 @@ impl Config {
     /// When the text is not YAML of this schema, or does not make sense.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
         let lines = Lines::of(text);
-        let schema = serde_saphyr::from_str(text).map_err(|error| {
-            let (line, column) = error.location().map_or((0, 0), |place| (place.line(), place.column()));
-            ConfigError::Syntax {
-                file: name.to_string(),
-                line,
-                column,
-                key: lines.key_at(line, column).to_string(),
-                message: plain_message(&error),
-            }
-        })?;
+        let schema = serde_saphyr::from_str(text).map_err(|error| reading::syntax_error(name, text, &lines, &error))?;
         Self::checked(name, &lines, schema)
     }
 
@@ -343,11 +335,4 @@ impl Schema {
         c.below("whirl", |c| self.whirl.check(c, &mesh));
         c.below("outputs", |c| self.outputs.check(c));
     }
-}
-
-/// The reader's message without its snippet and place, which [`ConfigError::Syntax`] says in its own way.
-fn plain_message(error: &serde_saphyr::Error) -> String {
-    let text = error.without_snippet().to_string();
-    let end = text.find(" at line ").unwrap_or(text.len());
-    text[..end].trim_end_matches([',', ':', ' ']).to_string()
 }
