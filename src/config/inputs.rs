@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
+use crate::inputs::{InputRule, InputRules};
 
 /// Both inputs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -191,4 +192,35 @@ fn check_ages(c: &mut Checker, slow_age: f64, max_age: f64, hold_before_safe: f6
         "s",
         reason,
     );
+}
+
+impl InputsConfig {
+    /// For the door.
+    pub fn rules(&self) -> InputRules {
+        let (speed, weight) = (&self.rotary_speed, &self.weight_on_bit);
+        [
+            InputRule {
+                min: speed.min_rpm,
+                max: speed.max_rpm,
+                tare_error: 0.0,
+                initial: speed.initial_rpm,
+                safe: speed.safe_rpm,
+                safe_ramp: speed.safe_ramp_rpm_per_s,
+                slow_age: speed.slow_age,
+                max_age: speed.max_age,
+                hold_before_safe: speed.hold_before_safe,
+            },
+            InputRule {
+                min: weight.min_kn,
+                max: weight.max_kn,
+                tare_error: weight.tare_error_kn,
+                initial: weight.initial_kn,
+                safe: weight.safe_kn,
+                safe_ramp: weight.safe_ramp_kn_per_s,
+                slow_age: weight.slow_age,
+                max_age: weight.max_age,
+                hold_before_safe: weight.hold_before_safe,
+            },
+        ]
+    }
 }

@@ -1,0 +1,92 @@
+//! Why a sample was refused.
+
+use std::fmt;
+
+use super::InputKind;
+
+/// A sample that was refused. Its `Display` is a sentence with topic, value, bound and unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rejection {
+    /// Of which input.
+    pub kind: InputKind,
+    /// As received (r/min or kN).
+    pub value: f64,
+    /// When it was received (s, the caller's clock).
+    pub time: f64,
+    /// Why.
+    pub reason: RejectionReason,
+}
+
+/// Why a sample was refused. Bounds are in the unit of the sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RejectionReason {
+    /// NaN or infinite.
+    NotFinite,
+    /// Negative, and by more than an imperfect tare explains.
+    Negative {
+        /// How far below zero is still taken as zero.
+        tare_error: f64,
+    },
+    /// Below the smallest allowed value.
+    BelowMinimum {
+        /// Smallest allowed.
+        min: f64,
+    },
+    /// Above the largest allowed value.
+    AboveMaximum {
+        /// Largest allowed.
+        max: f64,
+    },
+    /// Its time is before that of the sample accepted last.
+    TimeBackwards {
+        /// By how much (s).
+        by: f64,
+    },
+}
+
+impl RejectionReason {
+    /// Number of reasons.
+    pub const COUNT: usize = 5;
+
+    /// Names of the reasons by [`RejectionReason::index`].
+    pub const NAMES: [&'static str; Self::COUNT] = [
+        "not_finite",
+        "negative",
+        "below_minimum",
+        "above_maximum",
+        "time_backwards",
+    ];
+
+    /// Place in an array of counts.
+    pub const fn index(&self) -> usize {
+        match self {
+            Self::NotFinite => 0,
+            Self::Negative { .. } => 1,
+            Self::BelowMinimum { .. } => 2,
+            Self::AboveMaximum { .. } => 3,
+            Self::TimeBackwards { .. } => 4,
+        }
+    }
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, unit) = (self.kind.name(), self.kind.unit());
+        write!(f, "{}: {} {unit} refused: ", self.kind.topic(), self.value)?;
+        match self.reason {
+            RejectionReason::NotFinite => write!(f, "not a finite number"),
+            RejectionReason::Negative { tare_error } => write!(
+                f,
+                "negative by more than the tare error of {tare_error} {unit} (inputs.{name}); tare the sensor"
+            ),
+            RejectionReason::BelowMinimum { min } => write!(f, "below the minimum of {min} {unit} (inputs.{name})"),
+            RejectionReason::AboveMaximum { max } => write!(f, "above the maximum of {max} {unit} (inputs.{name})"),
+            RejectionReason::TimeBackwards { by } => {
+                write!(f, "its time is {by} s before that of the last good sample")
+            }
+        }?;
+        write!(f, "; the last good value is held")
+    }
+}
+
+impl std::error::Error for Rejection {}

@@ -1,0 +1,27 @@
+//! What is allowed of an input, in the unit of its samples.
+
+/// Limits, start value and ages of one input. Values in the unit of the samples (r/min or kN), times in s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InputRule {
+    /// Smallest value taken.
+    pub min: f64,
+    /// Largest value taken.
+    pub max: f64,
+    /// A value this little below zero counts as zero.
+    pub tare_error: f64,
+    /// Acts until the first sample.
+    pub initial: f64,
+    /// Brought to when the input stays stale.
+    pub safe: f64,
+    /// How fast it is brought there, per s.
+    pub safe_ramp: f64,
+    /// Age from which the input is SLOW.
+    pub slow_age: f64,
+    /// Age from which it is STALE.
+    pub max_age: f64,
+    /// How long a stale value is held.
+    pub hold_before_safe: f64,
+}
+
+/// The rules of both inputs, in the order of [`super::InputKind::ALL`].
+pub type InputRules = [InputRule; 2];

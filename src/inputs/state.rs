@@ -1,0 +1,58 @@
+//! How an input is.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// State of an input; the discriminants are those of the messages' `INPUT_` constants.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+#[repr(u8)]
+pub enum InputState {
+    /// No sample yet: the configured start value acts.
+    #[default]
+    NotReceived = 0,
+    /// Fresh.
+    Ok = 1,
+    /// Later than expected, not yet stale.
+    Slow = 2,
+    /// Too old: held, then brought to the safe value.
+    Stale = 3,
+    /// The newest sample was refused, the last good one is held (and ages).
+    Rejected = 4,
+}
+
+impl InputState {
+    /// The word of the interface: `OK`, `STALE`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NotReceived => "NOT_RECEIVED",
+            Self::Ok => "OK",
+            Self::Slow => "SLOW",
+            Self::Stale => "STALE",
+            Self::Rejected => "REJECTED",
+        }
+    }
+
+    /// How bad, for choosing the worse of two: OK, SLOW, REJECTED, NOT_RECEIVED, STALE.
+    pub const fn badness(self) -> u8 {
+        match self {
+            Self::Ok => 0,
+            Self::Slow => 1,
+            Self::Rejected => 2,
+            Self::NotReceived => 3,
+            Self::Stale => 4,
+        }
+    }
+
+    /// The worse of two.
+    pub fn worse(self, other: Self) -> Self {
+        if other.badness() > self.badness() { other } else { self }
+    }
+}
+
+impl fmt::Display for InputState {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
