@@ -1,7 +1,43 @@
 //! The paper's mechanics: pure numbers in, pure numbers out. Nothing here knows of files, clocks, logs or middleware.
+//!
+//! | file | paper |
+//! |---|---|
+//! | [`well`], [`model`] | Fig. 2, 4; geometry and numbering |
+//! | [`section`], [`beam`] | Eq. 2 to 10 |
+//! | [`joint`], [`rotation`], [`jet`] | Eq. 11 to 18 |
+//! | [`gap`] | Eq. 20 to 34, Table 2 |
+//! | [`conditions`] | Eq. 1, loads |
+//! | [`assembly`] | Eq. 35, 40 to 42 |
+//! | [`newmark`], [`newton`], [`stepper`] | Eq. 36 to 44 |
+//! | [`statics`] | the start |
+//! | [`energy`] | the audit |
+//! | [`linear`] | the solvers |
 
+pub mod assembly;
+pub mod beam;
+pub mod conditions;
 pub mod description;
+pub mod energy;
+pub mod gap;
+pub mod jet;
+pub mod joint;
+pub mod linear;
+pub mod model;
+pub mod newmark;
+pub mod newton;
 mod outcome;
+pub mod rotation;
+pub mod section;
+pub mod state;
+pub mod statics;
+pub mod stepper;
+pub mod well;
 
 pub use description::*;
+pub use model::{Model, ModelError};
+pub use newmark::Newmark;
+pub use newton::Tolerances;
 pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
+pub use state::State;
+pub use statics::StartError;
+pub use stepper::{Counters, Forcing, SolverKind, Stepper};

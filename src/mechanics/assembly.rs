@@ -1,0 +1,442 @@
+//! Residual and tangent of the whole tool, Eq. 35 and 40 to 42.
+//!
+//! The residual is internal + inertia + constraint forces - external forces, so Newton solves K_T dq = -R. Evaluating
+//! the residual keeps the linearised joints and contacts; [`Assembler::tangent`] assembles from them.
+
+use nalgebra::{Matrix3, Matrix6, Vector2};
+
+use super::beam::ElementMatrix;
+use super::conditions::Conditions;
+use super::description::Direction;
+use super::gap::{GapMatrix, GapVector, Touch, regularised_sign};
+use super::joint::{Joint, JointMatrix, JointVector, Row, Stop};
+use super::linear::BlockSystem;
+use super::model::{Model, Station};
+use super::state::{State, guide_element, joint_rotations, node, pipe_element, translation};
+
+/// Factors of the tangent k K + d C + m M: (1, gamma/(beta h), 1/(beta h^2)) in a Newmark step, Eq. 41; (0, 0, 1) to find
+/// accelerations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TangentFactors {
+    /// On stiffness-like terms.
+    pub stiffness: f64,
+    /// On damping-like terms (1/s).
+    pub damping: f64,
+    /// On the mass (1/s2).
+    pub mass: f64,
+}
+
+/// A joint linearised at the last residual.
+#[derive(Debug, Clone, Copy)]
+pub struct JointLinearisation {
+    /// Rotational rows.
+    pub rows: [Row; 2],
+    /// Limit stop.
+    pub stop: Stop,
+}
+
+/// Residual, tangent and the linearised parts they are made of.
+pub struct Assembler {
+    /// Internal less external force per unknown.
+    pub residual: Vec<f64>,
+    /// Tangent.
+    pub system: BlockSystem,
+    /// Touching pipe-guide gaps, per station.
+    pub inner: Vec<Option<Touch>>,
+    /// Touching guide-wall gaps, per station.
+    pub outer: Vec<Option<Touch>>,
+    /// Joints.
+    pub joints: Vec<JointLinearisation>,
+    /// Torque of the rock on the bit at the last residual (N m), against the rotation.
+    pub bit_torque: f64,
+    /// d bit torque / d bit speed.
+    bit_torque_slope: f64,
+    /// Elastic, damping and inertia part of the tangent for `base_for`.
+    base: BlockSystem,
+    base_for: Option<(TangentFactors, f64, f64)>,
+}
+
+impl Assembler {
+    /// Room for `model`.
+    pub fn new(model: &Model) -> Self {
+        let system = BlockSystem::new(model.layout.clone());
+        let q = JointVector::zeros();
+        let joints = model
+            .joints
+            .iter()
+            .map(|j| JointLinearisation {
+                rows: j.rows(&q),
+                stop: j.stop(&q, &q),
+            })
+            .collect();
+        Self {
+            residual: vec![0.0; model.unknowns()],
+            base: system.clone(),
+            base_for: None,
+            system,
+            inner: vec![None; model.stations.len()],
+            outer: vec![None; model.stations.len()],
+            joints,
+            bit_torque: 0.0,
+            bit_torque_slope: 0.0,
+        }
+    }
+
+    /// Evaluates the residual at `state`; entries of held, driven and padding unknowns are zero.
+    pub fn residual(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        self.residual.fill(0.0);
+        self.elements(model, state, conditions);
+        for point in &model.masses {
+            for k in 0..3 {
+                let u = point.unknown + k;
+                let acceleration = state.a[u] + conditions.rayleigh.alpha * state.v[u] - point.gravity[k];
+                self.residual[u] += point.mass * acceleration;
+            }
+        }
+        self.gaps(model, state, conditions);
+        self.joint_forces(model, state);
+        let bottom = &model.stations[model.last()];
+        if let Some(tie) = model.tie {
+            let scale = model.force_scale;
+            self.residual[bottom.pipe_above] += scale * state.q[tie];
+            self.residual[bottom.guide] -= scale * state.q[tie];
+            self.residual[tie] = scale * (state.q[bottom.pipe_above] - state.q[bottom.guide]);
+        }
+        self.residual[bottom.guide] += conditions.weight_on_bit;
+        let spin = bottom.pipe_above + Direction::Psi as usize;
+        let (sign, slope) = regularised_sign(state.v[spin], conditions.bit_slip_rate);
+        self.bit_torque = conditions.bit_torque * sign;
+        self.bit_torque_slope = conditions.bit_torque * slope;
+        self.residual[spin] += self.bit_torque;
+        for load in &model.loads {
+            self.residual[load.unknown] -= load.load.history.at(conditions.time);
+        }
+    }
+
+    /// Sets the residual of unknowns without an equation to zero. Reactions are read before this.
+    pub fn drop_reactions(&mut self, model: &Model) {
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            self.residual[unknown] = 0.0;
+        }
+    }
+
+    fn elements(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
+        for (e, element) in model.pipe.iter().enumerate() {
+            let q = pipe_element(model, e, &state.q);
+            let v = pipe_element(model, e, &state.v);
+            let a = pipe_element(model, e, &state.a);
+            let beam = &element.beam;
+            let f = beam.stiffness_times(&(q + v * beta))
+                + beam.mass_times(&(a + v * alpha))
+                + beam.geometric_times(&q) * state.pipe_axial[e]
+                - element.weight;
+            self.scatter(model.stations[e].pipe_below, &f.as_slice()[..6]);
+            self.scatter(model.stations[e + 1].pipe_above, &f.as_slice()[6..]);
+        }
+        for (e, element) in model.guide.iter().enumerate() {
+            let q = element.to_chord(&guide_element(model, e, &state.q));
+            let v = element.to_chord(&guide_element(model, e, &state.v));
+            let a = element.to_chord(&guide_element(model, e, &state.a));
+            let beam = &element.beam;
+            let f = beam.stiffness_times(&(q + v * beta))
+                + beam.mass_times(&(a + v * alpha))
+                + beam.geometric_times(&q) * state.guide_axial[e];
+            let f = element.from_chord(&f) - element.weight;
+            self.scatter(model.stations[e].guide, &f.as_slice()[..6]);
+            self.scatter(model.stations[e + 1].guide, &f.as_slice()[6..]);
+        }
+    }
+
+    #[inline]
+    fn scatter(&mut self, first: usize, force: &[f64]) {
+        for (r, f) in self.residual[first..first + 6].iter_mut().zip(force) {
+            *r += f;
+        }
+    }
+
+    fn gaps(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        for (s, station) in model.stations.iter().enumerate() {
+            let lateral = inner_lateral(station, state);
+            self.inner[s] = None;
+            if lateral.norm_squared() > station.inner_clearance * station.inner_clearance {
+                let velocity = inner_velocity(model, station, state);
+                self.inner[s] = conditions.inner.touch(lateral, station.inner_clearance, &velocity);
+            }
+            let lateral = Vector2::new(state.q[station.guide + 1], state.q[station.guide + 2]);
+            self.outer[s] = None;
+            if lateral.norm_squared() > model.outer_clearance * model.outer_clearance {
+                let velocity = outer_velocity(model, station, state);
+                self.outer[s] = conditions.outer.touch(lateral, model.outer_clearance, &velocity);
+            }
+            if let Some(touch) = self.inner[s] {
+                let force = touch.normal_force + touch.friction_force;
+                let (on_pipe, on_guide) = inner_forces(model, station, &force);
+                self.scatter(station.pipe_above, (-on_pipe).as_slice());
+                self.scatter(station.guide, (-on_guide).as_slice());
+            }
+            if let Some(touch) = self.outer[s] {
+                let force = touch.normal_force + touch.friction_force;
+                self.scatter(station.guide, (-outer_force(model, &force)).as_slice());
+            }
+        }
+    }
+
+    fn joint_forces(&mut self, model: &Model, state: &State) {
+        for (j, joint) in model.joints.iter().enumerate() {
+            let station = &model.stations[model.joint_stations[j]];
+            let (a, b, first) = (station.pipe_above, station.pipe_below, model.multipliers(j));
+            let scale = model.force_scale;
+            let lambda = translation(&state.q, first) * scale;
+            let (on_a, on_b) = (joint.upper.tr_mul(&lambda), joint.lower.tr_mul(&lambda));
+            let open = joint.upper * translation(&state.q, a) - joint.lower * translation(&state.q, b);
+            for k in 0..3 {
+                self.residual[a + k] += on_a[k];
+                self.residual[b + k] -= on_b[k];
+                self.residual[first + k] = scale * open[k];
+            }
+            let q = joint_rotations(model, j, &state.q);
+            let rate = joint_rotations(model, j, &state.v);
+            let rows = joint.rows(&q);
+            let stop = joint.stop(&q, &rate);
+            let mut moment = stop.force;
+            for (r, row) in rows.iter().take(Joint::rotational_rows(joint.kind)).enumerate() {
+                let multiplier = first + 3 + r;
+                moment += row.gradient * (model.moment_scale * state.q[multiplier]);
+                self.residual[multiplier] = model.moment_scale * row.value;
+            }
+            for k in 0..3 {
+                self.residual[a + 3 + k] += moment[k];
+                self.residual[b + 3 + k] += moment[3 + k];
+            }
+            self.joints[j] = JointLinearisation { rows, stop };
+        }
+    }
+
+    /// Assembles the tangent from the parts linearised by the last [`Assembler::residual`] at `state`.
+    pub fn tangent(&mut self, model: &Model, state: &State, conditions: &Conditions, factors: TangentFactors) {
+        let key = (factors, conditions.rayleigh.alpha, conditions.rayleigh.beta);
+        if self.base_for != Some(key) {
+            self.build_base(model, conditions, factors);
+            self.base_for = Some(key);
+        }
+        self.system.copy_from(&self.base);
+        if factors.stiffness != 0.0 {
+            self.geometric_tangent(model, state, factors.stiffness);
+        }
+        self.gap_tangent(model, factors);
+        self.joint_tangent(model, state, factors);
+        // The bit's node is the first of the last station's block.
+        let spin = Direction::Psi as usize;
+        self.system
+            .add(model.last(), spin, spin, factors.damping * self.bit_torque_slope);
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            self.system.hold(unknown);
+        }
+    }
+
+    fn build_base(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
+        let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
+        let elastic = factors.stiffness + factors.damping * beta;
+        let inertial = factors.mass + factors.damping * alpha;
+        self.base.clear();
+        for (e, element) in model.pipe.iter().enumerate() {
+            let m = element.beam.stiffness() * elastic + element.beam.mass() * inertial;
+            add_pipe_element(&mut self.base, model, e, &m);
+        }
+        for (e, element) in model.guide.iter().enumerate() {
+            add_guide_element(
+                &mut self.base,
+                e,
+                &(element.stiffness * elastic + element.mass * inertial),
+            );
+        }
+        for point in &model.masses {
+            let station = model.layout.station_of(point.unknown);
+            let local = point.unknown - model.layout.offset(station);
+            for k in 0..3 {
+                self.base.add(station, local + k, local + k, point.mass * inertial);
+            }
+        }
+        for (j, joint) in model.joints.iter().enumerate() {
+            let station = model.joint_stations[j];
+            let upper = joint.upper * model.force_scale;
+            let lower = joint.lower * -model.force_scale;
+            self.base.add_block(station, 18, 0, &upper);
+            self.base.add_block(station, 18, 12, &lower);
+            self.base.add_block(station, 0, 18, &upper.transpose());
+            self.base.add_block(station, 12, 18, &lower.transpose());
+        }
+        if model.tied {
+            let (last, scale) = (model.last(), model.force_scale);
+            for (row, column, sign) in [(0, 18, 1.0), (6, 18, -1.0), (18, 0, 1.0), (18, 6, -1.0)] {
+                self.base.add(last, row, column, sign * scale);
+            }
+        }
+    }
+
+    fn geometric_tangent(&mut self, model: &Model, state: &State, factor: f64) {
+        let mut at = (f64::NAN, ElementMatrix::zeros());
+        for (e, element) in model.pipe.iter().enumerate() {
+            if at.0 != element.beam.length {
+                at = (element.beam.length, element.beam.geometric());
+            }
+            add_pipe_element(&mut self.system, model, e, &(at.1 * (factor * state.pipe_axial[e])));
+        }
+        for (e, element) in model.guide.iter().enumerate() {
+            add_guide_element(
+                &mut self.system,
+                e,
+                &(element.geometric * (factor * state.guide_axial[e])),
+            );
+        }
+    }
+
+    fn gap_tangent(&mut self, model: &Model, factors: TangentFactors) {
+        for (s, station) in model.stations.iter().enumerate() {
+            if let Some(touch) = &self.inner[s] {
+                let local = -(touch.by_displacement * factors.stiffness + touch.by_velocity * factors.damping);
+                let (pp, pg, gp, gg) = inner_tangent(model, station, &local);
+                self.system.add_block(s, 0, 0, &pp);
+                self.system.add_block(s, 0, 6, &pg);
+                self.system.add_block(s, 6, 0, &gp);
+                self.system.add_block(s, 6, 6, &gg);
+            }
+            if let Some(touch) = &self.outer[s] {
+                let local = -(touch.by_displacement * factors.stiffness + touch.by_velocity * factors.damping);
+                self.system
+                    .add_block(s, 6, 6, &scaled(&local, model.guide_radii[1], model.guide_radii[1]));
+            }
+        }
+    }
+
+    fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+        for (j, joint) in model.joints.iter().enumerate() {
+            let (station, first) = (model.joint_stations[j], model.multipliers(j));
+            let JointLinearisation { rows, stop } = &self.joints[j];
+            let mut m: JointMatrix = stop.stiffness * factors.stiffness + stop.damping * factors.damping;
+            for (r, row) in rows.iter().take(Joint::rotational_rows(joint.kind)).enumerate() {
+                m += row.hessian * (factors.stiffness * model.moment_scale * state.q[first + 3 + r]);
+                let gradient = row.gradient * model.moment_scale;
+                for k in 0..3 {
+                    for (side, g) in [(3, gradient[k]), (15, gradient[3 + k])] {
+                        self.system.add(station, 21 + r, side + k, g);
+                        self.system.add(station, side + k, 21 + r, g);
+                    }
+                }
+            }
+            for (i, row) in [3, 15].into_iter().enumerate() {
+                for (k, column) in [3, 15].into_iter().enumerate() {
+                    let part = m.fixed_view::<3, 3>(3 * i, 3 * k).into_owned();
+                    self.system.add_block(station, row, column, &part);
+                }
+            }
+        }
+    }
+}
+
+/// Lateral position (y, z) of the pipe relative to the guide, offset included (m).
+pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
+    let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
+    station.offset + Vector2::new(pipe.y - state.q[station.guide + 1], pipe.z - state.q[station.guide + 2])
+}
+
+/// Local velocity of the inner gap.
+fn inner_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
+    let pipe = node(&state.v, station.pipe_above);
+    let guide = node(&state.v, station.guide);
+    let mut local = GapVector::zeros();
+    local
+        .fixed_rows_mut::<3>(0)
+        .copy_from(&(station.pipe_to_station * pipe.fixed_rows::<3>(0) - guide.fixed_rows::<3>(0)));
+    local
+        .fixed_rows_mut::<3>(3)
+        .copy_from(&(pipe.fixed_rows::<3>(3) * station.pipe_radius - guide.fixed_rows::<3>(3) * model.guide_radii[0]));
+    local
+}
+
+/// Local velocity of the outer gap.
+fn outer_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
+    let mut local = node(&state.v, station.guide);
+    local.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[1]);
+    local
+}
+
+/// Forces on the pipe node and the guide node from the local force of the inner gap.
+pub fn inner_forces(model: &Model, station: &Station, force: &GapVector) -> (GapVector, GapVector) {
+    let mut pipe = *force;
+    let turned = station.pipe_to_station.tr_mul(&force.fixed_rows::<3>(0));
+    pipe.fixed_rows_mut::<3>(0).copy_from(&turned);
+    pipe.fixed_rows_mut::<3>(3).scale_mut(station.pipe_radius);
+    let mut guide = -force;
+    guide.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[0]);
+    (pipe, guide)
+}
+
+/// Force on the guide node from the local force of the outer gap.
+pub fn outer_force(model: &Model, force: &GapVector) -> GapVector {
+    let mut guide = *force;
+    guide.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[1]);
+    guide
+}
+
+type Tangents = (Matrix6<f64>, Matrix6<f64>, Matrix6<f64>, Matrix6<f64>);
+
+/// J^T T J of the inner gap for (pipe, pipe), (pipe, guide), (guide, pipe), (guide, guide).
+fn inner_tangent(model: &Model, station: &Station, local: &GapMatrix) -> Tangents {
+    let (rp, rg) = (station.pipe_radius, model.guide_radii[0]);
+    let p = &station.pipe_to_station;
+    let (pp, pg, gp, gg) = (
+        scaled(local, rp, rp),
+        -scaled(local, rp, rg),
+        -scaled(local, rg, rp),
+        scaled(local, rg, rg),
+    );
+    (
+        turn_columns(&turn_rows(&pp, p), p),
+        turn_rows(&pg, p),
+        turn_columns(&gp, p),
+        gg,
+    )
+}
+
+/// Rows and columns of the rotations times their radii.
+fn scaled(local: &GapMatrix, row_radius: f64, column_radius: f64) -> Matrix6<f64> {
+    let mut m = *local;
+    m.fixed_rows_mut::<3>(3).scale_mut(row_radius);
+    m.fixed_columns_mut::<3>(3).scale_mut(column_radius);
+    m
+}
+
+fn turn_rows(m: &Matrix6<f64>, p: &Matrix3<f64>) -> Matrix6<f64> {
+    let mut out = *m;
+    out.fixed_rows_mut::<3>(0)
+        .copy_from(&(p.transpose() * m.fixed_rows::<3>(0)));
+    out
+}
+
+fn turn_columns(m: &Matrix6<f64>, p: &Matrix3<f64>) -> Matrix6<f64> {
+    let mut out = *m;
+    out.fixed_columns_mut::<3>(0).copy_from(&(m.fixed_columns::<3>(0) * p));
+    out
+}
+
+fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize, m: &ElementMatrix) {
+    let first = if model.stations[e].joint.is_some() { 12 } else { 0 };
+    add_element(system, e, first, 0, m);
+}
+
+fn add_guide_element(system: &mut BlockSystem, e: usize, m: &ElementMatrix) {
+    add_element(system, e, 6, 6, m);
+}
+
+/// Adds an element between local node `first` of station e and local node `second` of station e + 1; the pipe's couplings are the
+/// first six rows and columns of the coupling blocks, the guide's the last six.
+fn add_element(system: &mut BlockSystem, e: usize, first: usize, second: usize, m: &ElementMatrix) {
+    system.add_block(e, first, first, &m.fixed_view::<6, 6>(0, 0).into_owned());
+    system.add_block(e + 1, second, second, &m.fixed_view::<6, 6>(6, 6).into_owned());
+    let mut upper = system.upper[e].fixed_view_mut::<6, 6>(second, second);
+    upper += m.fixed_view::<6, 6>(0, 6);
+    let mut lower = system.lower[e].fixed_view_mut::<6, 6>(second, second);
+    lower += m.fixed_view::<6, 6>(6, 0);
+}

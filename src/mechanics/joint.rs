@@ -1,0 +1,216 @@
+//! Joints between links, Eq. 11 to 16: constraint rows with exact gradients and Hessians, and the one-sided limit stop.
+//!
+//! Rotational coordinates of a joint are (psi_a, phi_y_a, phi_z_a, psi_b, phi_y_b, phi_z_b): `a` is the end of the link
+//! above, `b` the start of the link below, each in its own link's frame.
+
+use nalgebra::{Matrix3, SMatrix, SVector};
+
+use super::description::{JointDescription, JointKind};
+use super::rotation::{DirectionJet, shaft_axis, transverse_axis, value};
+
+/// Values of the six rotational coordinates of a joint, or forces on them.
+pub type JointVector = SVector<f64, 6>;
+/// Second derivatives in the six rotational coordinates.
+pub type JointMatrix = SMatrix<f64, 6, 6>;
+
+/// A scalar function of the joint's rotations.
+#[derive(Debug, Clone, Copy)]
+pub struct Row {
+    /// Value; zero where a constraint holds.
+    pub value: f64,
+    /// First derivatives.
+    pub gradient: JointVector,
+    /// Second derivatives.
+    pub hessian: JointMatrix,
+}
+
+/// One joint.
+#[derive(Debug, Clone, Copy)]
+pub struct Joint {
+    /// Kind of rows.
+    pub kind: JointKind,
+    /// Frame of the link above, columns in the world.
+    pub upper: Matrix3<f64>,
+    /// Frame of the link below.
+    pub lower: Matrix3<f64>,
+    /// Turn of the cross about the shaft (rad).
+    pub phase: f64,
+    /// Bend angle at which the stop begins (rad).
+    pub limit: f64,
+    /// N m/rad.
+    pub stop_stiffness: f64,
+    /// s/rad.
+    pub stop_damping: f64,
+    /// E_a^T E_b.
+    relative: Matrix3<f64>,
+}
+
+/// The stop's moment with what it takes to assemble it.
+#[derive(Debug, Clone, Copy)]
+pub struct Stop {
+    /// Bend angle (rad).
+    pub angle: f64,
+    /// Moment (N m, >= 0), 0 inside the limit.
+    pub moment: f64,
+    /// Force on the six rotations that the joint must balance: moment times d angle / d q.
+    pub force: JointVector,
+    /// d force / d rotations.
+    pub stiffness: JointMatrix,
+    /// d force / d rotation rates.
+    pub damping: JointMatrix,
+    /// Energy in the stop's spring (J).
+    pub energy: f64,
+    /// Power taken by the stop's damping (W).
+    pub dissipation: f64,
+}
+
+impl Joint {
+    /// Joint number `index` (0-based from the top) between links with the given frames.
+    pub fn new(description: &JointDescription, index: usize, upper: Matrix3<f64>, lower: Matrix3<f64>) -> Self {
+        Self {
+            kind: description.kind,
+            upper,
+            lower,
+            phase: description.cross_phase + description.cross_phase_step * index as f64,
+            limit: description.limit,
+            stop_stiffness: description.stop_stiffness,
+            stop_damping: description.stop_damping,
+            relative: upper.transpose() * lower,
+        }
+    }
+
+    /// Number of rotational rows beside the three translational ones.
+    pub fn rotational_rows(kind: JointKind) -> usize {
+        match kind {
+            JointKind::Universal | JointKind::BallCage => 1,
+            JointKind::Revolute => 2,
+        }
+    }
+
+    /// Whether the bend angle is limited by the stop.
+    pub fn has_stop(&self) -> bool {
+        self.kind != JointKind::Revolute
+    }
+
+    /// The rotational rows of Eq. 13; the second is used by [`JointKind::Revolute`] only.
+    pub fn rows(&self, q: &JointVector) -> [Row; 2] {
+        match self.kind {
+            JointKind::Universal => [self.cross_row(q), Row::zero()],
+            JointKind::BallCage => [equal_spin_row(q), Row::zero()],
+            JointKind::Revolute => [self.cross_row(q), self.hinge_row(q)],
+        }
+    }
+
+    /// a_z(a) . a_y(b) = 0: the two arms of the cross stay normal to each other.
+    fn cross_row(&self, q: &JointVector) -> Row {
+        let a_z = transverse_axis(q[0], q[1], q[2], self.phase + std::f64::consts::FRAC_PI_2);
+        let a_y = transverse_axis(q[3], q[4], q[5], self.phase);
+        Row::bilinear(&a_z, &self.relative, &a_y)
+    }
+
+    /// a_z(a) . a_x(b) - cos(theta) = 0 with theta = 90 degrees.
+    fn hinge_row(&self, q: &JointVector) -> Row {
+        let a_z = transverse_axis(q[0], q[1], q[2], self.phase + std::f64::consts::FRAC_PI_2);
+        let a_x = shaft_axis(q[4], q[5]);
+        Row::bilinear(&a_z, &self.relative, &a_x)
+    }
+
+    /// Angle between the two links' axes at the joint (rad, >= 0).
+    pub fn bend_angle(&self, q: &JointVector) -> f64 {
+        let upper = value(&shaft_axis(q[1], q[2]));
+        let lower = self.relative * value(&shaft_axis(q[4], q[5]));
+        upper.cross(&lower).norm().atan2(upper.dot(&lower))
+    }
+
+    /// Toolface of the bend (rad, -pi to pi): direction in which the lower link turns away from the upper one, from the
+    /// high side clockwise looking down the hole.
+    pub fn bend_toolface(&self, q: &JointVector) -> f64 {
+        let away = self.relative * value(&shaft_axis(q[4], q[5])) - value(&shaft_axis(q[1], q[2]));
+        away.y.atan2(-away.z)
+    }
+
+    /// The stop at rotations `q` and rates `rate`: M = k (angle - limit)(1 + c angle') >= 0, continuous at onset.
+    pub fn stop(&self, q: &JointVector, rate: &JointVector) -> Stop {
+        let angle = self.bend_angle(q);
+        let over = angle - self.limit;
+        let mut stop = Stop {
+            angle,
+            moment: 0.0,
+            force: JointVector::zeros(),
+            stiffness: JointMatrix::zeros(),
+            damping: JointMatrix::zeros(),
+            energy: 0.0,
+            dissipation: 0.0,
+        };
+        if !self.has_stop() || over <= 0.0 {
+            return stop;
+        }
+        stop.energy = 0.5 * self.stop_stiffness * over * over;
+        // cos(angle) is smooth in the rotations; the angle follows from it by the chain rule.
+        let cosine = Row::bilinear(&shaft_axis(q[1], q[2]), &self.relative, &shaft_axis(q[4], q[5]));
+        let (sin, cos) = angle.sin_cos();
+        let gradient = -cosine.gradient / sin;
+        let hessian = -cosine.hessian / sin - gradient * gradient.transpose() * (cos / sin);
+        let angle_rate = gradient.dot(rate);
+        let viscous = 1.0 + self.stop_damping * angle_rate;
+        let spring = self.stop_stiffness * over;
+        if viscous <= 0.0 {
+            // Opening faster than the law can push: no moment, the spring's energy goes into its damping.
+            stop.dissipation = -spring * angle_rate;
+            return stop;
+        }
+        stop.moment = spring * viscous;
+        stop.force = gradient * stop.moment;
+        let by_rate = spring * self.stop_damping;
+        stop.stiffness = gradient * (gradient * (self.stop_stiffness * viscous) + hessian * rate * by_rate).transpose()
+            + hessian * stop.moment;
+        stop.damping = gradient * gradient.transpose() * by_rate;
+        stop.dissipation = by_rate * angle_rate * angle_rate;
+        stop
+    }
+}
+
+/// psi_a - psi_b = 0: a constant-velocity joint.
+fn equal_spin_row(q: &JointVector) -> Row {
+    let mut row = Row::zero();
+    row.value = q[0] - q[3];
+    row.gradient[0] = 1.0;
+    row.gradient[3] = -1.0;
+    row
+}
+
+impl Row {
+    fn zero() -> Self {
+        Self {
+            value: 0.0,
+            gradient: JointVector::zeros(),
+            hessian: JointMatrix::zeros(),
+        }
+    }
+
+    /// d_a . (Q d_b) of a direction above and one below.
+    fn bilinear(above: &DirectionJet, relative: &Matrix3<f64>, below: &DirectionJet) -> Self {
+        let mut row = Self::zero();
+        for (i, a) in above.iter().enumerate() {
+            for (j, b) in below.iter().enumerate() {
+                let r = relative[(i, j)];
+                if r == 0.0 {
+                    continue;
+                }
+                row.value += r * a.value * b.value;
+                for k in 0..3 {
+                    row.gradient[k] += r * a.gradient[k] * b.value;
+                    row.gradient[3 + k] += r * a.value * b.gradient[k];
+                    for l in 0..3 {
+                        row.hessian[(k, l)] += r * a.hessian[(k, l)] * b.value;
+                        row.hessian[(3 + k, 3 + l)] += r * a.value * b.hessian[(k, l)];
+                        let cross = r * a.gradient[k] * b.gradient[l];
+                        row.hessian[(k, 3 + l)] += cross;
+                        row.hessian[(3 + l, k)] += cross;
+                    }
+                }
+            }
+        }
+        row
+    }
+}

@@ -1,0 +1,232 @@
+//! Storage of the block-tridiagonal system.
+
+use nalgebra::SMatrix;
+
+/// Unknowns of a plain station: pipe node, guide node.
+pub const PLAIN_BLOCK: usize = 12;
+/// Unknowns of a joint station: end of the link above (0..6), guide (6..12), start of the link below (12..18), multipliers
+/// (18..23), padding.
+pub const JOINT_BLOCK: usize = 24;
+
+/// Coupling of a station's outgoing nodes (rows or columns: pipe node towards the bit, guide) with the next station's first
+/// twelve.
+pub type Coupling = SMatrix<f64, 12, 12>;
+
+/// Which stations are joints, and where each station's unknowns begin.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    offsets: Vec<usize>,
+    large: Vec<bool>,
+    slots: Vec<usize>,
+}
+
+impl Layout {
+    /// A layout with a block of 24 where `large` says so, else of 12.
+    pub fn new(large: Vec<bool>) -> Self {
+        let mut offsets = Vec::with_capacity(large.len() + 1);
+        let mut slots = Vec::with_capacity(large.len());
+        let (mut offset, mut plain, mut joint) = (0, 0, 0);
+        for &is_large in &large {
+            offsets.push(offset);
+            if is_large {
+                slots.push(joint);
+                joint += 1;
+                offset += JOINT_BLOCK;
+            } else {
+                slots.push(plain);
+                plain += 1;
+                offset += PLAIN_BLOCK;
+            }
+        }
+        offsets.push(offset);
+        Self { offsets, large, slots }
+    }
+
+    /// Number of stations.
+    pub fn stations(&self) -> usize {
+        self.large.len()
+    }
+
+    /// Number of unknowns, padding included.
+    pub fn unknowns(&self) -> usize {
+        self.offsets[self.stations()]
+    }
+
+    /// First unknown of a station.
+    pub fn offset(&self, station: usize) -> usize {
+        self.offsets[station]
+    }
+
+    /// Whether the station has a block of 24.
+    pub fn is_large(&self, station: usize) -> bool {
+        self.large[station]
+    }
+
+    /// Index of the station's block among those of its size.
+    pub fn slot(&self, station: usize) -> usize {
+        self.slots[station]
+    }
+
+    /// Local index in the station's block of outgoing unknown `k` (0..6 the pipe node towards the bit, 6..12 the guide).
+    pub fn outgoing(&self, station: usize, k: usize) -> usize {
+        if self.large[station] && k < 6 { k + 12 } else { k }
+    }
+
+    /// Station of an unknown.
+    pub fn station_of(&self, unknown: usize) -> usize {
+        self.offsets.partition_point(|&offset| offset <= unknown) - 1
+    }
+}
+
+/// Diagonal blocks and couplings.
+#[derive(Debug, Clone)]
+pub struct BlockSystem {
+    layout: Layout,
+    /// Diagonal blocks of plain stations, by slot.
+    pub plain: Vec<SMatrix<f64, 12, 12>>,
+    /// Diagonal blocks of joint stations, by slot.
+    pub joint: Vec<SMatrix<f64, 24, 24>>,
+    /// Rows of station i (outgoing), columns of station i + 1.
+    pub upper: Vec<Coupling>,
+    /// Rows of station i + 1, columns of station i (outgoing).
+    pub lower: Vec<Coupling>,
+}
+
+impl BlockSystem {
+    /// A zero system.
+    pub fn new(layout: Layout) -> Self {
+        let joint = layout.large.iter().filter(|&&large| large).count();
+        let couplings = layout.stations().saturating_sub(1);
+        Self {
+            plain: vec![SMatrix::zeros(); layout.stations() - joint],
+            joint: vec![SMatrix::zeros(); joint],
+            upper: vec![Coupling::zeros(); couplings],
+            lower: vec![Coupling::zeros(); couplings],
+            layout,
+        }
+    }
+
+    /// Its layout.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Sets every entry to zero.
+    pub fn clear(&mut self) {
+        self.plain.iter_mut().for_each(|block| block.fill(0.0));
+        self.joint.iter_mut().for_each(|block| block.fill(0.0));
+        self.upper.iter_mut().for_each(|block| block.fill(0.0));
+        self.lower.iter_mut().for_each(|block| block.fill(0.0));
+    }
+
+    /// Takes another system's entries; the layouts must be the same.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.plain.copy_from_slice(&other.plain);
+        self.joint.copy_from_slice(&other.joint);
+        self.upper.copy_from_slice(&other.upper);
+        self.lower.copy_from_slice(&other.lower);
+    }
+
+    /// Adds to an entry of a station's diagonal block.
+    #[inline]
+    pub fn add(&mut self, station: usize, row: usize, column: usize, value: f64) {
+        *self.entry(station, row, column) += value;
+    }
+
+    /// An entry of a station's diagonal block.
+    #[inline]
+    pub fn entry(&mut self, station: usize, row: usize, column: usize) -> &mut f64 {
+        let slot = self.layout.slots[station];
+        if self.layout.large[station] {
+            &mut self.joint[slot][(row, column)]
+        } else {
+            &mut self.plain[slot][(row, column)]
+        }
+    }
+
+    /// Adds a dense N x N matrix at (`row`, `column`) of a station's diagonal block.
+    #[inline]
+    pub fn add_block<const N: usize>(
+        &mut self,
+        station: usize,
+        row: usize,
+        column: usize,
+        matrix: &SMatrix<f64, N, N>,
+    ) {
+        let slot = self.layout.slots[station];
+        if self.layout.large[station] {
+            let mut view = self.joint[slot].fixed_view_mut::<N, N>(row, column);
+            view += matrix;
+        } else {
+            let mut view = self.plain[slot].fixed_view_mut::<N, N>(row, column);
+            view += matrix;
+        }
+    }
+
+    /// Makes an unknown's equation `x = rhs`, decoupled from all others.
+    pub fn hold(&mut self, unknown: usize) {
+        let station = self.layout.station_of(unknown);
+        let local = unknown - self.layout.offsets[station];
+        let slot = self.layout.slots[station];
+        if self.layout.large[station] {
+            self.joint[slot].row_mut(local).fill(0.0);
+            self.joint[slot].column_mut(local).fill(0.0);
+            self.joint[slot][(local, local)] = 1.0;
+        } else {
+            self.plain[slot].row_mut(local).fill(0.0);
+            self.plain[slot].column_mut(local).fill(0.0);
+            self.plain[slot][(local, local)] = 1.0;
+        }
+        if station > 0 && local < 12 {
+            self.upper[station - 1].column_mut(local).fill(0.0);
+            self.lower[station - 1].row_mut(local).fill(0.0);
+        }
+        if station + 1 < self.layout.stations()
+            && let Some(k) = (0..12).find(|&k| self.layout.outgoing(station, k) == local)
+        {
+            self.upper[station].row_mut(k).fill(0.0);
+            self.lower[station].column_mut(k).fill(0.0);
+        }
+    }
+
+    /// Visits every stored entry as (row, column, value) in global indices; zeros inside blocks included, so that the pattern does
+    /// not depend on the values.
+    pub fn for_each_entry(&self, mut visit: impl FnMut(usize, usize, f64)) {
+        let layout = &self.layout;
+        for station in 0..layout.stations() {
+            let offset = layout.offsets[station];
+            let slot = layout.slots[station];
+            let size = if layout.large[station] {
+                JOINT_BLOCK
+            } else {
+                PLAIN_BLOCK
+            };
+            for column in 0..size {
+                for row in 0..size {
+                    let value = if layout.large[station] {
+                        self.joint[slot][(row, column)]
+                    } else {
+                        self.plain[slot][(row, column)]
+                    };
+                    visit(offset + row, offset + column, value);
+                }
+            }
+            if station + 1 < layout.stations() {
+                let next = layout.offsets[station + 1];
+                for i in 0..12 {
+                    let out = offset + layout.outgoing(station, i);
+                    for j in 0..12 {
+                        visit(out, next + j, self.upper[station][(i, j)]);
+                        visit(next + j, out, self.lower[station][(j, i)]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// r = rhs - A x.
+    pub fn residual(&self, x: &[f64], rhs: &[f64], r: &mut [f64]) {
+        r.copy_from_slice(rhs);
+        self.for_each_entry(|row, column, value| r[row] -= value * x[column]);
+    }
+}

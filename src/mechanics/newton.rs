@@ -1,0 +1,276 @@
+//! Newton-Raphson on displacements and multipliers together, Eq. 40 to 44, for one (sub-)step.
+
+use super::assembly::{Assembler, TangentFactors};
+use super::conditions::Conditions;
+use super::description::Body;
+use super::linear::LinearSolver;
+use super::model::Model;
+use super::newmark::Newmark;
+use super::outcome::{FailureCause, StepFailure};
+use super::rotation::LARGEST_TILT;
+use super::state::State;
+
+/// When an iterate is accepted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerances {
+    /// Largest unbalanced force on a node (N).
+    pub force: f64,
+    /// Largest unbalanced moment on a node (N m).
+    pub moment: f64,
+    /// Largest opening of a joint (m) and largest value of a rotational row (-).
+    pub constraint: f64,
+    /// Iterations allowed.
+    pub max_iterations: u32,
+}
+
+impl Default for Tolerances {
+    /// 1 mN and 0.1 mN m: a ten-millionth of a weight on bit of 10 kN and of its torque, four orders above the rounding of the stiffest
+    /// element. Rows to 1e-10 m, a tenth of what is promised.
+    fn default() -> Self {
+        Self {
+            force: 1e-3,
+            moment: 1e-4,
+            constraint: 1e-10,
+            max_iterations: 15,
+        }
+    }
+}
+
+/// Displacements (m) beyond which something has come apart: far outside any bore.
+const LARGEST_DISPLACEMENT: f64 = 1.0;
+
+/// Newton's iteration and the room it needs.
+pub struct Newton {
+    /// Residual and tangent.
+    pub assembler: Assembler,
+    /// Linear solver.
+    pub solver: Box<dyn LinearSolver>,
+    /// Limits.
+    pub tolerances: Tolerances,
+    correction: Vec<f64>,
+    /// Limit on the residual per unknown; infinite where there is no equation.
+    limits: Vec<f64>,
+    multiplier: Vec<bool>,
+}
+
+/// The residual relative to its limit, where it is worst.
+#[derive(Debug, Clone, Copy)]
+struct Worst {
+    ratio: f64,
+    unknown: usize,
+}
+
+impl Newton {
+    /// Room for `model`.
+    pub fn new(model: &Model, solver: Box<dyn LinearSolver>, tolerances: Tolerances) -> Self {
+        let n = model.unknowns();
+        let mut limits = vec![0.0; n];
+        let mut multiplier = vec![false; n];
+        for station in &model.stations {
+            for node in [station.pipe_above, station.pipe_below, station.guide] {
+                limits[node..node + 3].fill(tolerances.force);
+                limits[node + 3..node + 6].fill(tolerances.moment);
+            }
+        }
+        for joint in 0..model.joints.len() {
+            let first = model.multipliers(joint);
+            limits[first..first + 3].fill(tolerances.constraint * model.force_scale);
+            limits[first + 3..first + 6].fill(tolerances.constraint * model.moment_scale);
+            multiplier[first..first + 6].fill(true);
+        }
+        if let Some(tie) = model.tie {
+            limits[tie] = tolerances.constraint * model.force_scale;
+            multiplier[tie] = true;
+        }
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            limits[unknown] = f64::INFINITY;
+        }
+        Self {
+            assembler: Assembler::new(model),
+            solver,
+            tolerances,
+            correction: vec![0.0; n],
+            limits,
+            multiplier,
+        }
+    }
+
+    /// Solves the step of size `h` that ends under `conditions` with the drive at `drive_angle`. `to` holds the new state on
+    /// success; the assembler holds its residual with the reactions.
+    ///
+    /// # Errors
+    /// Why and where no iterate was accepted; the iterations made are in the first field.
+    pub fn step(
+        &mut self,
+        model: &Model,
+        scheme: Newmark,
+        h: f64,
+        conditions: &Conditions,
+        drive_angle: f64,
+        from: &State,
+        to: &mut State,
+    ) -> Result<u32, (u32, StepFailure)> {
+        scheme.predict(h, from, to);
+        to.pipe_axial.copy_from_slice(&from.pipe_axial);
+        to.guide_axial.copy_from_slice(&from.guide_axial);
+        to.time = conditions.time;
+        to.drive_angle = drive_angle;
+        if let Some(driven) = model.driven {
+            to.q[driven] = drive_angle;
+            (to.v[driven], to.a[driven]) =
+                scheme.rates(h, drive_angle - from.q[driven], from.v[driven], from.a[driven]);
+        }
+        let factors = scheme.factors(h);
+        let mut iterations = 0;
+        loop {
+            self.assembler.residual(model, to, conditions);
+            let worst = self.worst();
+            let failure = |cause, value: f64, unknown: usize| {
+                let (station, body) = locate(model, unknown);
+                StepFailure {
+                    cause,
+                    time: from.time,
+                    step: h,
+                    station,
+                    body,
+                    value,
+                }
+            };
+            if worst.ratio.is_nan() {
+                return Err((iterations, failure(FailureCause::NotFinite, f64::NAN, worst.unknown)));
+            }
+            if worst.ratio <= 1.0 {
+                return match out_of_range(model, to) {
+                    Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
+                    None => Ok(iterations),
+                };
+            }
+            if iterations == self.tolerances.max_iterations {
+                let value = self.assembler.residual[worst.unknown];
+                return Err((iterations, failure(FailureCause::NotConverged, value, worst.unknown)));
+            }
+            iterations += 1;
+            if let Err(singular) = self.correct(model, to, conditions, factors) {
+                let failure = StepFailure {
+                    cause: FailureCause::Singular,
+                    time: from.time,
+                    step: h,
+                    station: singular.station,
+                    body: Body::Pipe,
+                    value: singular.pivot,
+                };
+                return Err((iterations, failure));
+            }
+        }
+    }
+
+    /// One correction K_T dq = -R, Eq. 40 and 43.
+    fn correct(
+        &mut self,
+        model: &Model,
+        to: &mut State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+    ) -> Result<(), super::linear::Singular> {
+        self.assembler.drop_reactions(model);
+        self.assembler.tangent(model, to, conditions, factors);
+        for (c, r) in self.correction.iter_mut().zip(&self.assembler.residual) {
+            *c = -r;
+        }
+        self.solver.solve(&self.assembler.system, &mut self.correction)?;
+        for (i, dq) in self.correction.iter().enumerate() {
+            to.q[i] += dq;
+            if !self.multiplier[i] {
+                to.v[i] += factors.damping * dq;
+                to.a[i] += factors.mass * dq;
+            }
+        }
+        Ok(())
+    }
+
+    /// Accelerations and multipliers in balance with the forces at `state`: M a + Phi_q^T lambda = F.
+    ///
+    /// # Errors
+    /// When the mass matrix with the constraints is singular.
+    pub fn balance_accelerations(
+        &mut self,
+        model: &Model,
+        state: &mut State,
+        conditions: &Conditions,
+    ) -> Result<(), super::linear::Singular> {
+        state.a.fill(0.0);
+        self.assembler.residual(model, state, conditions);
+        self.assembler.drop_reactions(model);
+        let factors = TangentFactors {
+            stiffness: 0.0,
+            damping: 0.0,
+            mass: 1.0,
+        };
+        self.assembler.tangent(model, state, conditions, factors);
+        for (i, c) in self.correction.iter_mut().enumerate() {
+            // The rows ask for accelerations along the constraints, not for corrections of position.
+            *c = if self.multiplier[i] {
+                0.0
+            } else {
+                -self.assembler.residual[i]
+            };
+        }
+        self.solver.solve(&self.assembler.system, &mut self.correction)?;
+        for (i, &x) in self.correction.iter().enumerate() {
+            if self.multiplier[i] {
+                state.q[i] += x;
+            } else {
+                state.a[i] = x;
+            }
+        }
+        self.assembler.residual(model, state, conditions);
+        Ok(())
+    }
+
+    fn worst(&self) -> Worst {
+        let mut worst = Worst { ratio: 0.0, unknown: 0 };
+        for (unknown, (r, limit)) in self.assembler.residual.iter().zip(&self.limits).enumerate() {
+            let ratio = r.abs() / limit;
+            if ratio > worst.ratio || ratio.is_nan() {
+                // Padding has no force and an infinite limit, so a NaN is the state's.
+                worst = Worst { ratio, unknown };
+                if ratio.is_nan() {
+                    break;
+                }
+            }
+        }
+        worst
+    }
+}
+
+fn out_of_range(model: &Model, state: &State) -> Option<(usize, f64)> {
+    for station in &model.stations {
+        for first in [station.pipe_above, station.pipe_below, station.guide] {
+            for k in 0..3 {
+                if state.q[first + k].abs() > LARGEST_DISPLACEMENT {
+                    return Some((first + k, state.q[first + k]));
+                }
+            }
+            for k in 4..6 {
+                if state.q[first + k].abs() > LARGEST_TILT {
+                    return Some((first + k, state.q[first + k]));
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Station and pipe of an unknown.
+fn locate(model: &Model, unknown: usize) -> (usize, Body) {
+    let station = model.layout.station_of(unknown);
+    let local = unknown - model.layout.offset(station);
+    (
+        station,
+        if (6..12).contains(&local) {
+            Body::Guide
+        } else {
+            Body::Pipe
+        },
+    )
+}

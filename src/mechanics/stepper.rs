@@ -1,0 +1,248 @@
+//! The tool in motion: steps that are halved and retried until they converge, or reported as failed.
+
+use super::conditions::Conditions;
+use super::description::{LiveParameters, ToolDescription};
+use super::energy::EnergyPoint;
+use super::linear::{LinearSolver, SparseReference, StationElimination};
+use super::model::{Model, ModelError};
+use super::newmark::Newmark;
+use super::newton::{Newton, Tolerances};
+use super::outcome::{EnergyAudit, StepFailure, StepOutcome};
+use super::state::State;
+
+/// Inputs over one step: both change linearly from its start to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forcing {
+    /// Speed of the top drive at start and end (rad/s).
+    pub rotary_speed: [f64; 2],
+    /// Weight on bit at start and end (N).
+    pub weight_on_bit: [f64; 2],
+}
+
+/// Which linear solver to use.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum SolverKind {
+    /// Block elimination along the stations.
+    #[default]
+    Stations,
+    /// faer's sparse LU.
+    SparseReference,
+}
+
+/// Counters since the start.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Counters {
+    /// Newton iterations, rejected ones included.
+    pub iterations: u64,
+    /// Rejected sub-steps.
+    pub rejected: u64,
+    /// Steps that were split.
+    pub halved_steps: u64,
+    /// Deepest split.
+    pub deepest_halving: u32,
+    /// Failed steps.
+    pub failed_steps: u64,
+    /// Last rejection.
+    pub last_rejection: Option<StepFailure>,
+}
+
+/// Model, state and solver.
+pub struct Stepper {
+    model: Model,
+    newton: Newton,
+    scheme: Newmark,
+    max_halvings: u32,
+    live: LiveParameters,
+    state: State,
+    trial: State,
+    before_step: State,
+    energy: EnergyPoint,
+    trial_energy: EnergyPoint,
+    energy_before_step: EnergyPoint,
+    audit: EnergyAudit,
+    counters: Counters,
+}
+
+impl Stepper {
+    /// Builds the tool in its initial state: as given, or at rest if the description asks for it and [`Stepper::settle`] is called.
+    ///
+    /// # Errors
+    /// See [`Model::new`].
+    pub fn new(
+        description: &ToolDescription,
+        scheme: Newmark,
+        tolerances: Tolerances,
+        max_halvings: u32,
+        solver: SolverKind,
+    ) -> Result<Self, ModelError> {
+        let model = Model::new(description)?;
+        let solver: Box<dyn LinearSolver> = match solver {
+            SolverKind::Stations => Box::new(StationElimination::new(&model.layout)),
+            SolverKind::SparseReference => Box::new(SparseReference::default()),
+        };
+        let newton = Newton::new(&model, solver, tolerances);
+        let state = State::at_rest(&model);
+        let energy = EnergyPoint::new(&model);
+        Ok(Self {
+            newton,
+            scheme,
+            max_halvings,
+            live: LiveParameters::of(description),
+            trial: state.clone(),
+            before_step: state.clone(),
+            trial_energy: energy.clone(),
+            energy_before_step: energy.clone(),
+            audit: EnergyAudit::default(),
+            counters: Counters::default(),
+            state,
+            energy,
+            model,
+        })
+    }
+
+    /// The tool.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Present state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Newton's parts: the assembler holds the forces of the present state.
+    pub fn newton(&self) -> &Newton {
+        &self.newton
+    }
+
+    /// Energy since the start.
+    pub fn audit(&self) -> &EnergyAudit {
+        &self.audit
+    }
+
+    /// Counters since the start.
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Torque of the drive at the end of the last step (N m).
+    pub fn drive_torque(&self) -> f64 {
+        self.energy.drive_torque
+    }
+
+    /// Live parameters in force.
+    pub fn live(&self) -> LiveParameters {
+        self.live
+    }
+
+    /// Sets the live parameters from the next step on.
+    pub fn set_live(&mut self, live: LiveParameters) {
+        self.live = live;
+    }
+
+    pub(super) fn parts(&mut self) -> (&Model, &mut Newton, &mut State, &mut State) {
+        (&self.model, &mut self.newton, &mut self.state, &mut self.trial)
+    }
+
+    /// Conditions at `time` under `weight_on_bit`.
+    pub fn conditions(&self, time: f64, weight_on_bit: f64) -> Conditions {
+        Conditions::new(&self.model.description, &self.live, time, weight_on_bit)
+    }
+
+    /// Takes `state` as the present one, with the audit starting at zero. The accelerations must balance the forces.
+    pub fn start_from(&mut self, state: &State, weight_on_bit: f64) {
+        self.state.copy_from(state);
+        let conditions = self.conditions(self.state.time, weight_on_bit);
+        self.newton.assembler.residual(&self.model, &self.state, &conditions);
+        self.energy
+            .evaluate(&self.model, &self.state, &conditions, &self.newton.assembler);
+        self.audit = EnergyAudit::default();
+        self.counters = Counters::default();
+    }
+
+    /// Advances by `h` (s) under `forcing`. A sub-step that does not converge is halved and retried; when the smallest one fails, the
+    /// state stays that before the step.
+    pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
+        self.before_step.copy_from(&self.state);
+        self.energy_before_step.copy_from(&self.energy);
+        let audit_before = self.audit;
+        let whole = 1_u64 << self.max_halvings;
+        let (mut done, mut level, mut deepest, mut iterations) = (0_u64, 0_u32, 0_u32, 0_u32);
+        while done < whole {
+            let size = whole >> level;
+            match self.sub_step(h, forcing, done, size, whole) {
+                Ok(made) => {
+                    iterations += made;
+                    done += size;
+                    // Go back to the larger step as soon as the grid allows.
+                    if level > 0 && done.is_multiple_of(size * 2) {
+                        level -= 1;
+                    }
+                }
+                Err((made, failure)) => {
+                    iterations += made;
+                    self.counters.rejected += 1;
+                    self.counters.last_rejection = Some(failure);
+                    if level == self.max_halvings {
+                        self.state.copy_from(&self.before_step);
+                        self.energy.copy_from(&self.energy_before_step);
+                        self.audit = audit_before;
+                        self.counters.failed_steps += 1;
+                        self.counters.iterations += u64::from(iterations);
+                        return StepOutcome::Failed(failure);
+                    }
+                    level += 1;
+                    deepest = deepest.max(level);
+                }
+            }
+        }
+        self.counters.iterations += u64::from(iterations);
+        self.counters.halved_steps += u64::from(deepest > 0);
+        self.counters.deepest_halving = self.counters.deepest_halving.max(deepest);
+        StepOutcome::Advanced {
+            iterations,
+            halvings: deepest,
+        }
+    }
+
+    /// The part of a step from `done / whole` to `(done + size) / whole`.
+    fn sub_step(
+        &mut self,
+        h: f64,
+        forcing: &Forcing,
+        done: u64,
+        size: u64,
+        whole: u64,
+    ) -> Result<u32, (u32, StepFailure)> {
+        let at = |part: u64| part as f64 / whole as f64;
+        let (from, to) = (at(done), at(done + size));
+        let time = self.before_step.time + h * to;
+        let [load_0, load_1] = forcing.weight_on_bit;
+        let conditions = self.conditions(time, load_0 + (load_1 - load_0) * to);
+        let [speed_0, speed_1] = forcing.rotary_speed;
+        let angle = self.before_step.drive_angle + h * to * (speed_0 + 0.5 * (speed_1 - speed_0) * to);
+        let step = h * (to - from);
+        let made = self.newton.step(
+            &self.model,
+            self.scheme,
+            step,
+            &conditions,
+            angle,
+            &self.state,
+            &mut self.trial,
+        )?;
+        self.trial_energy
+            .evaluate(&self.model, &self.trial, &conditions, &self.newton.assembler);
+        self.audit.add_step(
+            &self.model,
+            &conditions,
+            step,
+            (&self.state, &self.energy),
+            (&self.trial, &self.trial_energy),
+        );
+        std::mem::swap(&mut self.state, &mut self.trial);
+        std::mem::swap(&mut self.energy, &mut self.trial_energy);
+        self.state.update_axial(&self.model);
+        Ok(made)
+    }
+}
