@@ -4,6 +4,8 @@
 //! forces then store exactly what they take, so the audit's error is what is left: the quadrature of contacts, stops and joint
 //! rows, and Newton's residual. See `docs/decisions/energy_audit.md`.
 
+use serde::{Deserialize, Serialize};
+
 use super::assembly::{Assembler, inner_forces, outer_force};
 use super::beam::ElementVector;
 use super::conditions::Conditions;
@@ -13,7 +15,7 @@ use super::outcome::EnergyAudit;
 use super::state::{State, guide_element, joint_rotations, pipe_element};
 
 /// Forces and energies at one end of a step that the trapezoid rule needs at the other.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyPoint {
     /// Friction of both layers on every unknown (N, N m).
     friction: Vec<f64>,
@@ -47,6 +49,13 @@ impl EnergyPoint {
             bit_torque: 0.0,
             weight_on_bit: 0.0,
         }
+    }
+
+    /// Whether it is for the same model as `other`.
+    pub fn fits(&self, other: &Self) -> bool {
+        self.friction.len() == other.friction.len()
+            && self.geometric.len() == other.geometric.len()
+            && self.loads.len() == other.loads.len()
     }
 
     /// Takes another point's values without allocating.

@@ -40,4 +40,4 @@ pub use newton::Tolerances;
 pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
 pub use state::State;
 pub use statics::StartError;
-pub use stepper::{Counters, Forcing, SolverKind, Stepper};
+pub use stepper::{Counters, Forcing, SolverKind, Stepper, StepperCheckpoint};

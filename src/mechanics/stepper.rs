@@ -1,7 +1,11 @@
 //! The tool in motion: steps that are halved and retried until they converge, or reported as failed.
 
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
 use super::conditions::Conditions;
-use super::description::{LiveParameters, ToolDescription};
+use super::description::{Direction, LiveParameters, ToolDescription};
 use super::energy::EnergyPoint;
 use super::linear::{LinearSolver, SparseReference, StationElimination};
 use super::model::{Model, ModelError};
@@ -30,7 +34,7 @@ pub enum SolverKind {
 }
 
 /// Counters since the start.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counters {
     /// Newton iterations, rejected ones included.
     pub iterations: u64,
@@ -45,6 +49,22 @@ pub struct Counters {
     /// Last rejection.
     pub last_rejection: Option<StepFailure>,
 }
+
+/// All that a run needs to go on bit for bit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StepperCheckpoint {
+    state: State,
+    energy: EnergyPoint,
+    audit: EnergyAudit,
+    counters: Counters,
+    live: LiveParameters,
+    turns: f64,
+    weight_on_bit: f64,
+}
+
+/// Whole turns after which they are taken off the pipe's spins, so that the rounding of the angles stays below that of the forces
+/// however long the tool runs.
+const UNWIND_TURNS: f64 = 1000.0;
 
 /// Model, state and solver.
 pub struct Stepper {
@@ -61,6 +81,9 @@ pub struct Stepper {
     energy_before_step: EnergyPoint,
     audit: EnergyAudit,
     counters: Counters,
+    /// Whole turns taken off the spins so far.
+    turns: f64,
+    weight_on_bit: f64,
 }
 
 impl Stepper {
@@ -94,6 +117,8 @@ impl Stepper {
             energy_before_step: energy.clone(),
             audit: EnergyAudit::default(),
             counters: Counters::default(),
+            turns: 0.0,
+            weight_on_bit: 0.0,
             state,
             energy,
             model,
@@ -158,6 +183,59 @@ impl Stepper {
             .evaluate(&self.model, &self.state, &conditions, &self.newton.assembler);
         self.audit = EnergyAudit::default();
         self.counters = Counters::default();
+        self.turns = 0.0;
+        self.weight_on_bit = weight_on_bit;
+    }
+
+    /// Angle of the drive since the start (rad).
+    pub fn drive_angle(&self) -> f64 {
+        self.state.drive_angle + self.turns * TAU
+    }
+
+    /// What it takes to go on from here.
+    pub fn checkpoint(&self) -> StepperCheckpoint {
+        StepperCheckpoint {
+            state: self.state.clone(),
+            energy: self.energy.clone(),
+            audit: self.audit,
+            counters: self.counters,
+            live: self.live,
+            turns: self.turns,
+            weight_on_bit: self.weight_on_bit,
+        }
+    }
+
+    /// Goes on from a checkpoint of the same model; `false`, and nothing done, if its sizes are another model's.
+    pub fn restore(&mut self, checkpoint: &StepperCheckpoint) -> bool {
+        let same = checkpoint.state.q.len() == self.state.q.len()
+            && checkpoint.state.pipe_axial.len() == self.state.pipe_axial.len()
+            && checkpoint.energy.fits(&self.energy);
+        if !same {
+            return false;
+        }
+        self.live = checkpoint.live;
+        self.start_from(&checkpoint.state, checkpoint.weight_on_bit);
+        self.energy.copy_from(&checkpoint.energy);
+        self.audit = checkpoint.audit;
+        self.counters = checkpoint.counters;
+        self.turns = checkpoint.turns;
+        true
+    }
+
+    /// Takes whole turns off the spins of the pipe.
+    fn unwind(&mut self) {
+        if self.state.drive_angle.abs() < UNWIND_TURNS * TAU {
+            return;
+        }
+        let turns = UNWIND_TURNS.copysign(self.state.drive_angle);
+        self.turns += turns;
+        self.state.drive_angle -= turns * TAU;
+        for station in &self.model.stations {
+            self.state.q[station.pipe_above + Direction::Psi as usize] -= turns * TAU;
+            if station.pipe_below != station.pipe_above {
+                self.state.q[station.pipe_below + Direction::Psi as usize] -= turns * TAU;
+            }
+        }
     }
 
     /// Advances by `h` (s) under `forcing`. A sub-step that does not converge is halved and retried; when the smallest one fails, the
@@ -196,6 +274,8 @@ impl Stepper {
                 }
             }
         }
+        self.unwind();
+        self.weight_on_bit = forcing.weight_on_bit[1];
         self.counters.iterations += u64::from(iterations);
         self.counters.halved_steps += u64::from(deepest > 0);
         self.counters.deepest_halving = self.counters.deepest_halving.max(deepest);

@@ -2,6 +2,7 @@
 //!
 //! The node, replay, verification and sweeps all drive this one thing.
 
+mod observe;
 mod run;
 mod schedule;
 mod simulation;

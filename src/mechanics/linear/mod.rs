@@ -4,7 +4,7 @@
 //! block of 12 (pipe node, guide node), a joint station one of 24 (end of the link above, guide, start of the link below, multipliers,
 //! padding).
 
-mod block_lu;
+mod block;
 mod elimination;
 mod sparse;
 mod system;
