@@ -227,6 +227,28 @@ impl Newton {
         Ok(())
     }
 
+    /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where the static
+    /// tangent has no inverse (a body that could float), the state stays as it is.
+    pub fn polish_rest(&mut self, model: &Model, state: &mut State, scratch: &mut State, conditions: &Conditions) {
+        let factors = TangentFactors { stiffness: 1.0, damping: 0.0, mass: 0.0 };
+        self.assembler.residual(model, state, conditions);
+        let mut best = self.worst().ratio;
+        for _ in 0..self.tolerances.max_iterations {
+            scratch.copy_from(state);
+            if self.correct(model, scratch, conditions, factors).is_err() {
+                return;
+            }
+            scratch.update_axial(model);
+            self.assembler.residual(model, scratch, conditions);
+            let ratio = self.worst().ratio;
+            if ratio.is_nan() || ratio >= best || out_of_range(model, scratch).is_some() {
+                return;
+            }
+            best = ratio;
+            state.copy_from(scratch);
+        }
+    }
+
     fn worst(&self) -> Worst {
         let mut worst = Worst { ratio: 0.0, unknown: 0 };
         for (unknown, (r, limit)) in self.assembler.residual.iter().zip(&self.limits).enumerate() {
