@@ -33,7 +33,11 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
     for &unknown in &model.held {
         let station = &model.stations[model.layout.station_of(unknown)];
         let local = unknown - model.layout.offset(model.layout.station_of(unknown));
-        let frame = if local < 6 { station.frame * station.pipe_to_station } else { station.frame };
+        let frame = if local < 6 {
+            station.frame * station.pipe_to_station
+        } else {
+            station.frame
+        };
         if local % 6 < 3 {
             total += frame.column(local % 6) * forces.residual[unknown];
         }
@@ -53,7 +57,12 @@ fn nothing_moves_after_the_static_start() {
         simulation.advance(&inputs);
     }
     let state = simulation.stepper().state();
-    let moved = state.q.iter().zip(&start.q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let moved = state
+        .q
+        .iter()
+        .zip(&start.q)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max);
     // 0.1 s with the accelerations that Newton's tolerance of 1 mN on 0.5 kg allows: 1e-5 m.
     assert!(moved < 1e-5, "moved by {moved} m");
 }
@@ -69,7 +78,10 @@ fn joints_stay_closed_and_both_solvers_agree() {
     let mut speed = 0.0;
     for _ in 0..40 {
         let next = speed + 0.01;
-        let forcing = flexdrill::mechanics::Forcing { rotary_speed: [speed, next], weight_on_bit: [10e3; 2] };
+        let forcing = flexdrill::mechanics::Forcing {
+            rotary_speed: [speed, next],
+            weight_on_bit: [10e3; 2],
+        };
         fast.advance(2.5e-4, &forcing);
         reference.advance(2.5e-4, &forcing);
         speed = next;
@@ -78,7 +90,10 @@ fn joints_stay_closed_and_both_solvers_agree() {
     }
     let model = fast.model();
     let displacement = |state: &State| {
-        let nodes = model.stations.iter().flat_map(|s| [s.pipe_above, s.pipe_below, s.guide]);
+        let nodes = model
+            .stations
+            .iter()
+            .flat_map(|s| [s.pipe_above, s.pipe_below, s.guide]);
         nodes.flat_map(|n| state.q[n..n + 6].to_vec()).collect::<Vec<_>>()
     };
     let (a, b) = (displacement(fast.state()), displacement(reference.state()));

@@ -3,12 +3,18 @@
 
 use flexdrill::config::Config;
 use flexdrill::mechanics::assembly::{Assembler, TangentFactors};
-use flexdrill::mechanics::{JointKind, Model, Newmark, SolverKind, State, Stepper, Tolerances, ToolDescription, WobPath};
+use flexdrill::mechanics::{
+    JointKind, Model, Newmark, SolverKind, State, Stepper, Tolerances, ToolDescription, WobPath,
+};
 
 /// A tool of four links of two elements in the paper's well.
 fn small_tool() -> ToolDescription {
     let config = Config::load("config/default.yaml").unwrap();
-    let config = config.with_value("tool.links", 4).unwrap().with_value("tool.elements_per_link", 2).unwrap();
+    let config = config
+        .with_value("tool.links", 4)
+        .unwrap()
+        .with_value("tool.elements_per_link", 2)
+        .unwrap();
     let mut tool = config.tool();
     // Four links build 22.5 degrees each; a wide limit leaves some of the stops shut and some open.
     tool.joint.limit = 0.39;
@@ -29,7 +35,11 @@ fn lively_state(model: &Model) -> State {
         state.a[i] = 10.0 * random();
     }
     for station in &model.stations {
-        for (node, reach) in [(station.pipe_above, 0.019), (station.pipe_below, 0.019), (station.guide, 0.009)] {
+        for (node, reach) in [
+            (station.pipe_above, 0.019),
+            (station.pipe_below, 0.019),
+            (station.guide, 0.009),
+        ] {
             let angle = 3.0 * random();
             state.q[node + 1] = reach * angle.cos();
             state.q[node + 2] = reach * angle.sin();
@@ -44,29 +54,56 @@ fn lively_state(model: &Model) -> State {
 }
 
 fn check(tool: &ToolDescription) {
-    let stepper =
-        Stepper::new(tool, Newmark::damped(0.6), Tolerances::default(), 0, SolverKind::Stations).unwrap();
+    let stepper = Stepper::new(
+        tool,
+        Newmark::damped(0.6),
+        Tolerances::default(),
+        0,
+        SolverKind::Stations,
+    )
+    .unwrap();
     let model = stepper.model();
     let mut conditions = stepper.conditions(0.0, 1e4);
     conditions.bit_torque = 90.0;
     let state = lively_state(model);
-    let free = |i: usize| {
-        !model.held.contains(&i) && model.driven != Some(i) && !model.padding.contains(&i)
-    };
+    let free = |i: usize| !model.held.contains(&i) && model.driven != Some(i) && !model.padding.contains(&i);
     let mut assembler = Assembler::new(model);
     assembler.residual(model, &state, &conditions);
     assert!(assembler.inner.iter().flatten().count() > 2, "no inner contact to test");
     assert!(assembler.outer.iter().flatten().count() > 2, "no outer contact to test");
     let n = model.unknowns();
     for (name, factors) in [
-        ("stiffness", TangentFactors { stiffness: 1.0, damping: 0.0, mass: 0.0 }),
-        ("damping", TangentFactors { stiffness: 0.0, damping: 1.0, mass: 0.0 }),
-        ("mass", TangentFactors { stiffness: 0.0, damping: 0.0, mass: 1.0 }),
+        (
+            "stiffness",
+            TangentFactors {
+                stiffness: 1.0,
+                damping: 0.0,
+                mass: 0.0,
+            },
+        ),
+        (
+            "damping",
+            TangentFactors {
+                stiffness: 0.0,
+                damping: 1.0,
+                mass: 0.0,
+            },
+        ),
+        (
+            "mass",
+            TangentFactors {
+                stiffness: 0.0,
+                damping: 0.0,
+                mass: 1.0,
+            },
+        ),
     ] {
         assembler.residual(model, &state, &conditions);
         assembler.tangent(model, &state, &conditions, factors);
         let mut tangent = vec![0.0; n * n];
-        assembler.system.for_each_entry(|row, column, value| tangent[row + column * n] = value);
+        assembler
+            .system
+            .for_each_entry(|row, column, value| tangent[row + column * n] = value);
         for column in (0..n).filter(|&i| free(i)) {
             let multiplier = model.joints.len() * 6 > 0
                 && (0..model.joints.len()).any(|j| (model.multipliers(j)..model.multipliers(j) + 6).contains(&column))

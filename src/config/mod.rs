@@ -53,7 +53,7 @@ pub use tool::{Bit, Damping, Joint, Material, Tool};
 pub use well::{Section, Well};
 pub use whirl::{Level, Levels, Watched, Whirl};
 
-use crate::analysis::WhirlSettings;
+use crate::analysis::{StickSlipSettings, WhirlSettings};
 use crate::inputs::units::{kn_to_n, rpm_to_rad_per_s};
 use crate::mechanics::{LiveParameters, ToolDescription};
 use crate::twin::{Inputs, SimulationSettings};
@@ -244,6 +244,10 @@ impl Config {
             },
             rotary_speed_slew: rpm_to_rad_per_s(speed.slew_rpm_per_s),
             weight_on_bit_slew: kn_to_n(weight.slew_kn_per_s),
+            whirl: self.whirl_settings(),
+            stick_slip: StickSlipSettings::default(),
+            watched: self.whirl.places(self.mesh().last_station()),
+            whirl_sample_interval: 1.0 / self.whirl.sample_rate,
         }
     }
 

@@ -6,6 +6,7 @@ use super::checker::{Bound, Checker};
 use super::place::Mesh;
 use crate::analysis::{LevelThresholds, Severity, WhirlSettings};
 use crate::inputs::units::{kn_to_n, n_to_kn, rpm_to_rad_per_s};
+use crate::mechanics::Body;
 
 /// Whirl analysis and warnings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -187,6 +188,16 @@ impl Whirl {
         c.number("hold_off", self.hold_off, Bound::within(0.0, 3600.0), "s", "an hour");
         c.number("latch", self.latch, Bound::within(0.0, 1e9), "s", "");
         c.below("levels", |c| self.levels.check(c));
+    }
+
+    /// Stations and pipes to watch, up to `last_station`; empty stands for both pipes at every joint.
+    pub(super) fn places(&self, last_station: usize) -> Vec<(usize, Body)> {
+        let both = |station: usize| [(station, Body::Pipe), (station, Body::Guide)];
+        match &self.watched {
+            Watched::Joints => Vec::new(),
+            Watched::All => (0..=last_station).flat_map(both).collect(),
+            Watched::Stations(stations) => stations.iter().copied().flat_map(both).collect(),
+        }
     }
 
     pub(super) fn describe(&self) -> WhirlSettings {

@@ -230,7 +230,11 @@ impl Newton {
     /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where the static
     /// tangent has no inverse (a body that could float), the state stays as it is.
     pub fn polish_rest(&mut self, model: &Model, state: &mut State, scratch: &mut State, conditions: &Conditions) {
-        let factors = TangentFactors { stiffness: 1.0, damping: 0.0, mass: 0.0 };
+        let factors = TangentFactors {
+            stiffness: 1.0,
+            damping: 0.0,
+            mass: 0.0,
+        };
         self.assembler.residual(model, state, conditions);
         let mut best = self.worst().ratio;
         for _ in 0..self.tolerances.max_iterations {

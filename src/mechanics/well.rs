@@ -15,7 +15,6 @@ pub struct WellPath {
 #[derive(Debug, Clone, Copy)]
 struct Piece {
     start: f64,
-    length: f64,
     inclination: f64,
     /// Change of inclination per metre (1/m), 0 where straight.
     curvature: f64,
@@ -36,7 +35,6 @@ impl WellPath {
             };
             let piece = Piece {
                 start,
-                length,
                 inclination,
                 curvature,
                 origin,

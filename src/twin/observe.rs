@@ -33,12 +33,24 @@ pub(super) struct Observer {
 impl Observer {
     pub(super) fn new(model: &Model, settings: &SimulationSettings) -> Self {
         let places: Vec<(usize, Body)> = if settings.watched.is_empty() {
-            model.joint_stations.iter().flat_map(|&s| [(s, Body::Pipe), (s, Body::Guide)]).collect()
+            model
+                .joint_stations
+                .iter()
+                .flat_map(|&s| [(s, Body::Pipe), (s, Body::Guide)])
+                .collect()
         } else {
-            settings.watched.iter().copied().filter(|&(station, _)| station <= model.last()).collect()
+            settings
+                .watched
+                .iter()
+                .copied()
+                .filter(|&(station, _)| station <= model.last())
+                .collect()
         };
         let decimation = ((settings.whirl_sample_interval / settings.time_step).round() as u64).max(1);
-        let watched = places.iter().map(|&(station, body)| watched_place(model, station, body)).collect();
+        let watched = places
+            .iter()
+            .map(|&(station, body)| watched_place(model, station, body))
+            .collect();
         let stations = model.stations.len();
         Self {
             inner: ContactStatistics::new(stations),
@@ -140,7 +152,11 @@ impl Observer {
         let mut out = Snapshot {
             joints: Joints {
                 measured_depth: model.joint_stations.iter().map(|&s| model.stations[s].depth).collect(),
-                inclination: model.joint_stations.iter().map(|&s| model.stations[s].inclination).collect(),
+                inclination: model
+                    .joint_stations
+                    .iter()
+                    .map(|&s| model.stations[s].inclination)
+                    .collect(),
                 bend_angle: joints(),
                 bend_direction: joints(),
                 limit_angle: model.joints.iter().map(|joint| joint.limit).collect(),
@@ -161,7 +177,11 @@ impl Observer {
             },
             shape: Shape {
                 bore: model.stations.iter().map(|s| s.position.into()).collect(),
-                low_side: model.stations.iter().map(|s| s.frame.column(2).into_owned().into()).collect(),
+                low_side: model
+                    .stations
+                    .iter()
+                    .map(|s| s.frame.column(2).into_owned().into())
+                    .collect(),
                 pipe: vec![[0.0; 2]; model.stations.len()],
                 guide: vec![[0.0; 2]; model.stations.len()],
             },
@@ -211,7 +231,14 @@ fn watched_place(model: &Model, station: usize, body: Body) -> WatchedPlace {
         Body::Pipe => (at.inner_clearance, 2.0 * at.pipe_radius),
         Body::Guide => (model.outer_clearance, 2.0 * model.guide_radii[1]),
     };
-    WatchedPlace { station, body, measured_depth: at.depth, inclination: at.inclination, clearance, body_diameter }
+    WatchedPlace {
+        station,
+        body,
+        measured_depth: at.depth,
+        inclination: at.inclination,
+        clearance,
+        body_diameter,
+    }
 }
 
 /// Lateral position (y, z) of a body in its gap (m): the pipe in the guide, the guide in the hole.

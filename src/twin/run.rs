@@ -4,7 +4,7 @@
 //! bit; nothing here looks at a clock.
 
 use super::schedule::Due;
-use super::{Inputs, Schedule, Simulation, SimulationSettings, Snapshot};
+use super::{BuildError, Inputs, Schedule, Simulation, SimulationSettings, Snapshot};
 use crate::mechanics::{LiveParameters, StepOutcome};
 
 /// What drives the model from a step on.
@@ -62,7 +62,7 @@ pub trait Model {
     /// See [`Simulation::reset`].
     fn reset(&mut self);
     /// See [`Simulation::checkpoint`].
-    fn checkpoint(&self) -> Vec<u8>;
+    fn checkpoint(&self) -> Result<Vec<u8>, BuildError>;
 }
 
 impl Model for Simulation {
@@ -93,7 +93,7 @@ impl Model for Simulation {
     fn reset(&mut self) {
         self.reset();
     }
-    fn checkpoint(&self) -> Vec<u8> {
+    fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
         self.checkpoint()
     }
 }

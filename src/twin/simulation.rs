@@ -101,7 +101,10 @@ impl Simulation {
         settings: &SimulationSettings,
         solver: SolverKind,
     ) -> Result<Self, BuildError> {
-        let tolerances = Tolerances { max_iterations: settings.max_iterations, ..Tolerances::default() };
+        let tolerances = Tolerances {
+            max_iterations: settings.max_iterations,
+            ..Tolerances::default()
+        };
         let scheme = Newmark::damped(settings.gamma);
         let mut stepper = Stepper::new(tool, scheme, tolerances, settings.max_halvings, solver)?;
         let load = settings.initial_inputs.weight_on_bit;
@@ -131,8 +134,14 @@ impl Simulation {
         let speed = self.applied.rotary_speed;
         let load = self.applied.weight_on_bit;
         let forcing = Forcing {
-            rotary_speed: [speed, towards(speed, inputs.rotary_speed, self.settings.rotary_speed_slew * dt)],
-            weight_on_bit: [load, towards(load, inputs.weight_on_bit, self.settings.weight_on_bit_slew * dt)],
+            rotary_speed: [
+                speed,
+                towards(speed, inputs.rotary_speed, self.settings.rotary_speed_slew * dt),
+            ],
+            weight_on_bit: [
+                load,
+                towards(load, inputs.weight_on_bit, self.settings.weight_on_bit_slew * dt),
+            ],
         };
         let outcome = self.stepper.advance(dt, &forcing);
         if let StepOutcome::Advanced { iterations, .. } = outcome {
@@ -143,7 +152,8 @@ impl Simulation {
                 drive_angle: self.stepper.drive_angle(),
                 drive_torque: self.stepper.drive_torque(),
             };
-            self.observer.after_step(&self.stepper, &self.applied, self.step, dt, iterations);
+            self.observer
+                .after_step(&self.stepper, &self.applied, self.step, dt, iterations);
         }
         outcome
     }
@@ -227,7 +237,11 @@ impl Simulation {
     pub fn reset(&mut self) {
         let inputs = self.settings.initial_inputs;
         // A tool that starts from rest stands still and is then run up; one that is given as moving is driven at its speed at once.
-        let rotary_speed = if self.stepper.model().description.static_start { 0.0 } else { inputs.rotary_speed };
+        let rotary_speed = if self.stepper.model().description.static_start {
+            0.0
+        } else {
+            inputs.rotary_speed
+        };
         self.stepper.start_from(&self.start, inputs.weight_on_bit);
         self.step = 0;
         self.applied = Applied {

@@ -33,7 +33,10 @@ pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
             return Err(size);
         }
         if p != k {
-            a[k..].iter_mut().chain(b.iter_mut()).for_each(|column| column.swap(k, p));
+            a[k..]
+                .iter_mut()
+                .chain(b.iter_mut())
+                .for_each(|column| column.swap(k, p));
         }
         let reciprocal = 1.0 / a[k][k];
         reciprocals[k] = reciprocal;
@@ -75,7 +78,11 @@ pub fn subtract_product<const N: usize, const C: usize, const FUSED: bool>(
 #[inline(always)]
 fn subtract<const N: usize, const FUSED: bool>(column: &mut [f64; N], other: &[f64; N], scale: f64) {
     for r in 0..N {
-        column[r] = if FUSED { other[r].mul_add(-scale, column[r]) } else { column[r] - other[r] * scale };
+        column[r] = if FUSED {
+            other[r].mul_add(-scale, column[r])
+        } else {
+            column[r] - other[r] * scale
+        };
     }
 }
 

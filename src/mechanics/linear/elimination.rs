@@ -57,7 +57,11 @@ impl StationElimination {
     fn with(layout: &Layout, instructions: Instructions) -> Self {
         let joint = (0..layout.stations()).filter(|&s| layout.is_large(s)).count();
         let plain = layout.stations() - joint;
-        Self { instructions, plain: vec![[[0.0; 12]; COLUMNS]; plain], joint: vec![[[0.0; 24]; COLUMNS]; joint] }
+        Self {
+            instructions,
+            plain: vec![[[0.0; 12]; COLUMNS]; plain],
+            joint: vec![[[0.0; 24]; COLUMNS]; joint],
+        }
     }
 
     #[inline(always)]

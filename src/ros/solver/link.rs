@@ -7,7 +7,7 @@ use std::sync::mpsc::SyncSender;
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use crate::mechanics::{LiveParameters, StepFailure};
-use crate::twin::{Frame, Inputs, RunInputs, Schedule};
+use crate::twin::{BuildError, Frame, Inputs, RunInputs, Schedule};
 
 /// Frames in circulation: at 100 frames per second, two thirds of a second of a stalled publisher.
 pub const FRAMES: usize = 64;
@@ -32,7 +32,7 @@ pub enum Command {
     /// Back to the state after the start.
     Reset,
     /// Send the whole state. The one command that allocates on the solver's thread.
-    Checkpoint(SyncSender<Vec<u8>>),
+    Checkpoint(SyncSender<Result<Vec<u8>, BuildError>>),
 }
 
 /// What the solver tells, in the order in which it happened.

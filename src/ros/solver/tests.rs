@@ -7,7 +7,7 @@ use super::Solver;
 use super::clock::Clock;
 use super::link::{Command, Gauges, Phase, PublisherEnd, Report, Targets, link};
 use crate::mechanics::{Body, FailureCause, LiveParameters, StepFailure, StepOutcome};
-use crate::twin::{Inputs, Model, Run, RunInputs, Schedule, SimulationSettings, Snapshot};
+use crate::twin::{BuildError, Inputs, Model, Run, RunInputs, Schedule, SimulationSettings, Snapshot};
 
 const MS: u64 = 1_000_000;
 const START: u64 = 1_000_000 * MS;
@@ -62,8 +62,8 @@ impl Model for ScriptedModel {
     fn reset(&mut self) {
         self.step = 0;
     }
-    fn checkpoint(&self) -> Vec<u8> {
-        vec![self.step as u8]
+    fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
+        Ok(vec![self.step as u8])
     }
 }
 
@@ -108,6 +108,10 @@ impl Bench {
             },
             rotary_speed_slew: 1.0,
             weight_on_bit_slew: 1.0,
+            whirl: Default::default(),
+            stick_slip: Default::default(),
+            watched: Vec::new(),
+            whirl_sample_interval: 5e-3,
         };
         let targets = Targets::new(settings.initial_inputs);
         let gauges = Arc::new(Gauges::default());
