@@ -2,6 +2,7 @@
 
 mod check;
 mod generate_messages;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -18,6 +19,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Check(check::CheckArgs),
+    Watch(watch::WatchArgs),
     #[command(hide = true)]
     GenerateMessages(generate_messages::Args),
 }
@@ -27,6 +29,7 @@ pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let result: anyhow::Result<()> = match cli.command {
         Command::Check(args) => check::run(&args),
+        Command::Watch(args) => watch::run(&args),
         Command::GenerateMessages(args) => generate_messages::run(&args),
     };
     match result {

@@ -9,6 +9,7 @@ pub mod publisher;
 pub mod raw;
 pub mod service;
 pub mod solver;
+pub mod subscriber;
 
 use ros2_client::CreateError;
 
@@ -21,6 +22,14 @@ pub enum NodeError {
     /// Wrong network settings, or DDS did not start.
     #[error(transparent)]
     Network(#[from] network::NetworkError),
+    /// The node itself could not be created.
+    #[error("node {node}: {why}")]
+    Node {
+        /// Absolute name.
+        node: String,
+        /// What is wrong.
+        why: String,
+    },
     /// A topic or its endpoint could not be created.
     #[error("topic {topic}: {source}")]
     Topic {

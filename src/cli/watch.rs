@@ -1,0 +1,169 @@
+//! `flexdrill watch`: a terminal dashboard over DDS. It sees what any outside client sees, and nothing else.
+
+mod board;
+mod feed;
+mod plain;
+mod profile;
+mod screen;
+mod words;
+
+use std::io::IsTerminal;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, bail};
+use clap::Args;
+
+use crate::ros::network::Network;
+use board::Board;
+use feed::Feed;
+
+/// Time between two looks at the network and the keyboard.
+const POLL: Duration = Duration::from_millis(50);
+/// Time between two pictures.
+const FRAME: Duration = Duration::from_millis(100);
+/// How long `--once` waits for a complete set of messages when `--duration` does not say.
+const ONCE_PATIENCE: Duration = Duration::from_secs(30);
+
+/// Shows a running twin in the terminal, over DDS.
+#[derive(Debug, Args)]
+pub(super) struct WatchArgs {
+    /// DDS domain, 0 to 232; default ROS_DOMAIN_ID or 0.
+    #[arg(long)]
+    domain: Option<u16>,
+    /// Namespace of the twin.
+    #[arg(long, default_value = "/")]
+    namespace: String,
+    /// Print blocks of lines instead of a full screen; the default when the output is no terminal.
+    #[arg(long)]
+    plain: bool,
+    /// Print one block as soon as everything has been heard once, and end. Implies --plain.
+    #[arg(long)]
+    once: bool,
+    /// Time between two blocks of --plain (s).
+    #[arg(long, default_value_t = 1.0, value_parser = seconds)]
+    interval: f64,
+    /// End after this time (s); fails when no twin was heard.
+    #[arg(long, value_parser = seconds)]
+    duration: Option<f64>,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 1e7 => Ok(value),
+        _ => Err("use a number of seconds above 0".to_owned()),
+    }
+}
+
+/// # Errors
+/// When DDS does not start, the terminal cannot be used, or no twin was heard in the given time.
+pub(super) fn run(args: &WatchArgs) -> anyhow::Result<()> {
+    let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok())?;
+    let stop = stop_on_signals()?;
+    let mut feed = Feed::new(&network, &args.namespace)?;
+    let mut board = Board::new(Instant::now());
+    let deadline = args.duration.map(Duration::from_secs_f64);
+    if args.once || args.plain || !std::io::stdout().is_terminal() {
+        for note in notes {
+            eprintln!("note: {note}");
+        }
+        print_blocks(args, &mut feed, &mut board, deadline, &stop)?;
+    } else {
+        let mut terminal =
+            ratatui::try_init().context("the terminal cannot be switched to full screen; use --plain")?;
+        let shown = show_screen(&mut terminal, &mut feed, &mut board, deadline, &stop);
+        ratatui::restore();
+        shown?;
+    }
+    // Ended by a person or a signal, nothing is wrong; ended by the clock, a twin should have been heard.
+    let by_clock = args.once || (deadline.is_some() && !stop.load(Ordering::Relaxed));
+    if by_clock && board.status().is_none() {
+        bail!(
+            "no twin heard on {} in domain {}: is `flexdrill run` up, in the same domain (ROS_DOMAIN_ID) and namespace?",
+            feed.status_topic(),
+            network.domain_id
+        );
+    }
+    Ok(())
+}
+
+fn print_blocks(
+    args: &WatchArgs,
+    feed: &mut Feed,
+    board: &mut Board,
+    deadline: Option<Duration>,
+    stop: &AtomicBool,
+) -> anyhow::Result<()> {
+    let start = Instant::now();
+    let interval = Duration::from_secs_f64(args.interval);
+    let patience = if args.once {
+        Some(deadline.unwrap_or(ONCE_PATIENCE))
+    } else {
+        deadline
+    };
+    let mut next = start + interval;
+    while !stop.load(Ordering::Relaxed) {
+        std::thread::sleep(POLL);
+        let now = Instant::now();
+        feed.drain(board, now);
+        if args.once && board.is_complete() {
+            return plain::print(board, now);
+        }
+        if !args.once && now >= next {
+            next = now + interval;
+            plain::print(board, now)?;
+        }
+        if patience.is_some_and(|patience| now - start >= patience) {
+            if args.once {
+                plain::print(board, now)?;
+                bail!("not everything was heard in time: {}", board.missing().join(", "));
+            }
+            break;
+        }
+    }
+    Ok(())
+}
+
+fn show_screen(
+    terminal: &mut ratatui::DefaultTerminal,
+    feed: &mut Feed,
+    board: &mut Board,
+    deadline: Option<Duration>,
+    stop: &AtomicBool,
+) -> anyhow::Result<()> {
+    let start = Instant::now();
+    let mut next = start;
+    while !stop.load(Ordering::Relaxed) {
+        let now = Instant::now();
+        feed.drain(board, now);
+        if now >= next {
+            next = now + FRAME;
+            terminal.draw(|frame| screen::draw(frame, board, now))?;
+        }
+        if screen::quit_pressed(POLL)? || deadline.is_some_and(|deadline| now - start >= deadline) {
+            stop.store(true, Ordering::Relaxed);
+        }
+    }
+    Ok(())
+}
+
+/// Set by SIGINT, SIGTERM or SIGHUP, so that the terminal is always given back as it was.
+fn stop_on_signals() -> anyhow::Result<Arc<AtomicBool>> {
+    use tokio::signal::unix::{SignalKind, signal};
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    let mut streams = {
+        let _entered = runtime.enter();
+        [SignalKind::interrupt(), SignalKind::terminate(), SignalKind::hangup()].map(signal)
+    };
+    std::thread::spawn(move || {
+        runtime.block_on(async {
+            let waits = streams.iter_mut().flatten().map(|stream| Box::pin(stream.recv()));
+            futures::future::select_all(waits).await;
+            flag.store(true, Ordering::Relaxed);
+        });
+    });
+    Ok(stop)
+}

@@ -1,0 +1,257 @@
+//! What the dashboard knows: the newest message of each topic, a short history of the bit, and held force peaks.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use super::profile::HeldPeaks;
+use crate::inputs::units::rad_per_s_to_rpm;
+use crate::messages::{BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+
+/// A heart that has not beaten for this long is lost: ten beats at the default 5 Hz.
+const HEARTBEAT_LOST: Duration = Duration::from_secs(2);
+/// Length of the bit's history in model time (s).
+pub(super) const HISTORY: f64 = 30.0;
+/// Least model time between two points of the history (s).
+const HISTORY_SPACING: f64 = 0.05;
+
+/// One point of the bit's history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct BitPoint {
+    /// Stamp (s).
+    pub(super) time: f64,
+    pub(super) speed_rpm: f64,
+    pub(super) torque: f64,
+}
+
+pub(super) struct Board {
+    started: Instant,
+    status: Option<(TwinStatus, Instant)>,
+    bit: Option<BitState>,
+    contacts: Option<ContactForces>,
+    joints: Option<JointDeflections>,
+    whirl: Option<WhirlState>,
+    warning: Option<WhirlWarning>,
+    history: VecDeque<BitPoint>,
+    pipe_guide: HeldPeaks,
+    guide_wall: HeldPeaks,
+    unreadable: u64,
+}
+
+/// Whether the twin's heart beats.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Heartbeat {
+    /// Nothing heard since this long.
+    Waiting(Duration),
+    Beating,
+    /// Last heard this long ago.
+    Lost(Duration),
+}
+
+impl Board {
+    pub(super) fn new(now: Instant) -> Self {
+        Self {
+            started: now,
+            status: None,
+            bit: None,
+            contacts: None,
+            joints: None,
+            whirl: None,
+            warning: None,
+            history: VecDeque::new(),
+            pipe_guide: HeldPeaks::default(),
+            guide_wall: HeldPeaks::default(),
+            unreadable: 0,
+        }
+    }
+
+    pub(super) fn take_status(&mut self, status: TwinStatus, now: Instant) {
+        // A heartbeat that counts anew is another run: what is known of the last one no longer holds.
+        if self
+            .status
+            .as_ref()
+            .is_some_and(|(last, _)| status.sequence < last.sequence)
+        {
+            let (started, unreadable) = (self.started, self.unreadable);
+            *self = Self::new(now);
+            (self.started, self.unreadable) = (started, unreadable);
+        }
+        self.status = Some((status, now));
+    }
+
+    pub(super) fn take_bit(&mut self, bit: BitState) {
+        let time = stamp(&bit.header);
+        match self.history.back() {
+            Some(last) if time < last.time => self.history.clear(),
+            Some(last) if time - last.time < HISTORY_SPACING => {
+                self.bit = Some(bit);
+                return;
+            }
+            _ => {}
+        }
+        self.history.push_back(BitPoint {
+            time,
+            speed_rpm: rad_per_s_to_rpm(bit.rotary_speed),
+            torque: bit.torque,
+        });
+        while self.history.front().is_some_and(|first| time - first.time > HISTORY) {
+            self.history.pop_front();
+        }
+        self.bit = Some(bit);
+    }
+
+    pub(super) fn take_contacts(&mut self, contacts: ContactForces) {
+        let time = stamp(&contacts.header);
+        self.pipe_guide.take(time, &contacts.pipe_guide_normal_peak);
+        self.guide_wall.take(time, &contacts.guide_wall_normal_peak);
+        self.contacts = Some(contacts);
+    }
+
+    pub(super) fn take_joints(&mut self, joints: JointDeflections) {
+        self.joints = Some(joints);
+    }
+
+    pub(super) fn take_whirl(&mut self, whirl: WhirlState) {
+        self.whirl = Some(whirl);
+    }
+
+    /// A latched topic may bring old samples too: the one with the highest sequence holds.
+    pub(super) fn take_warning(&mut self, warning: WhirlWarning) {
+        if self
+            .warning
+            .as_ref()
+            .is_none_or(|last| warning.sequence >= last.sequence)
+        {
+            self.warning = Some(warning);
+        }
+    }
+
+    pub(super) fn add_unreadable(&mut self, count: u64) {
+        self.unreadable += count;
+    }
+
+    pub(super) fn status(&self) -> Option<&TwinStatus> {
+        self.status.as_ref().map(|(status, _)| status)
+    }
+
+    pub(super) fn heartbeat(&self, now: Instant) -> Heartbeat {
+        match &self.status {
+            None => Heartbeat::Waiting(now - self.started),
+            Some((_, at)) if now - *at > HEARTBEAT_LOST => Heartbeat::Lost(now - *at),
+            Some(_) => Heartbeat::Beating,
+        }
+    }
+
+    pub(super) fn bit(&self) -> Option<&BitState> {
+        self.bit.as_ref()
+    }
+
+    pub(super) fn contacts(&self) -> Option<&ContactForces> {
+        self.contacts.as_ref()
+    }
+
+    pub(super) fn joints(&self) -> Option<&JointDeflections> {
+        self.joints.as_ref()
+    }
+
+    pub(super) fn whirl(&self) -> Option<&WhirlState> {
+        self.whirl.as_ref()
+    }
+
+    pub(super) fn warning(&self) -> Option<&WhirlWarning> {
+        self.warning.as_ref()
+    }
+
+    pub(super) fn history(&self) -> &VecDeque<BitPoint> {
+        &self.history
+    }
+
+    /// Held peaks between pipe and guide, and between guide and wall.
+    pub(super) fn peaks(&self) -> [&HeldPeaks; 2] {
+        [&self.pipe_guide, &self.guide_wall]
+    }
+
+    /// Samples that did not fit their type: the twin and the dashboard are of different versions.
+    pub(super) fn unreadable(&self) -> u64 {
+        self.unreadable
+    }
+
+    /// Everything that a twin always sends has been heard.
+    pub(super) fn is_complete(&self) -> bool {
+        self.missing().is_empty()
+    }
+
+    pub(super) fn missing(&self) -> Vec<&'static str> {
+        use crate::messages::topics;
+        [
+            (self.status.is_some(), topics::STATUS),
+            (self.bit.is_some(), topics::BIT_STATE),
+            (self.contacts.is_some(), topics::CONTACT_FORCES),
+            (self.joints.is_some(), topics::JOINT_DEFLECTIONS),
+            (self.whirl.is_some(), topics::WHIRL),
+        ]
+        .into_iter()
+        .filter_map(|(heard, topic)| (!heard).then_some(topic.name))
+        .collect()
+    }
+}
+
+fn stamp(header: &crate::messages::std_msgs::Header) -> f64 {
+    header.stamp.to_nanoseconds() as f64 * 1e-9
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::messages::builtin_interfaces::Time;
+
+    fn status(sequence: u64) -> TwinStatus {
+        TwinStatus {
+            sequence,
+            ..TwinStatus::default()
+        }
+    }
+
+    fn bit(seconds: f64, speed: f64) -> BitState {
+        let mut bit = BitState {
+            rotary_speed: speed,
+            ..BitState::default()
+        };
+        bit.header.stamp = Time::from_nanoseconds((seconds * 1e9) as i64);
+        bit
+    }
+
+    #[test]
+    fn heartbeat_is_missed_and_a_restart_clears_the_board() {
+        let start = Instant::now();
+        let mut board = Board::new(start);
+        assert!(matches!(board.heartbeat(start), Heartbeat::Waiting(_)));
+        board.take_status(status(7), start);
+        board.take_warning(WhirlWarning {
+            sequence: 9,
+            ..WhirlWarning::default()
+        });
+        board.take_warning(WhirlWarning {
+            sequence: 3,
+            ..WhirlWarning::default()
+        });
+        assert_eq!(board.warning().map(|warning| warning.sequence), Some(9));
+        assert_eq!(board.heartbeat(start + Duration::from_secs(1)), Heartbeat::Beating);
+        let late = start + Duration::from_secs(5);
+        assert_eq!(board.heartbeat(late), Heartbeat::Lost(Duration::from_secs(5)));
+        board.take_status(status(1), late);
+        assert_eq!(board.heartbeat(late), Heartbeat::Beating);
+        assert!(board.warning().is_none());
+    }
+
+    #[test]
+    fn history_is_bounded_and_follows_a_reset() {
+        let mut board = Board::new(Instant::now());
+        for step in 0..5000 {
+            board.take_bit(bit(f64::from(step) * 0.02, 4.0));
+        }
+        let (first, last) = (board.history()[0].time, board.history()[board.history().len() - 1].time);
+        assert!(last - first <= HISTORY && board.history().len() <= 601);
+        board.take_bit(bit(0.0, 4.0));
+        assert_eq!(board.history().len(), 1);
+    }
+}

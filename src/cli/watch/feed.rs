@@ -1,0 +1,53 @@
+//! The topics that the dashboard listens to.
+
+use std::time::Instant;
+
+use super::board::Board;
+use crate::messages::topics;
+use crate::messages::{BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+use crate::ros::NodeError;
+use crate::ros::network::Network;
+use crate::ros::subscriber::{Listener, TopicReader};
+
+pub(super) struct Feed {
+    status: TopicReader<TwinStatus>,
+    bit: TopicReader<BitState>,
+    contacts: TopicReader<ContactForces>,
+    joints: TopicReader<JointDeflections>,
+    whirl: TopicReader<WhirlState>,
+    warning: TopicReader<WhirlWarning>,
+    status_topic: String,
+    // Last: the readers go before the participant they belong to.
+    _listener: Listener,
+}
+
+impl Feed {
+    pub(super) fn new(network: &Network, namespace: &str) -> Result<Self, NodeError> {
+        let mut listener = Listener::new(network, namespace, "flexdrill_watch")?;
+        Ok(Self {
+            status: listener.subscribe(&topics::STATUS)?,
+            bit: listener.subscribe(&topics::BIT_STATE)?,
+            contacts: listener.subscribe(&topics::CONTACT_FORCES)?,
+            joints: listener.subscribe(&topics::JOINT_DEFLECTIONS)?,
+            whirl: listener.subscribe(&topics::WHIRL)?,
+            warning: listener.subscribe(&topics::WHIRL_WARNINGS)?,
+            status_topic: listener.topic_name(&topics::STATUS)?,
+            _listener: listener,
+        })
+    }
+
+    pub(super) fn status_topic(&self) -> &str {
+        &self.status_topic
+    }
+
+    /// Puts all that has arrived on the board.
+    pub(super) fn drain(&mut self, board: &mut Board, now: Instant) {
+        let unreadable = self.status.drain(|message| board.take_status(message, now))
+            + self.bit.drain(|message| board.take_bit(message))
+            + self.contacts.drain(|message| board.take_contacts(message))
+            + self.joints.drain(|message| board.take_joints(message))
+            + self.whirl.drain(|message| board.take_whirl(message))
+            + self.warning.drain(|message| board.take_warning(message));
+        board.add_unreadable(unreadable);
+    }
+}

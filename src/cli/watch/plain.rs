@@ -1,0 +1,137 @@
+//! The dashboard as a block of lines, for logs, pipes and CI.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::time::Instant;
+
+use super::board::Board;
+use super::words;
+use crate::inputs::units::rad_per_s_to_rpm;
+
+pub(super) fn print(board: &Board, now: Instant) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(block(board, now).as_bytes())?;
+    out.flush()?;
+    Ok(())
+}
+
+fn block(board: &Board, now: Instant) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = write(&mut text, board, now);
+    text
+}
+
+fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
+    if let Some(line) = words::heartbeat(board, now) {
+        writeln!(text, "{line}")?;
+    }
+    if let Some(status) = board.status() {
+        writeln!(
+            text,
+            "twin       {} at {:.1} s, heartbeat {}",
+            words::state(status.state),
+            status.model_time,
+            status.sequence
+        )?;
+        writeln!(
+            text,
+            "pace       x{:.3} real time, late {}, steps missed {} skipped {}, step p50 {} p99 {} max {}",
+            status.real_time_factor,
+            words::short_time(status.lateness),
+            status.deadline_misses,
+            status.steps_skipped,
+            words::short_time(status.step_time_p50),
+            words::short_time(status.step_time_p99),
+            words::short_time(status.step_time_max)
+        )?;
+        writeln!(
+            text,
+            "solver     {:.1} iterations per step, halved {} failed {}, energy error {:.2} %",
+            status.newton_iterations_mean,
+            status.halved_steps,
+            status.failed_steps,
+            100.0 * status.energy_error_ratio
+        )?;
+        for (line, _) in words::inputs(status) {
+            writeln!(text, "input      {line}")?;
+        }
+    }
+    if let Some(bit) = board.bit() {
+        writeln!(
+            text,
+            "bit        {:.2} r/min, {:.1} N m, stick-slip {:.2}",
+            rad_per_s_to_rpm(bit.rotary_speed),
+            bit.torque,
+            bit.stick_slip_index
+        )?;
+    }
+    if board.contacts().is_some() {
+        writeln!(text, "pipe-guide {}", words::largest(board, 0))?;
+        writeln!(text, "guide-wall {}", words::largest(board, 1))?;
+    }
+    if board.joints().is_some() {
+        writeln!(text, "joints     {}", words::joints(board))?;
+    }
+    if let Some(whirl) = board.whirl() {
+        writeln!(text, "whirl      {}", words::whirl_counts(whirl))?;
+    }
+    writeln!(text, "warning    {}", words::warning(board.warning()))?;
+    if board.unreadable() > 0 {
+        writeln!(
+            text,
+            "note       {} messages could not be read: twin and dashboard are of different versions",
+            board.unreadable()
+        )?;
+    }
+    writeln!(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::messages::{BitState, TwinStatus};
+
+    #[test]
+    fn an_empty_board_says_that_it_waits() {
+        let now = Instant::now();
+        let text = block(&Board::new(now), now);
+        assert!(text.starts_with("waiting for a twin since 0 s\n"), "{text}");
+    }
+
+    #[test]
+    fn values_carry_their_units() {
+        let now = Instant::now();
+        let mut board = Board::new(now);
+        board.take_status(
+            TwinStatus {
+                state: TwinStatus::RUNNING,
+                real_time_factor: 1.0,
+                lateness: 3.2e-4,
+                input_name: vec!["rotary_speed".into(), "weight_on_bit".into()],
+                input_state: vec![TwinStatus::INPUT_OK, TwinStatus::INPUT_STALE],
+                input_age: vec![0.31, 12.0],
+                input_received: vec![4.18879, f64::NAN],
+                input_applied: vec![4.18879, 10e3],
+                input_rejected: vec![0, 2],
+                ..TwinStatus::default()
+            },
+            now,
+        );
+        board.take_bit(BitState {
+            rotary_speed: 4.18879,
+            torque: 92.4,
+            ..BitState::default()
+        });
+        let text = block(&board, now);
+        for part in [
+            "RUNNING",
+            "x1.000 real time, late 320 us",
+            "RPM 40.0 r/min rx 40.0 ok 0.3 s",
+            "WOB 10.0 kN rx - STALE 12.0 s (2 refused)",
+            "40.00 r/min, 92.4 N m",
+        ] {
+            assert!(text.contains(part), "'{part}' is not in\n{text}");
+        }
+    }
+}

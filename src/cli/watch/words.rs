@@ -1,0 +1,213 @@
+//! Numbers and codes of the messages as words, the same for the screen and the plain output.
+
+use std::time::{Duration, Instant};
+
+use super::board::{Board, Heartbeat};
+use crate::inputs::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
+use crate::messages::{ContactForces, TwinStatus, WhirlState, WhirlWarning};
+
+pub(super) fn state(code: u8) -> &'static str {
+    match code {
+        TwinStatus::STARTING => "STARTING",
+        TwinStatus::RUNNING => "RUNNING",
+        TwinStatus::PAUSED => "PAUSED",
+        TwinStatus::FAILED => "FAILED",
+        _ => "?",
+    }
+}
+
+pub(super) fn input_state(code: u8) -> &'static str {
+    match code {
+        TwinStatus::INPUT_NOT_RECEIVED => "not received",
+        TwinStatus::INPUT_OK => "ok",
+        TwinStatus::INPUT_SLOW => "slow",
+        TwinStatus::INPUT_STALE => "STALE",
+        TwinStatus::INPUT_REJECTED => "REJECTED",
+        _ => "?",
+    }
+}
+
+pub(super) fn whirl_kind(code: u8) -> &'static str {
+    match code {
+        WhirlState::NONE => "none",
+        WhirlState::FORWARD => "forward",
+        WhirlState::BACKWARD => "backward",
+        WhirlState::CHAOTIC => "chaotic",
+        _ => "?",
+    }
+}
+
+pub(super) fn body(code: u8) -> &'static str {
+    if code == WhirlState::GUIDE { "guide" } else { "pipe" }
+}
+
+pub(super) fn severity(code: u8) -> &'static str {
+    match code {
+        WhirlWarning::OK => "OK",
+        WhirlWarning::WATCH => "WATCH",
+        WhirlWarning::WARNING => "WARNING",
+        WhirlWarning::CRITICAL => "CRITICAL",
+        _ => "?",
+    }
+}
+
+/// What is said about the heart, when something is to be said.
+pub(super) fn heartbeat(board: &Board, now: Instant) -> Option<String> {
+    match board.heartbeat(now) {
+        Heartbeat::Beating => None,
+        Heartbeat::Waiting(time) => Some(format!("waiting for a twin since {}", lapse(time))),
+        Heartbeat::Lost(time) => Some(format!(
+            "HEARTBEAT LOST: last heard {} ago; the values below are old",
+            lapse(time)
+        )),
+    }
+}
+
+fn lapse(time: Duration) -> String {
+    format!("{:.0} s", time.as_secs_f64())
+}
+
+/// Time in milliseconds or microseconds, for step times and lateness.
+pub(super) fn short_time(seconds: f64) -> String {
+    if !seconds.is_finite() {
+        "-".to_owned()
+    } else if seconds < 1e-3 {
+        format!("{:.0} us", seconds * 1e6)
+    } else if seconds < 1.0 {
+        format!("{:.1} ms", seconds * 1e3)
+    } else {
+        format!("{seconds:.1} s")
+    }
+}
+
+pub(super) fn force(newton: f64) -> String {
+    if newton.abs() < 1e3 {
+        format!("{newton:.0} N")
+    } else {
+        format!("{:.2} kN", n_to_kn(newton))
+    }
+}
+
+/// One line per input: name, value that acts, value as received, state, age, refused samples.
+pub(super) fn inputs(status: &TwinStatus) -> Vec<(String, u8)> {
+    status
+        .input_name
+        .iter()
+        .enumerate()
+        .map(|(index, name)| {
+            let at = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);
+            let is_speed = name.contains("speed");
+            let convert = if is_speed { rad_per_s_to_rpm } else { n_to_kn };
+            let (label, unit) = if is_speed { ("RPM", "r/min") } else { ("WOB", "kN") };
+            let state = status.input_state.get(index).copied().unwrap_or(u8::MAX);
+            let rejected = status.input_rejected.get(index).copied().unwrap_or(0);
+            let mut line = format!("{label} {} {unit}", number(convert(at(&status.input_applied))));
+            line += &format!(" rx {}", number(convert(at(&status.input_received))));
+            line += &format!(" {}", input_state(state));
+            let age = at(&status.input_age);
+            if age.is_finite() {
+                line += &format!(" {age:.1} s");
+            }
+            if rejected > 0 {
+                line += &format!(" ({rejected} refused)");
+            }
+            (line, state)
+        })
+        .collect()
+}
+
+fn number(value: f64) -> String {
+    if value.is_finite() {
+        format!("{value:.1}")
+    } else {
+        "-".to_owned()
+    }
+}
+
+/// Inclination and depth of a station.
+pub(super) fn place(contacts: &ContactForces, station: usize) -> String {
+    match (contacts.inclination.get(station), contacts.measured_depth.get(station)) {
+        (Some(inclination), Some(depth)) => format!("{:.0} deg, {depth:.2} m", rad_to_deg(*inclination)),
+        _ => "?".to_owned(),
+    }
+}
+
+/// Held largest force of a layer and where.
+pub(super) fn largest(board: &Board, layer: usize) -> String {
+    let held = board.peaks()[layer].largest();
+    match (held, board.contacts()) {
+        (Some((station, newton)), Some(contacts)) => format!("{} at {}", force(newton), place(contacts, station)),
+        _ => "no contact".to_owned(),
+    }
+}
+
+/// Joints: how far the most bent one is, where, and how many are at their limit.
+pub(super) fn joints(board: &Board) -> String {
+    let Some(joints) = board.joints() else {
+        return "-".to_owned();
+    };
+    let at = joints.max_bend_joint as usize;
+    let limit = joints.limit_angle.get(at).copied().unwrap_or(f64::NAN);
+    format!(
+        "{} at limit; most bent {:.2} of {:.1} deg, joint {}",
+        joints.joints_at_limit,
+        rad_to_deg(joints.max_bend_angle),
+        rad_to_deg(limit),
+        at + 1
+    )
+}
+
+/// Number of watched places per kind.
+pub(super) fn whirl_counts(whirl: &WhirlState) -> String {
+    let count = |kind: u8| whirl.kind.iter().filter(|&&at| at == kind).count();
+    format!(
+        "forward {} backward {} chaotic {} none {}",
+        count(WhirlState::FORWARD),
+        count(WhirlState::BACKWARD),
+        count(WhirlState::CHAOTIC),
+        count(WhirlState::NONE)
+    )
+}
+
+/// One row of the whirl table.
+pub(super) struct WhirlRow {
+    pub(super) place: String,
+    pub(super) kind: u8,
+    pub(super) ratio: f64,
+    pub(super) clearance_ratio: f64,
+    pub(super) contact_duty: f64,
+    pub(super) confidence: f64,
+}
+
+/// Places that whirl, the widest orbit first.
+pub(super) fn whirl_rows(whirl: &WhirlState) -> Vec<WhirlRow> {
+    let at = |values: &[f64], index: usize| values.get(index).copied().unwrap_or(f64::NAN);
+    let mut order: Vec<usize> = (0..whirl.kind.len())
+        .filter(|&index| whirl.kind[index] != WhirlState::NONE)
+        .collect();
+    order.sort_by(|&a, &b| at(&whirl.orbit_radius, b).total_cmp(&at(&whirl.orbit_radius, a)));
+    order
+        .into_iter()
+        .map(|index| WhirlRow {
+            place: format!(
+                "{:>3.0} deg {}",
+                rad_to_deg(at(&whirl.inclination, index)),
+                body(whirl.body.get(index).copied().unwrap_or_default())
+            ),
+            kind: whirl.kind[index],
+            ratio: at(&whirl.whirl_ratio, index),
+            clearance_ratio: at(&whirl.clearance_ratio, index),
+            contact_duty: at(&whirl.contact_duty, index),
+            confidence: at(&whirl.confidence, index),
+        })
+        .collect()
+}
+
+/// The warning as one line.
+pub(super) fn warning(warning: Option<&WhirlWarning>) -> String {
+    match warning {
+        None => "no warning yet".to_owned(),
+        Some(warning) if warning.message.is_empty() => severity(warning.severity).to_owned(),
+        Some(warning) => format!("{}: {}", severity(warning.severity), warning.message),
+    }
+}
