@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# The main job: builds, starts the twin and a rig that plays a drilling log into it, and shows the twin in this terminal.
+# Everything talks DDS over loopback, as separate programs. q or Ctrl-C ends it all.
+set -euo pipefail
+. "$(dirname "$0")/common.sh"
+
+usage() {
+    cat <<EOT
+usage: launch_scripts/demo.sh [options] [LOG]
+  LOG             a rig log (CSV) to play; default: the generated log in config/field_logs/
+  --mapping FILE  mapping of the log's columns; default: beside the log, or as flexdrill rig finds it
+  --from S, --to S  play only this part of the log (seconds from its start)
+  --config FILE   configuration of the twin; default: the finest shipped one that holds real time on this machine
+  --record FILE   record a bag meanwhile
+  --seconds N     end after N seconds of viewing (for CI)
+  --plain         print lines instead of a full screen
+EOT
+}
+
+log="" config="" seconds="" rig_options=() node_options=() watch_options=()
+while [ $# -gt 0 ]; do
+    case $1 in
+    --mapping | --from | --to) rig_options+=("$1" "${2:?$1 needs a value}") && shift ;;
+    --config) config=${2:?--config needs a file} && shift ;;
+    --record) node_options+=(--record "${2:?--record needs a file}") && shift ;;
+    --seconds) seconds=${2:?--seconds needs a number} && shift ;;
+    --plain) watch_options+=(--plain) ;;
+    -h | --help) usage && exit 0 ;;
+    -*) usage >&2 && exit 2 ;;
+    *) log=$1 ;;
+    esac
+    shift
+done
+[ -n "$seconds" ] && watch_options+=(--duration "$seconds")
+
+build
+local_dds
+if [ -z "$log" ]; then
+    log=$(find "$root/config/field_logs" -name '*.csv' | sort | head -n 1)
+    [ -n "$log" ] || fail "no log in config/field_logs; give one as argument"
+fi
+[ -r "$log" ] || fail "cannot read the log $log"
+
+work=$(mktemp -d)
+node_pid="" rig_pid=""
+# Ends a program that this script started: politely, so that recordings are finished, then firmly.
+end() {
+    local pid=$1
+    [ -n "$pid" ] && kill -0 "$pid" 2>/dev/null || return 0
+    kill -TERM "$pid" 2>/dev/null || true
+    for _ in $(seq 100); do
+        kill -0 "$pid" 2>/dev/null || break
+        sleep 0.1
+    done
+    kill -KILL "$pid" 2>/dev/null || true
+    wait "$pid" 2>/dev/null || true
+}
+finish() {
+    local code=$?
+    trap - EXIT INT TERM
+    end "$rig_pid"
+    end "$node_pid"
+    if [ $code -ne 0 ] && [ -s "$work/node.log" ]; then
+        say "the twin's last words:"
+        tail -n 15 "$work/node.log" >&2
+    fi
+    rm -rf "$work"
+    say "stopped"
+    exit $code
+}
+trap finish EXIT
+trap 'exit 0' INT TERM
+
+# start_node CONFIG [OPTION...]
+start_node() {
+    "$flexdrill" run --config "$@" >"$work/node.log" 2>&1 &
+    node_pid=$!
+}
+
+# Real-time factor as the twin itself reports it, or nothing when it does not answer.
+real_time_factor() {
+    "$flexdrill" watch --once --duration 60 2>/dev/null | sed -n 's/^pace  *x\([0-9.]*\) real time.*/\1/p'
+}
+
+if [ -z "$config" ]; then
+    # The twin says of itself whether it keeps up: start it, let it run a few seconds, ask it.
+    for candidate in config/default.yaml config/coarse.yaml; do
+        say "trying $candidate: does it hold real time on this machine?"
+        start_node "$root/$candidate"
+        factor=$(real_time_factor)
+        if [ -n "$factor" ]; then
+            sleep 5
+            factor=$(real_time_factor)
+        fi
+        end "$node_pid"
+        node_pid=""
+        [ -n "$factor" ] || fail "the twin did not answer with $candidate: $(tail -n 3 "$work/node.log")"
+        say "$candidate runs at x$factor of real time"
+        config=$root/$candidate
+        if awk -v f="$factor" 'BEGIN { exit !(f >= 0.98) }'; then break; fi
+    done
+    awk -v f="$factor" 'BEGIN { exit !(f >= 0.98) }' ||
+        say "no shipped configuration holds real time here: the twin will be right but late, and says so"
+fi
+
+say "starting the twin: $config"
+start_node "$config" ${node_options[@]+"${node_options[@]}"}
+say "starting the rig: $log"
+"$flexdrill" rig "$log" --loop ${rig_options[@]+"${rig_options[@]}"} >"$work/rig.log" 2>&1 &
+rig_pid=$!
+sleep 2
+kill -0 "$node_pid" 2>/dev/null || fail "the twin ended at once"
+kill -0 "$rig_pid" 2>/dev/null || fail "the rig ended at once: $(tail -n 5 "$work/rig.log")"
+"$flexdrill" watch ${watch_options[@]+"${watch_options[@]}"}

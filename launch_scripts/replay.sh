@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# A bag or a field log through the model, as fast as it goes: launch_scripts/replay.sh IN [OUT.mcap] [options of
+# `flexdrill replay`]. Without OUT the result is IN's name with _replayed.mcap.
+set -euo pipefail
+. "$(dirname "$0")/common.sh"
+input=${1:-}
+[ -n "$input" ] || fail "give a bag (.mcap, .db3 or its folder) or a rig log (.csv)"
+shift
+[ -e "$input" ] || fail "$input is not there"
+case ${1:-} in
+"" | -*)
+    output=$(basename "${input%/}")
+    output="${output%.*}_replayed.mcap"
+    ;;
+*) output=$1 && shift ;;
+esac
+build
+say "replaying $input into $output"
+exec "$flexdrill" replay "$input" --out "$output" "$@"

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# All tests. Does its own set-up on a fresh Debian or Ubuntu that has Rust and Python 3 (as root or with sudo):
+# packages, a Python environment in .venv with pinned versions, then `cargo test --release`, whose summary ends the run.
+# Options go to cargo test: launch_scripts/test.sh --test interop_node
+set -euo pipefail
+. "$(dirname "$0")/common.sh"
+limit=5400
+
+say "step 1 of 4: packages (a C compiler for SQLite and Zstandard, ip and unshare for private networks, venv for Python)"
+need_packages build-essential iproute2 util-linux python3-venv
+need_rust
+
+say "step 2 of 4: Python packages of other vendors in .venv, versions pinned in tests/python/requirements.txt"
+venv=$root/.venv
+requirements=$root/tests/python/requirements.txt
+[ -x "$venv/bin/python" ] && "$venv/bin/python" -c '' 2>/dev/null || {
+    rm -rf "$venv"
+    python3 -m venv "$venv" || fail "python3 -m venv failed; the package python3-venv of this very Python is needed"
+}
+if ! cmp -s "$requirements" "$venv/installed.txt"; then
+    timeout 900 "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -r "$requirements" ||
+        fail "pip could not install what tests/python/requirements.txt names; is there a network?"
+    cp "$requirements" "$venv/installed.txt"
+fi
+export FLEXDRILL_PYTHON=$venv/bin/python
+say "$("$FLEXDRILL_PYTHON" --version): $("$FLEXDRILL_PYTHON" -m pip list --format=freeze --disable-pip-version-check | grep -E '^(cyclonedds|rosbags|mcap)' | tr '\n' ' ')"
+
+say "step 3 of 4: building"
+cd "$root"
+timeout 3600 cargo build --release --locked --all-targets || fail "the build failed or took more than an hour"
+
+say "step 4 of 4: cargo test --release (at most $((limit / 60)) minutes)"
+exec timeout -k 30 "$limit" cargo test --release --locked --no-fail-fast "$@"
