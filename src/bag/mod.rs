@@ -1,1 +1,46 @@
-//! Bags: MCAP recording, reading, recovery, and rosbag2's SQLite as input.
+//! Bags: recording to MCAP, reading MCAP and rosbag2's SQLite, recovering what a killed recording left.
+//!
+//! The only module that knows these formats.
+//!
+//! ```no_run
+//! # fn main() -> Result<(), flexdrill::bag::BagError> {
+//! use flexdrill::bag::{self, Recorder, Topic};
+//! use flexdrill::messages::{BitState, to_cdr, topics};
+//!
+//! let topic = Topic::new("/rig_7/twin/bit_state", &topics::BIT_STATE.kind, topics::BIT_STATE.qos);
+//! let mut recorder = Recorder::create("run.mcap".as_ref(), &[topic])?;
+//! # let bytes = to_cdr(&BitState::default()).unwrap_or_default();
+//! recorder.record(0, 1_700_000_000_000_000_000, &bytes)?;
+//! recorder.finish()?;
+//!
+//! for message in bag::open("run.mcap".as_ref())? {
+//!     let message = message?;
+//!     if message.topic.is("twin/bit_state") {
+//!         println!("{} {}", message.log_time, message.decode::<BitState>()?.torque);
+//!     }
+//! }
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Layout
+//! - `recorder`: writing. `location`: where the files of a recording go. `metadata`: rosbag2's `metadata.yaml`.
+//! - `reader`: [`open`], all sources merged in time order. `mcap_file`, `sqlite`: one source each.
+//! - `recover`: reading and writing again.
+
+mod error;
+mod location;
+mod mcap_file;
+mod metadata;
+mod qos;
+mod reader;
+mod recorder;
+mod recover;
+mod sqlite;
+mod topic;
+
+pub use error::BagError;
+pub use reader::{Bag, BagMessage, Cut, open};
+pub use recorder::{Recorder, Recording};
+pub use recover::{Recovered, recover, recover_with};
+pub use topic::Topic;

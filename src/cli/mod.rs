@@ -2,6 +2,7 @@
 
 mod check;
 mod generate_messages;
+mod recover;
 mod watch;
 
 use std::process::ExitCode;
@@ -20,6 +21,7 @@ struct Cli {
 enum Command {
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
+    Recover(recover::RecoverArgs),
     #[command(hide = true)]
     GenerateMessages(generate_messages::Args),
 }
@@ -30,6 +32,7 @@ pub fn main() -> ExitCode {
     let result: anyhow::Result<()> = match cli.command {
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
+        Command::Recover(args) => recover::run(&args),
         Command::GenerateMessages(args) => generate_messages::run(&args),
     };
     match result {

@@ -1,0 +1,162 @@
+//! What can go wrong with bags.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::messages::CdrError;
+
+/// Why a bag could not be written or read. Every message names the file.
+#[derive(Debug, thiserror::Error)]
+pub enum BagError {
+    /// The file system refused.
+    #[error("cannot {action} {path}: {source}{hint}", path = path.display(), hint = hint(source))]
+    Io {
+        /// What was tried, such as `write`.
+        action: &'static str,
+        /// Where.
+        path: PathBuf,
+        /// Why not.
+        source: io::Error,
+    },
+    /// A recording would overwrite a file.
+    #[error("{path} exists already: recordings never overwrite; choose another name or remove it", path = path.display())]
+    Exists {
+        /// Which.
+        path: PathBuf,
+    },
+    /// Another recording in the same folder has its metadata.yaml there.
+    #[error(
+        "{path} belongs to another bag, and a folder can hold the metadata of one only: \
+         record into a folder of its own (a path without .mcap at its end makes one)",
+        path = path.display()
+    )]
+    OtherMetadata {
+        /// The other bag's metadata.
+        path: PathBuf,
+    },
+    /// The recording stopped on an earlier error.
+    #[error("the recording {path} has stopped on an earlier error; what was written before is kept", path = path.display())]
+    Stopped {
+        /// Which.
+        path: PathBuf,
+    },
+    /// The MCAP writer refused.
+    #[error("cannot write {path}: {source}", path = path.display())]
+    Write {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: mcap::McapError,
+    },
+    /// A topic index that was not given when the recording was created.
+    #[error("{path}: topic number {index} was not announced, there are {count}", path = path.display())]
+    NoSuchIndex {
+        /// Which recording.
+        path: PathBuf,
+        /// The index.
+        index: usize,
+        /// Topics there are.
+        count: usize,
+    },
+    /// Neither MCAP nor SQLite nor a folder with either.
+    #[error("{path} is not a bag: {problem}", path = path.display())]
+    NotABag {
+        /// Which.
+        path: PathBuf,
+        /// What it is instead.
+        problem: String,
+    },
+    /// rosbag2's own compression of whole files or messages, and chunk compressions that we do not know.
+    #[error("{path} is compressed as {compression:?}, which is not supported: {remedy}", path = path.display())]
+    Compression {
+        /// Which.
+        path: PathBuf,
+        /// How.
+        compression: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A metadata.yaml is not understood.
+    #[error("{path}: {problem}", path = path.display())]
+    Metadata {
+        /// Which.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Part of a file is damaged; what follows may be whole.
+    #[error("{path}, byte {offset}: {problem}", path = path.display())]
+    Damaged {
+        /// Which.
+        path: PathBuf,
+        /// Where the damaged part begins.
+        offset: u64,
+        /// What is wrong.
+        problem: String,
+    },
+    /// SQLite refused.
+    #[error("cannot read {path}: {source}", path = path.display())]
+    Sqlite {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: rusqlite::Error,
+    },
+    /// The bag has no such topic.
+    #[error("no topic {name} in the bag, which has: {present}")]
+    NoTopic {
+        /// Relative or absolute name asked for.
+        name: String,
+        /// Names there are.
+        present: String,
+    },
+    /// Several topics of the bag end in that name.
+    #[error("{name} is not clear in this bag, it could be: {present}; give the full name")]
+    AmbiguousTopic {
+        /// Relative name asked for.
+        name: String,
+        /// Names that match.
+        present: String,
+    },
+    /// A message is of another type than expected.
+    #[error("{topic} carries {found}, expected {expected}")]
+    WrongType {
+        /// Name.
+        topic: String,
+        /// Type in the bag.
+        found: String,
+        /// Type asked for.
+        expected: &'static str,
+    },
+    /// A message's bytes do not fit its type.
+    #[error("{topic} at {log_time} ns: {source}")]
+    Decode {
+        /// Name.
+        topic: String,
+        /// Log time of the message.
+        log_time: i64,
+        /// Why.
+        source: CdrError,
+    },
+}
+
+impl BagError {
+    /// For `map_err` on operations on a path.
+    pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Io { action, path, source }
+    }
+}
+
+/// What a person can do about the commonest ones.
+fn hint(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "; free space and start a new recording, what was written before is kept"
+        }
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "; choose a folder that you may write to"
+        }
+        _ => "",
+    }
+}

@@ -1,0 +1,288 @@
+//! First pass over an MCAP file: which parts hold messages of which time, which topics there are, where it ends.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+use std::sync::Arc;
+
+use super::fields::{Channel, Fields, Message, Schema, records};
+use super::{MAGIC, RECORD_HEAD, chunk, op};
+use crate::bag::{BagError, Topic, qos};
+
+/// Bytes of a chunk's body that hold its head, with room for the name of any compression.
+const CHUNK_HEAD: u64 = 256;
+/// Largest schema or channel record that is read (bytes).
+const LARGEST_RECORD: u64 = 16 << 20;
+/// Size up to which messages outside chunks are read together (bytes).
+const LARGEST_RUN: u64 = 1 << 20;
+
+/// A part of the file that holds messages.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Segment {
+    /// Where: of a chunk, its body; of loose messages, their first record.
+    pub offset: u64,
+    pub length: u64,
+    /// Earliest and latest log time (ns), as the file says.
+    pub start: u64,
+    pub end: u64,
+    pub kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A whole chunk.
+    Chunk,
+    /// A chunk at the file's end that is cut.
+    CutChunk,
+    /// Records outside of chunks.
+    Loose,
+}
+
+/// What is known of the topics.
+#[derive(Default)]
+pub(super) struct Channels {
+    schemas: HashMap<u16, Arc<Schema>>,
+    /// Topic number by channel.
+    topic_of: HashMap<u16, usize>,
+    pub topics: Vec<Arc<Topic>>,
+}
+
+impl Channels {
+    /// Takes a schema or channel record; false if it is damaged.
+    pub fn add(&mut self, opcode: u8, body: &[u8]) -> bool {
+        if opcode == op::SCHEMA {
+            let Some(schema) = Schema::parse(body) else {
+                return false;
+            };
+            self.schemas.entry(schema.id).or_insert(Arc::new(schema));
+            return true;
+        }
+        let Some(channel) = Channel::parse(body) else {
+            return false;
+        };
+        if self.topic_of.contains_key(&channel.id) {
+            return true;
+        }
+        let schema = self.schemas.get(&channel.schema_id);
+        let text = |get: fn(&Schema) -> &String| schema.map(|schema| get(schema).clone()).unwrap_or_default();
+        let metadata = |key: &str| channel.metadata.get(key).cloned().unwrap_or_default();
+        let topic = Topic {
+            name: channel.topic.clone(),
+            ros_type: text(|schema| &schema.name),
+            encoding: channel.encoding.clone(),
+            schema: text(|schema| &schema.text),
+            schema_encoding: text(|schema| &schema.encoding),
+            type_hash: metadata("topic_type_hash"),
+            qos: qos::from_yaml(&metadata("offered_qos_profiles")),
+        };
+        let index = match self.topics.iter().position(|known| **known == topic) {
+            Some(index) => index,
+            None => {
+                self.topics.push(Arc::new(topic));
+                self.topics.len() - 1
+            }
+        };
+        self.topic_of.insert(channel.id, index);
+        true
+    }
+
+    /// Number of channels.
+    fn count(&self) -> usize {
+        self.topic_of.len()
+    }
+
+    /// Number of the topic of a channel.
+    pub fn topic(&self, channel: u16) -> Option<usize> {
+        self.topic_of.get(&channel).copied()
+    }
+}
+
+/// Result of the first pass.
+pub(super) struct Scan {
+    pub segments: Vec<Segment>,
+    pub channels: Channels,
+    /// Number of messages, where the file says it.
+    pub messages: Option<u64>,
+    /// Where and why reading ends before the file's own end mark.
+    pub cut: Option<(u64, String)>,
+}
+
+/// Goes through the file's records, without unpacking chunks unless the file has no summary.
+///
+/// # Errors
+/// When the file cannot be read, or is not MCAP.
+pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
+    let read_error = || BagError::io("read", path);
+    let length = file.metadata().map_err(read_error())?.len();
+    let mut reader = BufReader::with_capacity(1 << 16, file);
+    let mut magic = [0; MAGIC.len()];
+    let is_mcap = reader.read_exact(&mut magic).is_ok() && magic == MAGIC;
+    if !is_mcap {
+        return Err(BagError::NotABag {
+            path: path.to_owned(),
+            problem: "it does not begin as an MCAP file".to_owned(),
+        });
+    }
+    let mut scan = Scan {
+        segments: Vec::new(),
+        channels: Channels::default(),
+        messages: None,
+        cut: None,
+    };
+    let mut position = MAGIC.len() as u64;
+    // Channels in the whole file, as its statistics say.
+    let mut channel_count = 0;
+    let complete = loop {
+        if position + RECORD_HEAD > length {
+            let why = if position == length {
+                "the file has no end record: its writer was stopped"
+            } else {
+                "the file ends within a record"
+            };
+            scan.cut = Some((position, why.to_owned()));
+            break false;
+        }
+        let mut head = [0; RECORD_HEAD as usize];
+        reader.read_exact(&mut head).map_err(read_error())?;
+        let opcode = head[0];
+        let size = Fields(&head[1..]).u64().unwrap_or(u64::MAX);
+        let body = position + RECORD_HEAD;
+        if opcode == 0 {
+            scan.cut = Some((position, "no MCAP record begins here: the file is damaged".to_owned()));
+            break false;
+        }
+        let available = length - body;
+        if size > available {
+            scan.cut = Some((position, "the file ends within a record".to_owned()));
+            if opcode == op::CHUNK {
+                let start = chunk_bounds(&mut reader, available).map_err(read_error())?;
+                scan.segments.push(Segment {
+                    offset: body,
+                    length: available,
+                    start: start.map_or(0, |bounds| bounds.0),
+                    end: start.map_or(0, |bounds| bounds.1),
+                    kind: Kind::CutChunk,
+                });
+            }
+            break false;
+        }
+        // How much of the body the arms below have read.
+        let mut used = 0;
+        match opcode {
+            op::FOOTER => break true,
+            op::CHUNK => {
+                used = size.min(CHUNK_HEAD);
+                let (start, end) = chunk_bounds(&mut reader, size).map_err(read_error())?.unwrap_or((0, 0));
+                scan.segments.push(Segment {
+                    offset: body,
+                    length: size,
+                    start,
+                    end,
+                    kind: Kind::Chunk,
+                });
+            }
+            op::MESSAGE => {
+                used = size.min(22);
+                let mut bytes = vec![0; used as usize];
+                reader.read_exact(&mut bytes).map_err(read_error())?;
+                if let Some(message) = Message::parse(&bytes) {
+                    add_loose(&mut scan.segments, position, RECORD_HEAD + size, message.log_time);
+                }
+            }
+            op::SCHEMA | op::CHANNEL | op::STATISTICS if size <= LARGEST_RECORD => {
+                used = size;
+                let mut bytes = vec![0; size as usize];
+                reader.read_exact(&mut bytes).map_err(read_error())?;
+                if opcode == op::STATISTICS {
+                    let mut fields = Fields(&bytes);
+                    scan.messages = fields.u64();
+                    channel_count = fields.u16().and_then(|_schemas| fields.u32()).unwrap_or(0) as usize;
+                } else {
+                    scan.channels.add(opcode, &bytes);
+                }
+            }
+            _ => {}
+        }
+        reader.seek_relative((size - used) as i64).map_err(read_error())?;
+        position = body + size;
+    };
+    if !complete || scan.channels.count() < channel_count || scan.channels.count() == 0 {
+        walk_chunks(path, file, &mut scan)?;
+    }
+    Ok(scan)
+}
+
+/// Earliest and latest time in a chunk, by its head.
+fn chunk_bounds(reader: &mut impl Read, size: u64) -> std::io::Result<Option<(u64, u64)>> {
+    let mut bytes = vec![0; size.min(CHUNK_HEAD) as usize];
+    reader.read_exact(&mut bytes)?;
+    let mut fields = Fields(&bytes);
+    Ok(fields.u64().zip(fields.u64()))
+}
+
+/// Adds a message outside of chunks to the run before it, or begins a run.
+fn add_loose(segments: &mut Vec<Segment>, offset: u64, length: u64, time: u64) {
+    if let Some(last) = segments.last_mut() {
+        let adjacent = last.kind == Kind::Loose && last.offset + last.length == offset;
+        if adjacent && last.length + length <= LARGEST_RUN {
+            last.length += length;
+            last.start = last.start.min(time);
+            last.end = last.end.max(time);
+            return;
+        }
+    }
+    segments.push(Segment {
+        offset,
+        length,
+        start: time,
+        end: time,
+        kind: Kind::Loose,
+    });
+}
+
+/// Finds the topics and times of a file without summary in its chunks.
+fn walk_chunks(path: &Path, file: &File, scan: &mut Scan) -> Result<(), BagError> {
+    let mut messages = 0;
+    for segment in &mut scan.segments {
+        let (content, _) = load(path, file, segment)?;
+        let mut bounds: Option<(u64, u64)> = None;
+        for (opcode, body) in records(&content).flatten() {
+            match opcode {
+                op::SCHEMA | op::CHANNEL => {
+                    scan.channels.add(opcode, body);
+                }
+                op::MESSAGE => {
+                    if let Some(message) = Message::parse(body) {
+                        let time = message.log_time;
+                        messages += 1;
+                        bounds = Some(bounds.map_or((time, time), |(a, b)| (a.min(time), b.max(time))));
+                    }
+                }
+                _ => {}
+            }
+        }
+        // An open chunk's head does not yet tell its times.
+        if let Some((start, end)) = bounds {
+            (segment.start, segment.end) = (start, end);
+        }
+    }
+    scan.messages = Some(messages);
+    Ok(())
+}
+
+/// The records of a segment, and what is wrong with it if something is.
+///
+/// # Errors
+/// When the file cannot be read.
+pub(super) fn load(path: &Path, mut file: &File, segment: &Segment) -> Result<(Vec<u8>, Option<String>), BagError> {
+    let mut bytes = vec![0; usize::try_from(segment.length).unwrap_or(usize::MAX)];
+    file.seek(SeekFrom::Start(segment.offset))
+        .and_then(|_| file.read_exact(&mut bytes))
+        .map_err(BagError::io("read", path))?;
+    Ok(match segment.kind {
+        Kind::Loose => (bytes, None),
+        Kind::Chunk => chunk::unpack(&bytes, true),
+        Kind::CutChunk => chunk::unpack(&bytes, false),
+    })
+}

@@ -1,0 +1,156 @@
+//! Messages of one MCAP file in time order.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::fields::{Message, records};
+use super::op;
+use super::scan::{self, Channels, Kind, Segment};
+use crate::bag::reader::RawMessage;
+use crate::bag::{BagError, Cut, Topic};
+
+/// An open MCAP file. Chunks are unpacked when their time comes; messages wait until no chunk can bring an earlier one.
+pub(in crate::bag) struct McapStream {
+    path: PathBuf,
+    file: File,
+    channels: Channels,
+    /// Sorted by start, then by place.
+    segments: Vec<Segment>,
+    next_segment: usize,
+    waiting: BinaryHeap<Reverse<RawMessage>>,
+    /// Problem of the segment unpacked last, to be reported before its messages.
+    problem: Option<BagError>,
+    /// Messages unpacked so far, which keeps those of equal time in the file's order.
+    order: u64,
+    wanted: Vec<bool>,
+    messages: Option<u64>,
+    cut: Option<Cut>,
+}
+
+impl McapStream {
+    /// Opens it and finds its topics.
+    ///
+    /// # Errors
+    /// When it cannot be read or is not MCAP.
+    pub fn open(path: &Path) -> Result<Self, BagError> {
+        let file = File::open(path).map_err(BagError::io("open", path))?;
+        let mut scan = scan::scan(path, &file)?;
+        scan.segments.sort_by_key(|segment| (segment.start, segment.offset));
+        Ok(Self {
+            path: path.to_owned(),
+            file,
+            wanted: vec![true; scan.channels.topics.len()],
+            channels: scan.channels,
+            segments: scan.segments,
+            next_segment: 0,
+            waiting: BinaryHeap::new(),
+            problem: None,
+            order: 0,
+            messages: scan.messages,
+            cut: scan.cut.map(|(offset, reason)| Cut {
+                path: path.to_owned(),
+                offset,
+                reason,
+            }),
+        })
+    }
+
+    pub fn topics(&self) -> &[Arc<Topic>] {
+        &self.channels.topics
+    }
+
+    pub fn set_wanted(&mut self, wanted: Vec<bool>) {
+        self.wanted = wanted;
+    }
+
+    pub fn messages(&self) -> Option<u64> {
+        self.messages
+    }
+
+    pub fn cut(&self) -> Option<&Cut> {
+        self.cut.as_ref()
+    }
+
+    /// First and last log time; chunks without messages tell zero for both and do not count.
+    pub fn bounds(&self) -> Option<(u64, u64)> {
+        let filled = || self.segments.iter().filter(|segment| segment.end != 0);
+        let start = filled().map(|segment| segment.start).min()?;
+        let end = filled().map(|segment| segment.end).max()?;
+        Some((start, end))
+    }
+
+    /// The next message, or what is wrong with a part of the file; after that, the parts that follow.
+    pub fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
+        loop {
+            if let Some(problem) = self.problem.take() {
+                return Some(Err(problem));
+            }
+            let Some(segment) = self.segments.get(self.next_segment).copied() else {
+                return self.waiting.pop().map(|Reverse(message)| Ok(message));
+            };
+            let first = self.waiting.peek().map(|Reverse(message)| message.log_time as u64);
+            if first.is_some_and(|time| time < segment.start) {
+                return self.waiting.pop().map(|Reverse(message)| Ok(message));
+            }
+            self.next_segment += 1;
+            if let Err(error) = self.unpack(&segment) {
+                return Some(Err(error));
+            }
+        }
+    }
+
+    fn unpack(&mut self, segment: &Segment) -> Result<(), BagError> {
+        let (content, mut problem) = scan::load(&self.path, &self.file, segment)?;
+        for record in records(&content) {
+            let Some((opcode, body)) = record else {
+                // The last record of a cut chunk is cut too.
+                if segment.kind != Kind::CutChunk {
+                    problem.get_or_insert("the chunk ends within a record".to_owned());
+                }
+                break;
+            };
+            match opcode {
+                op::SCHEMA | op::CHANNEL => {
+                    if !self.channels.add(opcode, body) {
+                        problem.get_or_insert("a schema or channel record is damaged".to_owned());
+                    }
+                    self.wanted.resize(self.channels.topics.len(), true);
+                }
+                op::MESSAGE => {
+                    if let Err(wrong) = self.queue(body) {
+                        problem.get_or_insert(wrong);
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.problem = problem.map(|problem| BagError::Damaged {
+            path: self.path.clone(),
+            offset: segment.offset,
+            problem,
+        });
+        Ok(())
+    }
+
+    fn queue(&mut self, body: &[u8]) -> Result<(), String> {
+        let message = Message::parse(body).ok_or("a message record is damaged")?;
+        let topic = self
+            .channels
+            .topic(message.channel_id)
+            .ok_or_else(|| format!("a message is on channel {}, which is not described", message.channel_id))?;
+        if self.wanted.get(topic) == Some(&true) {
+            self.waiting.push(Reverse(RawMessage {
+                log_time: i64::try_from(message.log_time).unwrap_or(i64::MAX),
+                order: self.order,
+                publish_time: i64::try_from(message.publish_time).unwrap_or(i64::MAX),
+                topic,
+                data: message.data.to_vec(),
+            }));
+            self.order += 1;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,332 @@
+//! Reading bags of any kind, all their files merged in time order.
+
+use std::cmp::Ordering;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::location::METADATA;
+use super::mcap_file::{MAGIC, McapStream};
+use super::sqlite::SqliteStream;
+use super::{BagError, Topic, metadata};
+use crate::messages::{Message, from_cdr};
+
+/// First bytes of an SQLite database.
+const SQLITE_MAGIC: &[u8] = b"SQLite format 3\0";
+
+/// One message of a bag.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BagMessage {
+    /// Its topic.
+    pub topic: Arc<Topic>,
+    /// Number of the topic in [`Bag::topics`].
+    pub topic_index: usize,
+    /// When it was recorded (ns since the clock's epoch).
+    pub log_time: i64,
+    /// When it was published (ns since the clock's epoch); SQLite bags do not tell, there it is the log time.
+    pub publish_time: i64,
+    /// CDR with its header.
+    pub data: Vec<u8>,
+}
+
+impl BagMessage {
+    /// The message in its type.
+    ///
+    /// # Errors
+    /// When the topic has another type, or the bytes do not fit.
+    pub fn decode<M: Message>(&self) -> Result<M, BagError> {
+        if self.topic.ros_type != M::ROS_TYPE {
+            return Err(BagError::WrongType {
+                topic: self.topic.name.clone(),
+                found: self.topic.ros_type.clone(),
+                expected: M::ROS_TYPE,
+            });
+        }
+        from_cdr(&self.data).map_err(|source| BagError::Decode {
+            topic: self.topic.name.clone(),
+            log_time: self.log_time,
+            source,
+        })
+    }
+}
+
+/// A file that ends before its own end mark.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Cut {
+    /// Which.
+    pub path: PathBuf,
+    /// Where what can be read in whole records ends (bytes).
+    pub offset: u64,
+    /// Why, for a person.
+    pub reason: String,
+}
+
+/// A message within one file; `topic` counts in that file.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct RawMessage {
+    pub log_time: i64,
+    /// Settles which of equal times comes first.
+    pub order: u64,
+    pub publish_time: i64,
+    pub topic: usize,
+    pub data: Vec<u8>,
+}
+
+impl Ord for RawMessage {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (self.log_time, self.order).cmp(&(other.log_time, other.order))
+    }
+}
+
+impl PartialOrd for RawMessage {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+enum Stream {
+    Mcap(Box<McapStream>),
+    Sqlite(Box<SqliteStream>),
+}
+
+impl Stream {
+    fn open(path: &Path) -> Result<Self, BagError> {
+        let mut magic = Vec::new();
+        File::open(path)
+            .and_then(|file| file.take(16).read_to_end(&mut magic))
+            .map_err(BagError::io("open", path))?;
+        if magic.starts_with(&MAGIC) {
+            Ok(Self::Mcap(Box::new(McapStream::open(path)?)))
+        } else if magic == SQLITE_MAGIC {
+            Ok(Self::Sqlite(Box::new(SqliteStream::open(path)?)))
+        } else {
+            Err(BagError::NotABag {
+                path: path.to_owned(),
+                problem: "it begins neither as MCAP nor as SQLite".to_owned(),
+            })
+        }
+    }
+
+    fn topics(&self) -> &[Arc<Topic>] {
+        match self {
+            Self::Mcap(stream) => stream.topics(),
+            Self::Sqlite(stream) => stream.topics(),
+        }
+    }
+
+    fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
+        match self {
+            Self::Mcap(stream) => stream.next(),
+            Self::Sqlite(stream) => stream.next(),
+        }
+    }
+
+    fn messages(&self) -> Option<u64> {
+        match self {
+            Self::Mcap(stream) => stream.messages(),
+            Self::Sqlite(stream) => Some(stream.messages()),
+        }
+    }
+
+    fn bounds(&self) -> Option<(i64, i64)> {
+        match self {
+            Self::Mcap(stream) => stream.bounds().map(|(start, end)| {
+                let time = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
+                (time(start), time(end))
+            }),
+            Self::Sqlite(stream) => stream.bounds(),
+        }
+    }
+}
+
+/// One file of the bag.
+struct Source {
+    stream: Stream,
+    /// Its next message, if known already.
+    ahead: Option<RawMessage>,
+    /// No more messages.
+    ended: bool,
+    /// Number in the bag by number in the file.
+    topic_of: Vec<usize>,
+}
+
+/// An open bag: an iterator over its messages in time order.
+///
+/// A damaged part gives an error in its place, and the parts behind it follow. A file that was cut short gives everything
+/// up to the cut; [`Bag::cuts`] says so.
+pub struct Bag {
+    sources: Vec<Source>,
+    topics: Vec<Arc<Topic>>,
+}
+
+/// Opens an MCAP file, an SQLite file of rosbag2, or a folder with either.
+///
+/// # Errors
+/// When it is none of these, or cannot be read.
+pub fn open(path: &Path) -> Result<Bag, BagError> {
+    let mut bag = Bag {
+        sources: Vec::new(),
+        topics: Vec::new(),
+    };
+    for file in files(path)? {
+        let stream = Stream::open(&file)?;
+        bag.sources.push(Source {
+            stream,
+            ahead: None,
+            ended: false,
+            topic_of: Vec::new(),
+        });
+    }
+    for index in 0..bag.sources.len() {
+        bag.learn_topics(index);
+    }
+    Ok(bag)
+}
+
+/// The files of the bag at `path`.
+fn files(path: &Path) -> Result<Vec<PathBuf>, BagError> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let described = path.join(METADATA);
+    if described.exists() {
+        let files = metadata::files(path, &described)?;
+        // Metadata of a bag whose recording was stopped may name no files.
+        if !files.is_empty() {
+            return Ok(files);
+        }
+    }
+    let read = || BagError::io("read", path);
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(path).map_err(read())? {
+        let file = entry.map_err(read())?.path();
+        if file
+            .extension()
+            .is_some_and(|extension| extension == "mcap" || extension == "db3")
+        {
+            files.push(file);
+        }
+    }
+    files.sort();
+    if files.is_empty() {
+        return Err(BagError::NotABag {
+            path: path.to_owned(),
+            problem: "the folder holds neither .mcap nor .db3 files".to_owned(),
+        });
+    }
+    Ok(files)
+}
+
+impl Bag {
+    /// The topics, of all files.
+    pub fn topics(&self) -> &[Arc<Topic>] {
+        &self.topics
+    }
+
+    /// The one topic of that name: an absolute name exactly, a relative one in any namespace.
+    ///
+    /// # Errors
+    /// When there is none, or several.
+    pub fn topic(&self, name: &str) -> Result<&Arc<Topic>, BagError> {
+        let names = |topics: &[&Arc<Topic>]| {
+            let names: Vec<&str> = topics.iter().map(|topic| topic.name.as_str()).collect();
+            names.join(", ")
+        };
+        let found: Vec<_> = self.topics.iter().filter(|topic| topic.is(name)).collect();
+        match found[..] {
+            [topic] => Ok(topic),
+            [] => Err(BagError::NoTopic {
+                name: name.to_owned(),
+                present: names(&self.topics.iter().collect::<Vec<_>>()),
+            }),
+            _ => Err(BagError::AmbiguousTopic {
+                name: name.to_owned(),
+                present: names(&found),
+            }),
+        }
+    }
+
+    /// Gives only messages of the topics that `wanted` says. To be called before the first message.
+    pub fn select(&mut self, wanted: impl Fn(&Topic) -> bool) {
+        for source in &mut self.sources {
+            let flags: Vec<bool> = source.stream.topics().iter().map(|topic| wanted(topic)).collect();
+            match &mut source.stream {
+                Stream::Mcap(stream) => stream.set_wanted(flags),
+                Stream::Sqlite(stream) => stream.set_wanted(flags),
+            }
+        }
+    }
+
+    /// Number of messages of all topics, where every file tells it; for progress bars.
+    pub fn message_count(&self) -> Option<u64> {
+        self.sources.iter().map(|source| source.stream.messages()).sum()
+    }
+
+    /// First and last log time (ns), as the files tell.
+    pub fn bounds(&self) -> Option<(i64, i64)> {
+        self.sources
+            .iter()
+            .filter_map(|source| source.stream.bounds())
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
+    /// Files that were cut short, with the place and the reason.
+    pub fn cuts(&self) -> impl Iterator<Item = &Cut> {
+        self.sources.iter().filter_map(|source| match &source.stream {
+            Stream::Mcap(stream) => stream.cut(),
+            Stream::Sqlite(_) => None,
+        })
+    }
+
+    /// Takes topics of a file that are not yet known into the bag's.
+    fn learn_topics(&mut self, index: usize) {
+        let Some(source) = self.sources.get_mut(index) else {
+            return;
+        };
+        for topic in &source.stream.topics()[source.topic_of.len()..] {
+            let number = match self.topics.iter().position(|known| known == topic) {
+                Some(number) => number,
+                None => {
+                    self.topics.push(Arc::clone(topic));
+                    self.topics.len() - 1
+                }
+            };
+            source.topic_of.push(number);
+        }
+    }
+}
+
+impl Iterator for Bag {
+    type Item = Result<BagMessage, BagError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let mut earliest: Option<(i64, usize)> = None;
+        for (index, source) in self.sources.iter_mut().enumerate() {
+            if source.ahead.is_none() && !source.ended {
+                match source.stream.next() {
+                    Some(Ok(message)) => source.ahead = Some(message),
+                    Some(Err(error)) => return Some(Err(error)),
+                    None => source.ended = true,
+                }
+            }
+            if let Some(message) = &source.ahead
+                && earliest.is_none_or(|(time, _)| message.log_time < time)
+            {
+                earliest = Some((message.log_time, index));
+            }
+        }
+        let (_, index) = earliest?;
+        self.learn_topics(index);
+        let source = self.sources.get_mut(index)?;
+        let message = source.ahead.take()?;
+        let topic_index = *source.topic_of.get(message.topic)?;
+        Some(Ok(BagMessage {
+            topic: Arc::clone(self.topics.get(topic_index)?),
+            topic_index,
+            log_time: message.log_time,
+            publish_time: message.publish_time,
+            data: message.data,
+        }))
+    }
+}

@@ -1,0 +1,69 @@
+//! Recovering a bag: everything that can be read, written again with index and metadata.
+
+use std::path::Path;
+
+use super::{BagError, Cut, Recorder, Recording, Topic, open};
+
+/// What was recovered.
+#[derive(Debug)]
+pub struct Recovered {
+    /// The new bag.
+    pub recording: Recording,
+    /// Topics, in the order of [`Recording::per_topic`].
+    pub topics: Vec<Topic>,
+    /// Where files were cut short.
+    pub cuts: Vec<Cut>,
+    /// Parts that were damaged and are not in the new bag.
+    pub damaged: Vec<BagError>,
+}
+
+/// Copies everything that can be read of the bag `input` to a new one at `output`.
+///
+/// # Errors
+/// When `input` is not a bag, or `output` cannot be written.
+pub fn recover(input: &Path, output: &Path) -> Result<Recovered, BagError> {
+    recover_with(input, output, |_, _| {})
+}
+
+/// Like [`recover`]; `progress` is told the number of messages done and, where known, of all.
+///
+/// # Errors
+/// As [`recover`].
+pub fn recover_with(
+    input: &Path,
+    output: &Path,
+    mut progress: impl FnMut(u64, Option<u64>),
+) -> Result<Recovered, BagError> {
+    let bag = open(input)?;
+    let topics: Vec<Topic> = bag.topics().iter().map(|topic| Topic::clone(topic)).collect();
+    let cuts = bag.cuts().cloned().collect();
+    let total = bag.message_count();
+    let mut recorder = Recorder::create(output, &topics)?;
+    let mut damaged = Vec::new();
+    for message in bag {
+        match message {
+            // A channel that neither summary nor first pass knew of.
+            Ok(message) if message.topic_index >= topics.len() => damaged.push(BagError::NoSuchIndex {
+                path: input.to_owned(),
+                index: message.topic_index,
+                count: topics.len(),
+            }),
+            Ok(message) => {
+                recorder.record_published(
+                    message.topic_index,
+                    message.log_time,
+                    message.publish_time,
+                    &message.data,
+                )?;
+                progress(recorder.messages(), total);
+            }
+            Err(error) => damaged.push(error),
+        }
+    }
+    Ok(Recovered {
+        recording: recorder.finish()?,
+        topics,
+        cuts,
+        damaged,
+    })
+}

@@ -1,0 +1,55 @@
+//! `flexdrill recover IN --out OUT`: makes a whole bag of what a stopped recording left.
+
+use std::path::PathBuf;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::bag;
+
+/// Make a whole bag of one that was cut short or damaged.
+#[derive(Debug, clap::Args)]
+pub struct RecoverArgs {
+    /// Bag: an .mcap or .db3 file, or a folder with metadata.yaml.
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// New bag: a file if it ends in .mcap, else a folder.
+    #[arg(long, value_name = "OUT")]
+    out: PathBuf,
+}
+
+/// Runs it: a table of topics and messages on standard output, what was lost on standard error.
+///
+/// # Errors
+/// When the input is not a bag, nothing can be read of it, or the output cannot be written.
+pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
+    let bar = ProgressBar::new(0).with_style(
+        ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} messages {eta}")
+            .unwrap_or_else(|_| ProgressStyle::default_bar()),
+    );
+    let recovered = bag::recover_with(&args.input, &args.out, |done, total| {
+        if done % 256 == 0 {
+            bar.set_length(total.unwrap_or(done));
+            bar.set_position(done);
+        }
+    });
+    bar.finish_and_clear();
+    let recovered = recovered?;
+    for cut in &recovered.cuts {
+        eprintln!("{}: {} (byte {})", cut.path.display(), cut.reason, cut.offset);
+    }
+    for damage in &recovered.damaged {
+        eprintln!("left out: {damage}");
+    }
+    for (topic, count) in recovered.topics.iter().zip(&recovered.recording.per_topic) {
+        println!("{count:>10}  {}  {}", topic.name, topic.ros_type);
+    }
+    println!(
+        "{:>10}  messages in {}",
+        recovered.recording.messages,
+        recovered.recording.path.display()
+    );
+    if recovered.recording.messages == 0 {
+        anyhow::bail!("{} holds no message that can be read", args.input.display());
+    }
+    Ok(())
+}
