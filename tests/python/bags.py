@@ -1,0 +1,112 @@
+"""Bags of flexdrill held against foreign programs: rosbags and mcap-ros2-support.
+
+bags.py check BAG    reads the recording that the Rust test has made, with both, and checks types, hashes and values
+bags.py write DIR    writes DIR/mcap and DIR/sqlite with rosbags, for the Rust test to read
+
+Ends with 77 when the packages are missing.
+"""
+
+import sys
+from pathlib import Path
+
+try:
+    from mcap.reader import make_reader
+    from mcap_ros2.decoder import DecoderFactory
+    from rosbags.highlevel import AnyReader
+    from rosbags.rosbag2 import Reader, StoragePlugin, Writer
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+except ImportError as missing:
+    print(f"missing: {missing.name}")
+    sys.exit(77)
+
+START = 1_700_000_000_000_000_000
+PERIOD = 20_000_000
+TOPICS = ["/rig_7/rig/rotary_speed_rpm", "/rig_7/twin/bit_state", "/rig_7/twin/contact_forces"]
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def own_types():
+    """Our types in rosbags' store, parsed by rosbags from the .msg files."""
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for path in sorted((ROOT / "msg").glob("*.msg")):
+        store.register(get_types_from_msg(path.read_text(), f"flexdrill/msg/{path.stem}"))
+    return store
+
+
+def check_value(index, topic, stamp, message):
+    """Message number `index` as tests/bag_support records it."""
+    assert topic == TOPICS[index % 3], (index, topic)
+    assert stamp == START + index // 3 * PERIOD, (index, stamp)
+    if index % 3 == 0:
+        assert message.data == index
+        return
+    assert message.header.stamp.sec * 10**9 + message.header.stamp.nanosec == stamp
+    assert message.header.frame_id == "flexible_tool"
+    if index % 3 == 1:
+        assert (message.torque, message.rotary_speed) == (index, 4.2)
+    else:
+        assert message.max_pipe_guide_force == index
+        assert list(message.state) == [1] * 40 and len(message.pipe_guide_normal) == 40
+
+
+def check(bag):
+    store = own_types()
+    # rosbags refuses a hash that does not fit the definition in the file.
+    with Reader(bag) as reader:
+        assert reader.message_count > 0
+        hashes = {connection.topic: connection.digest for connection in reader.connections}
+        types = {connection.topic: connection.msgtype for connection in reader.connections}
+        assert len(hashes) == 4, hashes
+        for topic, digest in hashes.items():
+            assert digest == store.hash_rihs01(types[topic]), (topic, digest)
+        for connection in reader.connections:
+            [qos] = connection.ext.offered_qos_profiles
+            latched = connection.topic.endswith("whirl_warnings")
+            assert qos.durability.name == ("TRANSIENT_LOCAL" if latched else "VOLATILE"), qos
+            assert qos.reliability.name == ("BEST_EFFORT" if "rpm" in connection.topic else "RELIABLE"), qos
+    count = 0
+    with AnyReader([bag]) as reader:
+        for connection, stamp, data in reader.messages():
+            check_value(count, connection.topic, stamp, reader.deserialize(data, connection.msgtype))
+            count += 1
+        assert reader.start_time == START and count == reader.message_count
+    [file] = bag.glob("*.mcap")
+    again = 0
+    with file.open("rb") as stream:
+        reader = make_reader(stream, validate_crcs=True, decoder_factories=[DecoderFactory()])
+        assert reader.get_header().profile == "ros2"
+        for schema, channel, message, decoded in reader.iter_decoded_messages():
+            assert schema.encoding == "ros2msg" and channel.message_encoding == "cdr"
+            assert message.publish_time == message.log_time
+            check_value(again, channel.topic, message.log_time, decoded)
+            again += 1
+    assert again == count
+    print(f"messages {count}")
+
+
+def write(folder):
+    store = own_types()
+    float64 = store.types["std_msgs/msg/Float64"]
+    time = store.types["builtin_interfaces/msg/Time"]
+    header = store.types["std_msgs/msg/Header"]
+    bit_state = store.types["flexdrill/msg/BitState"]
+    for plugin, name in ((StoragePlugin.MCAP, "mcap"), (StoragePlugin.SQLITE3, "sqlite")):
+        with Writer(folder / name, version=9, storage_plugin=plugin) as writer:
+            speed = writer.add_connection("/rig_7/rig/rotary_speed_rpm", float64.__msgtype__, typestore=store)
+            state = writer.add_connection("/rig_7/twin/bit_state", bit_state.__msgtype__, typestore=store)
+            for index in range(700):
+                stamp = START + index * PERIOD
+                writer.write(speed, stamp, store.serialize_cdr(float64(float(index)), float64.__msgtype__))
+                head = header(time(stamp // 10**9, stamp % 10**9), "flexible_tool")
+                message = bit_state(head, float(index), 4.2, 1e4, 0.5, 0.1, 0.2, 0.3)
+                # Half an instant later, but written before the next.
+                writer.write(state, stamp + PERIOD // 2, store.serialize_cdr(message, bit_state.__msgtype__))
+    print("hash", store.hash_rihs01("flexdrill/msg/BitState"))
+
+
+def main():
+    action, path = sys.argv[1:]
+    {"check": check, "write": write}[action](Path(path))
+
+
+main()

@@ -1,0 +1,39 @@
+"""Messages of flexdrill held against rosbags' own type system.
+
+messages.py    reads lines `type hash cdr-in-hex` and answers each with `same` or what differs: the hash computed by
+               rosbags from the .msg files, and the bytes decoded and encoded again by rosbags
+
+Ends with 77 when the package is missing.
+"""
+
+import sys
+from pathlib import Path
+
+try:
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+except ImportError as missing:
+    print(f"missing: {missing.name}")
+    sys.exit(77)
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def main():
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for path in sorted((ROOT / "msg").glob("*.msg")):
+        store.register(get_types_from_msg(path.read_text(), f"flexdrill/msg/{path.stem}"))
+    for line in sys.stdin:
+        name, digest, text = line.split()
+        data = bytes.fromhex(text)
+        expected = store.hash_rihs01(name)
+        again = bytes(store.serialize_cdr(store.deserialize_cdr(data, name), name))
+        if digest != expected:
+            print(f"{name}: hash {expected}")
+        # rosbags pads to a multiple of four.
+        elif again[: len(data)] != data or len(again) - len(data) > 3:
+            print(f"{name}: other bytes")
+        else:
+            print("same")
+
+
+main()
