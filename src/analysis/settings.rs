@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Severity;
 
 /// How whirl is found and judged.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WhirlSettings {
     /// Length of the long window in turns of the tool. Four turns hold one turn of a whirl at a quarter of the tool's
     /// speed, the slowest that is told apart from a drift.

@@ -3,11 +3,15 @@
 mod check;
 mod generate_messages;
 mod recover;
+mod run;
+mod signals;
 mod watch;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use crate::ros::args;
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
 #[derive(Debug, Parser)]
@@ -19,6 +23,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Run(run::RunArgs),
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
     Recover(recover::RecoverArgs),
@@ -26,10 +31,26 @@ enum Command {
     GenerateMessages(generate_messages::Args),
 }
 
+/// The command line cannot be used as it is: exit code 2.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct WrongUse(String);
+
+impl WrongUse {
+    fn new(why: impl ToString) -> Self {
+        Self(why.to_string())
+    }
+}
+
+const WRONG_USE: u8 = 2;
+
 /// Parses the command line, runs the subcommand, reports a failure on standard error.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let (arguments, ros_args) = args::split(std::env::args());
+    let cli = Cli::parse_from(arguments);
     let result: anyhow::Result<()> = match cli.command {
+        Command::Run(args) => run::run(&args, &ros_args),
+        _ if !ros_args.is_empty() => Err(WrongUse::new("only `run` and `rig` take --ros-args").into()),
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
         Command::Recover(args) => recover::run(&args),
@@ -39,7 +60,11 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");
-            ExitCode::FAILURE
+            if error.is::<WrongUse>() {
+                ExitCode::from(WRONG_USE)
+            } else {
+                ExitCode::FAILURE
+            }
         }
     }
 }

@@ -223,8 +223,9 @@ impl Outputs {
     }
 }
 
-/// The drive of a run as a recorded message tells it; `schedule` is what the message leaves to the configuration.
-pub fn run_inputs(message: &AppliedInputs, schedule: Schedule) -> RunInputs {
+/// The drive of a run as a recorded message tells it; what it leaves to the configuration is taken from `config`, in
+/// which its parameters must already be set.
+pub fn run_inputs(message: &AppliedInputs, config: &Config) -> RunInputs {
     RunInputs {
         step: message.step,
         skipped: message.skipped_steps,
@@ -239,7 +240,8 @@ pub fn run_inputs(message: &AppliedInputs, schedule: Schedule) -> RunInputs {
             outer_friction: message.outer_friction,
             bit_friction_factor: message.bit_friction_factor,
         },
+        whirl: config.whirl_settings(),
         input_quality: message.input_quality,
-        schedule,
+        schedule: schedule(config),
     }
 }

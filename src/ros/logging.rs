@@ -1,6 +1,7 @@
 //! Logging: to standard error with a filter, and to `/rosout` so that `ros2` tools show it.
 
 use std::fmt::Write as _;
+use std::io::IsTerminal as _;
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use ros2_client::Node;
@@ -39,7 +40,10 @@ pub fn start(arguments: &RosArgs) {
     }
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(filter));
     let rosout = ROSOUT.get_or_init(Arc::default);
-    let lines = fmt::layer().with_writer(std::io::stderr).with_target(false);
+    let lines = fmt::layer()
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
+        .with_target(false);
     // A second subscriber is refused; the first one stays.
     let _ = tracing_subscriber::registry()
         .with(filter)

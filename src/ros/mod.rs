@@ -4,6 +4,7 @@ pub mod args;
 pub mod health;
 pub mod logging;
 pub mod network;
+pub mod node;
 pub mod parameters;
 pub mod publisher;
 pub mod raw;
@@ -12,6 +13,9 @@ pub mod solver;
 pub mod subscriber;
 
 use ros2_client::CreateError;
+
+/// Name of the node unless it is remapped.
+pub const DEFAULT_NODE_NAME: &str = "flexdrill";
 
 /// Why the node could not be brought up.
 #[derive(Debug, thiserror::Error)]
@@ -53,5 +57,22 @@ pub enum NodeError {
         service: String,
         /// From DDS.
         source: CreateError,
+    },
+    /// The node itself.
+    #[error("{0}")]
+    Node(String),
+    /// The model could not be built.
+    #[error(transparent)]
+    Build(#[from] crate::twin::BuildError),
+    /// The recording.
+    #[error("recording: {0}")]
+    Recording(#[from] crate::bag::BagError),
+    /// A checkpoint that cannot be read.
+    #[error("checkpoint {path}: {why}", path = path.display())]
+    Checkpoint {
+        /// The file.
+        path: std::path::PathBuf,
+        /// What is wrong.
+        why: String,
     },
 }

@@ -5,6 +5,7 @@
 
 use super::schedule::Due;
 use super::{BuildError, Inputs, Schedule, Simulation, SimulationSettings, Snapshot};
+use crate::analysis::WhirlSettings;
 use crate::mechanics::{LiveParameters, StepOutcome};
 
 /// What drives the model from a step on.
@@ -22,6 +23,8 @@ pub struct RunInputs {
     pub slew: [f64; 2],
     /// Coefficients.
     pub live: LiveParameters,
+    /// Thresholds of the whirl analysis.
+    pub whirl: WhirlSettings,
     /// How the inputs are, as the whirl warnings tell it: the messages' INPUT_ constants.
     pub input_quality: u8,
     /// Which outputs are due when.
@@ -59,6 +62,8 @@ pub trait Model {
     fn set_live(&mut self, live: LiveParameters);
     /// See [`Simulation::set_slew`].
     fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64);
+    /// See [`Simulation::set_whirl`].
+    fn set_whirl(&mut self, whirl: &WhirlSettings);
     /// See [`Simulation::reset`].
     fn reset(&mut self);
     /// See [`Simulation::checkpoint`].
@@ -90,6 +95,9 @@ impl Model for Simulation {
     fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) {
         self.set_slew(rotary_speed, weight_on_bit);
     }
+    fn set_whirl(&mut self, whirl: &WhirlSettings) {
+        self.set_whirl(whirl);
+    }
     fn reset(&mut self) {
         self.reset();
     }
@@ -117,6 +125,7 @@ impl<M: Model> Run<M> {
             inputs: settings.initial_inputs,
             slew: [settings.rotary_speed_slew, settings.weight_on_bit_slew],
             live: simulation.live(),
+            whirl: settings.whirl,
             input_quality: 0,
             schedule,
         };
@@ -147,6 +156,9 @@ impl<M: Model> Run<M> {
         }
         if applied.live != self.applied.live || applied.reset {
             self.simulation.set_live(applied.live);
+        }
+        if applied.whirl != self.applied.whirl {
+            self.simulation.set_whirl(&applied.whirl);
         }
         self.applied = *applied;
     }

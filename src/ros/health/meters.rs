@@ -1,14 +1,9 @@
-//! Figures over intervals: step times and the real-time factor.
-
-use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+//! Computing times of steps over an interval.
 
 use hdrhistogram::Histogram;
 
 /// Longest step time told apart (ns); longer ones count as this.
 const LONGEST_STEP: u64 = 60_000_000_000;
-/// Span of the real-time factor.
-const FACTOR_SPAN: Duration = Duration::from_secs(1);
 
 /// Computing times of steps since the last reading.
 pub struct StepTimes {
@@ -58,26 +53,6 @@ impl StepTimes {
     }
 }
 
-/// Model time gained per second of wall time, over the last second.
-#[derive(Debug, Default)]
-pub struct RealTimeFactor {
-    samples: VecDeque<(Instant, f64)>,
-}
-
-impl RealTimeFactor {
-    /// Takes the model time (s) gained since the start, over all resets; gives the factor, 0 before there is a span.
-    pub fn update(&mut self, now: Instant, gained: f64) -> f64 {
-        self.samples.push_back((now, gained));
-        while self.samples.len() > 2 && self.samples.get(1).is_some_and(|(at, _)| now - *at >= FACTOR_SPAN) {
-            self.samples.pop_front();
-        }
-        match self.samples.front() {
-            Some((at, then)) if now > *at => (gained - then) / (now - *at).as_secs_f64(),
-            _ => 0.0,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,26 +69,5 @@ mod tests {
         assert!((figures.p99 / 990e-6 - 1.0).abs() < 1e-3, "{figures:?}");
         assert!((figures.max / 1e-3 - 1.0).abs() < 1e-3, "{figures:?}");
         assert_eq!(times.take(), StepTimeFigures::default());
-    }
-
-    #[test]
-    fn the_factor_looks_back_one_second() {
-        let start = Instant::now();
-        let mut factor = RealTimeFactor::default();
-        assert_eq!(factor.update(start, 0.0), 0.0);
-        for tenth in 1..=20 {
-            let gained = if tenth <= 10 {
-                0.1 * f64::from(tenth)
-            } else {
-                1.0 + 0.05 * f64::from(tenth - 10)
-            };
-            let value = factor.update(start + Duration::from_millis(100 * tenth as u64), gained);
-            if tenth == 10 {
-                assert!((value - 1.0).abs() < 1e-9);
-            }
-            if tenth == 20 {
-                assert!((value - 0.5).abs() < 1e-9, "{value}");
-            }
-        }
     }
 }

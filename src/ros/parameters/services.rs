@@ -25,7 +25,7 @@ pub type Task = Pin<Box<dyn Future<Output = ()> + Send>>;
 /// Checks a set of values as a whole.
 pub type Check = dyn Fn(&ParameterStore) -> Result<(), String> + Send + Sync;
 /// Told about accepted values, in order.
-pub type Applied = dyn Fn(&ParameterStore, &[Parameter]) + Send + Sync;
+pub type Applied = dyn Fn(&mut ParameterStore, &[Parameter]) + Send + Sync;
 
 /// Values, rules, and what follows from a change.
 pub struct Parameters {
@@ -88,7 +88,7 @@ impl Parameters {
         let changed = {
             let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
             let changed = store.set_atomically(changes, |candidate| (self.check)(candidate))?;
-            (self.applied)(&store, &changed);
+            (self.applied)(&mut store, &changed);
             changed
         };
         for Parameter { name, value } in &changed {

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use crate::pacing::clock;
 
 /// A clock in nanoseconds with absolute deadlines.
 pub trait Clock: Send {
@@ -13,42 +15,32 @@ pub trait Clock: Send {
     fn wait_until(&self, deadline: u64);
     /// The present instant on the rig's clock (ns since 1970), for stamps.
     fn rig_time(&self) -> u64;
+    /// Lateness that is caught up rather than skipped (s).
+    fn tolerance(&self) -> f64;
 }
 
 /// The machine's clock: deadlines on the monotonic one, stamps from the real-time one.
-pub struct WallClock {
-    zero: Instant,
-}
-
-impl WallClock {
-    /// A clock that starts now.
-    pub fn new() -> Self {
-        Self { zero: Instant::now() }
-    }
-}
-
-impl Default for WallClock {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+#[derive(Debug, Clone, Copy, Default)]
+pub struct WallClock;
 
 impl Clock for WallClock {
     fn now(&self) -> u64 {
-        self.zero.elapsed().as_nanos() as u64
+        clock::now()
     }
 
     fn wait_until(&self, deadline: u64) {
-        let now = self.now();
-        if deadline > now {
-            std::thread::sleep(Duration::from_nanos(deadline - now));
-        }
+        clock::sleep_until(deadline);
     }
 
     fn rig_time(&self) -> u64 {
         SystemTime::now()
             .duration_since(UNIX_EPOCH)
             .map_or(0, |since| since.as_nanos() as u64)
+    }
+
+    fn tolerance(&self) -> f64 {
+        // Longer than the hiccups of a machine that is not made for real time, shorter than a person notices.
+        0.1
     }
 }
 
@@ -77,5 +69,10 @@ impl Clock for SimulatedClock {
 
     fn rig_time(&self) -> u64 {
         self.now()
+    }
+
+    fn tolerance(&self) -> f64 {
+        // /clock may come once a second.
+        2.5
     }
 }

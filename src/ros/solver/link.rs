@@ -6,6 +6,7 @@ use std::sync::mpsc::SyncSender;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
+use crate::analysis::WhirlSettings;
 use crate::mechanics::{LiveParameters, StepFailure};
 use crate::twin::{BuildError, Frame, Inputs, RunInputs, Schedule};
 
@@ -25,6 +26,8 @@ pub enum Command {
     Live(LiveParameters),
     /// New slew limits: rotary speed (rad/s2), weight on bit (N/s).
     Slew([f64; 2]),
+    /// New thresholds of the whirl analysis.
+    Whirl(WhirlSettings),
     /// New publishing rates.
     Schedule(Schedule),
     /// Stand still, or go on.
@@ -40,8 +43,15 @@ pub enum Command {
 pub enum Report {
     /// A snapshot; the frame must be given back.
     Frame(Box<Frame>),
-    /// New values act from the next step on. The count is that of commands carried out so far.
-    Applied(RunInputs, u64),
+    /// New values act from the next step on.
+    Applied {
+        /// The values.
+        inputs: RunInputs,
+        /// Steps taken or skipped before.
+        ticks: u64,
+        /// Commands carried out so far.
+        commands: u64,
+    },
     /// A step failed after so many ticks; the model stands still.
     Failed(StepFailure, u64),
     /// The model moves again after a failure.

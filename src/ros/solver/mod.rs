@@ -1,8 +1,9 @@
 //! The solver's thread: steps the run in periods with absolute deadlines, takes inputs and commands between periods, and
 //! hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
 //!
-//! A period is a whole number of model steps. When the solver is late by whole periods, these are skipped and counted:
-//! model and clock stay together, and the model is never integrated with another step than the configured one.
+//! A period is a whole number of model steps. A little lateness is caught up; when the solver is late by more, whole
+//! periods are skipped and counted: model and clock stay together, and the model is never integrated with another step
+//! than the configured one.
 
 pub mod clock;
 pub mod link;
@@ -12,14 +13,15 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use crate::mechanics::StepOutcome;
+use crate::pacing::Pacer;
 use crate::twin::{Frame, Model, Run, RunInputs, Simulation};
 use rtrb::PushError;
 
 use clock::Clock;
 use link::{Command, FRAMES, Phase, Report, SolverEnd};
 
-/// A clock that is found this many periods before the deadline has been set back.
-const SET_BACK_PERIODS: u64 = 400;
+/// A clock that is found this long before the deadline (ns) has been set back.
+const SET_BACK: u64 = 2_000_000_000;
 
 /// Drives a run against a clock.
 pub struct Solver<C: Clock, M: Model = Simulation> {
@@ -30,6 +32,8 @@ pub struct Solver<C: Clock, M: Model = Simulation> {
     stash: VecDeque<Box<Frame>>,
     /// Stands in when no frame is free, so that the statistics end where they should.
     spare: Box<Frame>,
+    pacer: Pacer,
+    /// ns.
     period: u64,
     steps_per_period: u64,
     steps_taken: u64,
@@ -52,10 +56,13 @@ impl<C: Clock, M: Model> Solver<C, M> {
         let steps_per_period = steps_per_period.max(1);
         let time_step = run.simulation().settings().time_step;
         let spare = Box::new(run.new_frame());
+        let period = steps_per_period as f64 * time_step;
+        let tolerance = (clock.tolerance() / period) as u64;
         Self {
             stash: (0..FRAMES).map(|_| Box::new(run.new_frame())).collect(),
             spare,
-            period: (steps_per_period as f64 * time_step * 1e9).round() as u64,
+            pacer: Pacer::new(clock.now(), period, tolerance),
+            period: (period * 1e9).round() as u64,
             steps_per_period,
             steps_taken: 0,
             commands_done: 0,
@@ -78,43 +85,42 @@ impl<C: Clock, M: Model> Solver<C, M> {
             // A simulated clock has not ticked yet.
             self.clock.wait_until(1);
         }
-        let mut deadline = self.clock.now();
-        self.end.gauges.start.store(self.clock.rig_time(), Ordering::Release);
+        self.start();
         while !self.stopped() {
-            let now = self.clock.now();
-            if now < deadline {
-                if deadline - now > SET_BACK_PERIODS * self.period {
-                    deadline = now;
-                } else {
-                    self.clock.wait_until(deadline);
-                }
-                continue;
+            let (now, deadline) = (self.clock.now(), self.pacer.deadline());
+            if now >= deadline {
+                self.turn();
+            } else if deadline - now > SET_BACK {
+                self.pacer.restart(now);
+            } else {
+                self.clock.wait_until(deadline);
             }
-            deadline += self.begin(now - deadline);
-            self.take_commands();
-            let end = deadline + self.period;
-            self.one_period(end);
-            deadline = end;
-            self.tell();
         }
     }
 
-    fn stopped(&self) -> bool {
-        self.end.gauges.stop.load(Ordering::Relaxed)
+    fn start(&mut self) {
+        self.pacer.restart(self.clock.now());
+        self.end.gauges.start.store(self.clock.rig_time(), Ordering::Release);
     }
 
-    /// Skips the periods that have passed already. Returns how far the deadline moves (ns).
-    fn begin(&mut self, late: u64) -> u64 {
-        self.end.gauges.lateness.store(late, Ordering::Relaxed);
-        let periods = late / self.period;
-        if periods > 0 {
-            let steps = periods * self.steps_per_period;
+    /// One period and what follows from how long it took.
+    fn turn(&mut self) {
+        self.take_commands();
+        self.one_period();
+        let paced = self.pacer.step_done(self.clock.now());
+        if paced.skipped > 0 {
+            let steps = paced.skipped * self.steps_per_period;
             self.run.skip(steps);
             if !self.paused && !self.failed {
                 self.end.gauges.steps_late.fetch_add(steps, Ordering::Relaxed);
             }
         }
-        periods * self.period
+        self.end.gauges.lateness.store(paced.lateness, Ordering::Relaxed);
+        self.tell();
+    }
+
+    fn stopped(&self) -> bool {
+        self.end.gauges.stop.load(Ordering::Relaxed)
     }
 
     fn take_commands(&mut self) {
@@ -123,6 +129,7 @@ impl<C: Clock, M: Model> Solver<C, M> {
             match command {
                 Command::Live(live) => self.wanted.live = live,
                 Command::Slew(slew) => self.wanted.slew = slew,
+                Command::Whirl(whirl) => self.wanted.whirl = whirl,
                 Command::Schedule(schedule) => self.wanted.schedule = schedule,
                 Command::Pause(paused) => self.paused = paused,
                 Command::Reset => self.reset_asked = true,
@@ -135,7 +142,7 @@ impl<C: Clock, M: Model> Solver<C, M> {
         }
     }
 
-    fn one_period(&mut self, end: u64) {
+    fn one_period(&mut self) {
         let (inputs, quality) = self.end.targets.get();
         self.wanted.inputs = inputs;
         self.wanted.input_quality = quality;
@@ -152,6 +159,7 @@ impl<C: Clock, M: Model> Solver<C, M> {
             return;
         }
         self.show_start();
+        let end = self.pacer.deadline().saturating_add(self.period);
         let mut began = Instant::now();
         for taken in 0..self.steps_per_period {
             let outcome = self.run.advance();
@@ -211,7 +219,12 @@ impl<C: Clock, M: Model> Solver<C, M> {
         }
         self.run.apply(&next);
         self.told = Some(RunInputs { reset: false, ..next });
-        self.report(Report::Applied(next, self.commands_done));
+        let ticks = self.run.ticks();
+        self.report(Report::Applied {
+            inputs: next,
+            ticks,
+            commands: self.commands_done,
+        });
     }
 
     fn show_start(&mut self) {

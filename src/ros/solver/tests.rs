@@ -59,6 +59,7 @@ impl Model for ScriptedModel {
     fn set_slew(&mut self, rotary_speed: f64, _weight_on_bit: f64) {
         self.settings.rotary_speed_slew = rotary_speed;
     }
+    fn set_whirl(&mut self, _whirl: &crate::analysis::WhirlSettings) {}
     fn reset(&mut self) {
         self.step = 0;
     }
@@ -82,6 +83,9 @@ impl Clock for ScriptedClock {
     fn rig_time(&self) -> u64 {
         START
     }
+    fn tolerance(&self) -> f64 {
+        0.02
+    }
 }
 
 /// 1 ms steps, 5 per period, every output due every 10 steps.
@@ -92,7 +96,6 @@ struct Bench {
     targets: Arc<Targets>,
     gauges: Arc<Gauges>,
     clock: ScriptedClock,
-    deadline: u64,
 }
 
 impl Bench {
@@ -140,19 +143,16 @@ impl Bench {
             targets,
             gauges,
             clock,
-            deadline: MS,
         }
     }
 
-    /// One period as `Solver::run` does it, begun `late` ns after its deadline.
-    fn period(&mut self, late: u64) {
-        self.clock.now.store(self.deadline + late, Ordering::Relaxed);
-        self.deadline += self.solver.begin(late);
-        self.solver.take_commands();
-        let end = self.deadline + 5 * MS;
-        self.solver.one_period(end);
-        self.deadline = end;
-        self.solver.tell();
+    /// One period, which takes `time` (ns).
+    fn period(&mut self, time: u64) {
+        self.clock
+            .now
+            .fetch_max(self.solver.pacer.deadline(), Ordering::Relaxed);
+        self.clock.now.fetch_add(time, Ordering::Relaxed);
+        self.solver.turn();
     }
 
     fn speed(&self, rotary_speed: f64) {
@@ -175,21 +175,21 @@ impl Bench {
                     self.publisher.empty.push(frame).unwrap();
                     text
                 }
-                Report::Applied(
-                    RunInputs {
-                        step,
-                        skipped,
-                        reset,
-                        inputs,
-                        ..
-                    },
-                    _,
-                ) => {
-                    format!(
-                        "applied {} at {step} skipped {skipped}{}",
-                        inputs.rotary_speed,
-                        if reset { " reset" } else { "" }
-                    )
+                Report::Applied {
+                    inputs:
+                        RunInputs {
+                            step,
+                            skipped,
+                            reset,
+                            inputs,
+                            ..
+                        },
+                    ticks,
+                    ..
+                } => {
+                    assert!(ticks >= skipped);
+                    let reset = if reset { " reset" } else { "" };
+                    format!("applied {} at {step} skipped {skipped}{reset}", inputs.rotary_speed)
                 }
                 Report::Failed(failure, ticks) => format!("failed at station {} tick {ticks}", failure.station),
                 Report::Recovered => "recovered".into(),
@@ -222,17 +222,29 @@ fn in_time_it_shows_what_is_due_and_tells_inputs_once() {
 }
 
 #[test]
-fn late_periods_are_skipped_whole_and_counted() {
+fn a_little_lateness_is_caught_up_and_more_is_skipped_whole() {
     let mut bench = Bench::new();
     bench.period(0);
     bench.reports();
-    // 12 ms late: two periods of 5 ms have passed, the third is begun 2 ms late.
-    bench.period(12 * MS);
-    assert_eq!(bench.reports(), ["applied 1 at 5 skipped 10", "frame 10 at 20"]);
-    assert_eq!(bench.gauges.steps_late.load(Ordering::Relaxed), 10);
-    assert_eq!(bench.gauges.ticks.load(Ordering::Relaxed), 20);
-    // The grid of deadlines has not moved: five periods of 5 ms.
-    assert_eq!(bench.deadline, MS + 20 * MS);
+    // 18 ms for a period of 5 ms: two whole periods late, within the tolerance of four.
+    bench.period(18 * MS);
+    assert_eq!(bench.gauges.steps_late.load(Ordering::Relaxed), 0);
+    assert_eq!(bench.gauges.lateness.load(Ordering::Relaxed), 13 * MS);
+    bench.period(0);
+    assert_eq!(bench.reports(), ["frame 10 at 10"]);
+    // 33 ms on top of what is left: more than the tolerance, so that all whole periods are given up.
+    bench.period(33 * MS);
+    let skipped = bench.gauges.steps_late.load(Ordering::Relaxed);
+    assert_eq!(skipped % 5, 0);
+    bench.period(0);
+    assert_eq!(
+        bench.reports(),
+        ["frame 20 at 20", &format!("applied 1 at 20 skipped {skipped}")]
+    );
+    assert!(bench.gauges.deadline_misses.load(Ordering::Relaxed) >= 15);
+    assert_eq!(bench.gauges.ticks.load(Ordering::Relaxed), 25 + skipped);
+    // The grid of deadlines has not moved.
+    assert_eq!(bench.solver.pacer.deadline(), MS + MS * (25 + skipped));
 }
 
 #[test]

@@ -1,0 +1,209 @@
+//! `flexdrill run`: the node.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{WrongUse, signals};
+use crate::config::Config;
+use crate::messages::topics::{self, Cadence};
+use crate::messages::{TwinStatus, outputs};
+use crate::ros::args::RosArgs;
+use crate::ros::network::{Network, Reach};
+use crate::ros::node::{self, NodeSetup, RunSummary};
+use crate::ros::parameters::configured;
+use crate::ros::service::ServiceMapping;
+use crate::ros::{DEFAULT_NODE_NAME, logging};
+use crate::twin::Output;
+
+/// The paper's case, so that the binary runs anywhere.
+const DEFAULT_CONFIG: &str = include_str!("../../config/default.yaml");
+const DEFAULT_CONFIG_NAME: &str = "config/default.yaml (built in)";
+
+/// Run the twin as a ROS 2 node.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "ROS 2 arguments follow --ros-args, up to -- or the end: -r from:=to, -r __ns:=/rig_7, -r __node:=name, \
+    -p name:=value, --params-file FILE, --log-level LEVEL.\nEvery key of the configuration is a parameter of the same dotted name; \
+    -p and parameter files win over the configuration file.\nROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE and \
+    RMW_IMPLEMENTATION are followed; RUST_LOG sets the log filter."
+)]
+pub(super) struct RunArgs {
+    /// Configuration (YAML); without it the paper's case, built in.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Record inputs and outputs: FILE.mcap, or a folder as rosbag2 makes them.
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// DDS domain, 0 to 232; wins over ROS_DOMAIN_ID.
+    #[arg(long, value_name = "ID")]
+    domain: Option<u16>,
+    /// Namespace of the node and its topics.
+    #[arg(long, value_name = "NS", default_value = "/")]
+    namespace: String,
+    /// How services are answered: auto (each client as it asks), enhanced (rmw_fastrtps) or cyclone (rmw_cyclonedds).
+    #[arg(long, value_name = "MAPPING", default_value = "auto")]
+    service_mapping: ServiceMapping,
+    /// End after so much model time (s).
+    #[arg(long, value_name = "SECONDS")]
+    duration: Option<f64>,
+    /// Start from a state that ~/save_checkpoint has written. A recording of such a run cannot be replayed.
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+}
+
+/// # Errors
+/// When an argument, the configuration or the network cannot be used, or the recording failed.
+pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
+    let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
+    logging::start(&ros_args);
+    let (config, config_file) = load_config(args.config.as_deref())?;
+    let identity = ros_args
+        .remapping
+        .identity(&args.namespace, DEFAULT_NODE_NAME)
+        .map_err(WrongUse::new)?;
+    let started = configured::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
+    let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+    let setup = NodeSetup {
+        config: started.config,
+        config_file,
+        network,
+        identity,
+        remapping: ros_args.remapping.clone(),
+        mapping: args.service_mapping,
+        record: args.record.clone(),
+        use_sim_time: started.use_sim_time,
+        rosout: ros_args.rosout.unwrap_or(true),
+        checkpoint: args.checkpoint.clone(),
+        duration: args.duration.or(config.run.duration),
+    };
+    print_banner(&setup)?;
+    for note in notes.iter().chain(&setup.config.warnings()) {
+        tracing::warn!("{note}");
+    }
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(2)
+        .enable_all()
+        .build()?;
+    let summary = runtime.block_on(async {
+        let shutdown = signals::shutdown()?;
+        anyhow::Ok(node::run(setup, shutdown).await?)
+    })?;
+    print_summary(&summary);
+    Ok(())
+}
+
+/// The configuration and the name of its source.
+pub(super) fn load_config(path: Option<&std::path::Path>) -> anyhow::Result<(Config, String)> {
+    Ok(match path {
+        Some(path) => (Config::load(path)?, path.display().to_string()),
+        None => (
+            Config::from_text(DEFAULT_CONFIG_NAME, DEFAULT_CONFIG)?,
+            DEFAULT_CONFIG_NAME.to_owned(),
+        ),
+    })
+}
+
+fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
+    let config = &setup.config;
+    let row = |name: &str, value: String| println!("  {name:<14} {value}");
+    println!(
+        "flexdrill {}, node {}",
+        env!("CARGO_PKG_VERSION"),
+        setup.identity.full_name()
+    );
+    row(
+        "configuration",
+        format!("{}, hash {}", setup.config_file, &config.hash()[..12]),
+    );
+    row(
+        "model",
+        format!(
+            "{} links of {} elements, {} unknowns, step {} ms",
+            config.tool.links,
+            config.tool.elements_per_link,
+            config.unknowns().total(),
+            config.solver.time_step * 1e3
+        ),
+    );
+    let reach = match setup.network.reach {
+        Reach::Subnet => "all interfaces",
+        Reach::Localhost => "this machine only",
+    };
+    row("network", format!("domain {}, {reach}", setup.network.domain_id));
+    row("services", setup.mapping.describe().to_owned());
+    if setup.use_sim_time {
+        row("clock", format!("{} (use_sim_time)", setup.topic_name(&topics::CLOCK)?));
+    }
+    for (topic, unit) in [(&topics::ROTARY_SPEED_RPM, "r/min"), (&topics::WEIGHT_ON_BIT_KN, "kN")] {
+        row(
+            "input",
+            format!("{} [{}, {unit}]", setup.topic_name(topic)?, topic.kind.ros_type),
+        );
+    }
+    let schedule = outputs::schedule(config);
+    for topic in topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received) {
+        let rate = match topic.cadence {
+            Cadence::Rate(key) => rate(config, &schedule, key),
+            _ => "on change".to_owned(),
+        };
+        row(
+            "output",
+            format!("{} [{}, {rate}]", setup.topic_name(topic)?, topic.kind.ros_type),
+        );
+    }
+    if let Some(path) = &setup.record {
+        row("recording", path.display().to_string());
+    }
+    println!("  Ctrl-C ends it.");
+    Ok(())
+}
+
+fn rate(config: &Config, schedule: &crate::twin::Schedule, key: &str) -> String {
+    let of = |output| schedule.rate(output, config.solver.time_step);
+    let rate = match key {
+        "joint_deflections" => of(Output::JointDeflections),
+        "joint_states" => of(Output::JointStates),
+        "contact_forces" => of(Output::ContactForces),
+        "bit_state" => of(Output::BitState),
+        "whirl" => of(Output::Whirl),
+        "tool_shape" => of(Output::ToolShape),
+        "status" => config.outputs.rates.status,
+        "diagnostics" => config.outputs.rates.diagnostics,
+        _ => 0.0,
+    };
+    if rate > 0.0 {
+        format!("{} Hz", (rate * 100.0).round() / 100.0)
+    } else {
+        "off".to_owned()
+    }
+}
+
+fn print_summary(summary: &RunSummary) {
+    let TwinStatus {
+        model_time,
+        step_count,
+        steps_skipped,
+        deadline_misses,
+        halved_steps,
+        failed_steps,
+        ..
+    } = summary.status;
+    println!(
+        "ended after {model_time:.2} s of model time: {step_count} steps, {steps_skipped} skipped, {deadline_misses} late, \
+         {halved_steps} halved, {failed_steps} failed"
+    );
+    if let Some(recording) = &summary.recording {
+        println!(
+            "recorded {} messages to {}",
+            recording.messages,
+            recording.path.display()
+        );
+        if summary.status.recording_drops > 0 {
+            println!(
+                "{} messages did not get into the recording: the disk was too slow",
+                summary.status.recording_drops
+            );
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! `twin/status`: collected from the solver's gauges, the snapshots, the door, the publishers and the recorder.
+
+use std::sync::atomic::Ordering;
+
+use super::meters::StepTimes;
+use crate::inputs::{Door, InputKind};
+use crate::mechanics::{EnergyAudit, FailureCause, StepFailure};
+use crate::messages::TwinStatus;
+use crate::messages::std_msgs::Header;
+use crate::pacing::RealTimeFactor;
+use crate::ros::node::publishers::Publishers;
+use crate::ros::node::recording::RecordingThread;
+use crate::ros::solver::link::{Gauges, Phase};
+use crate::twin::{Snapshot, SolverCounters};
+
+/// Span of the real-time factor (s).
+const FACTOR_SPAN: f64 = 1.0;
+
+/// Keeps what the status needs between two messages.
+pub struct StatusKeeper {
+    /// Computing times of steps.
+    pub step_times: StepTimes,
+    factor: RealTimeFactor,
+    sequence: u64,
+    time_step: f64,
+    config_hash: String,
+    counters: SolverCounters,
+    /// At the message before.
+    counters_before: (SolverCounters, u64),
+    energy: EnergyAudit,
+    depths: Vec<f64>,
+    counters_step: u64,
+    applied: [f64; 2],
+    failures: u64,
+    last_failure: Option<StepFailure>,
+}
+
+/// Where the status is collected from.
+pub struct Sources<'a> {
+    /// Of the solver's thread.
+    pub gauges: &'a Gauges,
+    /// Inputs.
+    pub door: &'a Door,
+    /// Present time as the door counts it (s).
+    pub now: f64,
+    /// Present time of the monotonic clock (ns).
+    pub wall: u64,
+    /// Outputs.
+    pub publishers: &'a Publishers,
+    /// Recording.
+    pub recording: Option<&'a RecordingThread>,
+}
+
+impl StatusKeeper {
+    /// An empty status of a run.
+    ///
+    /// # Errors
+    /// As [`StepTimes::new`].
+    pub fn new(time_step: f64, config_hash: String) -> Result<Self, hdrhistogram::CreationError> {
+        Ok(Self {
+            step_times: StepTimes::new()?,
+            factor: RealTimeFactor::new(FACTOR_SPAN),
+            sequence: 0,
+            time_step,
+            config_hash,
+            counters: SolverCounters::default(),
+            counters_before: Default::default(),
+            energy: EnergyAudit::default(),
+            depths: Vec::new(),
+            counters_step: 0,
+            applied: [f64::NAN; 2],
+            failures: 0,
+            last_failure: None,
+        })
+    }
+
+    /// Takes what a snapshot tells of the solver.
+    pub fn take(&mut self, snapshot: &Snapshot) {
+        if snapshot.step < self.counters_step {
+            // After a reset everything counts anew.
+            self.counters_before = Default::default();
+            self.failures = 0;
+        }
+        self.counters = snapshot.solver;
+        self.counters_step = snapshot.step;
+        self.energy = snapshot.energy;
+        self.applied = [snapshot.applied.rotary_speed, snapshot.applied.weight_on_bit];
+        if self.depths.len() != snapshot.contacts.measured_depth.len() {
+            self.depths.clone_from(&snapshot.contacts.measured_depth);
+        }
+    }
+
+    /// A step failed, after which there are no snapshots.
+    pub fn fail(&mut self, failure: StepFailure) {
+        self.failures += 1;
+        self.last_failure = Some(failure);
+    }
+
+    /// Notes the progress of the model, for the real-time factor.
+    pub fn note(&mut self, wall: u64, gauges: &Gauges) {
+        self.factor.note(wall, self.model_time_gained(gauges));
+    }
+
+    fn model_time_gained(&self, gauges: &Gauges) -> f64 {
+        gauges.steps_taken.load(Ordering::Relaxed) as f64 * self.time_step
+    }
+
+    /// The status now. Ends the interval of its statistics.
+    pub fn status(&mut self, header: Header, sources: &Sources<'_>) -> TwinStatus {
+        let gauges = sources.gauges;
+        let step_count = gauges.step.load(Ordering::Relaxed);
+        let times = self.step_times.take();
+        let gained = self.model_time_gained(gauges);
+        let (before, step_before) = std::mem::replace(&mut self.counters_before, (self.counters, self.counters_step));
+        let steps = self.counters_step.saturating_sub(step_before);
+        let iterations = self.counters.newton_iterations.saturating_sub(before.newton_iterations);
+        let rejection = self.last_failure.or(self.counters.last_rejection);
+        let station = rejection.map_or(0, |rejection| rejection.station);
+        self.sequence += 1;
+        let mut status = TwinStatus {
+            header,
+            sequence: self.sequence,
+            state: match gauges.phase() {
+                Phase::Starting => TwinStatus::STARTING,
+                Phase::Running => TwinStatus::RUNNING,
+                Phase::Paused => TwinStatus::PAUSED,
+                Phase::Failed => TwinStatus::FAILED,
+            },
+            model_time: step_count as f64 * self.time_step,
+            step_count,
+            time_step: self.time_step,
+            real_time_factor: self.factor.factor(sources.wall, gained).unwrap_or(0.0),
+            lateness: gauges.lateness.load(Ordering::Relaxed) as f64 * 1e-9,
+            deadline_misses: gauges.deadline_misses.load(Ordering::Relaxed),
+            steps_skipped: gauges.steps_skipped.load(Ordering::Relaxed),
+            step_time_p50: times.p50,
+            step_time_p99: times.p99,
+            step_time_max: times.max,
+            newton_iterations_mean: if steps > 0 {
+                iterations as f64 / steps as f64
+            } else {
+                0.0
+            },
+            rejected_steps: self.counters.rejected,
+            halved_steps: self.counters.halved_steps,
+            failed_steps: self.counters.failed_steps.max(self.failures),
+            last_rejection_cause: rejection
+                .map(|rejection| cause(rejection.cause).to_owned())
+                .unwrap_or_default(),
+            last_rejection_station: u32::try_from(station).unwrap_or(u32::MAX),
+            last_rejection_measured_depth: self.depths.get(station).copied().unwrap_or_default(),
+            energy_error: self.energy.error,
+            energy_error_ratio: ratio(self.energy.error, self.energy.drive),
+            config_hash: self.config_hash.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            ..TwinStatus::default()
+        };
+        self.tell_inputs(&mut status, sources);
+        tell_outputs(&mut status, sources);
+        status
+    }
+
+    fn tell_inputs(&self, status: &mut TwinStatus, sources: &Sources<'_>) {
+        for kind in InputKind::ALL {
+            let door = sources.door;
+            status.input_name.push(kind.name().to_owned());
+            status.input_state.push(door.state(kind, sources.now) as u8);
+            status.input_age.push(door.age(kind, sources.now).unwrap_or(f64::NAN));
+            status
+                .input_received
+                .push(door.last_good(kind).map_or(f64::NAN, |value| kind.to_si(value)));
+            status.input_applied.push(self.applied[kind.index()]);
+            status.input_rejected.push(door.counts(kind).rejected_total());
+        }
+    }
+}
+
+fn tell_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
+    for (name, counters) in sources.publishers.counters() {
+        status.output_topic.push(name.to_owned());
+        status.output_sent.push(counters.sent.load(Ordering::Relaxed));
+        status.output_dropped.push(counters.dropped.load(Ordering::Relaxed));
+    }
+    if let Some(recording) = sources.recording {
+        let health = recording.health();
+        status.recording_state = if health.failed() {
+            TwinStatus::RECORDING_FAILED
+        } else {
+            TwinStatus::RECORDING_ON
+        };
+        status.recording_path = recording.path().display().to_string();
+        status.recording_messages = health.messages();
+        status.recording_drops = health.drops();
+    }
+}
+
+fn ratio(error: f64, drive: f64) -> f64 {
+    if drive == 0.0 { 0.0 } else { (error / drive).abs() }
+}
+
+fn cause(cause: FailureCause) -> &'static str {
+    match cause {
+        FailureCause::NotConverged => "not_converged",
+        FailureCause::NotFinite => "not_finite",
+        FailureCause::Singular => "singular",
+        FailureCause::OutOfRange => "out_of_range",
+    }
+}

@@ -1,0 +1,225 @@
+//! What others may tell the node: parameters, reset, pause, checkpoint.
+
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Sender, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use ros2_client::{Node, Parameter, ParameterValue};
+use rustdds::DomainParticipant;
+
+use super::rig::Gate;
+use crate::config::Config;
+use crate::messages::outputs::{self, ParameterChange};
+use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
+use crate::ros::NodeError;
+use crate::ros::parameters::{ParameterStore, Task, configured};
+use crate::ros::service::{ServiceMapping, ServiceServer, at_once, shared};
+use crate::ros::solver::link::{Command, Gauges, Phase};
+
+/// Longest wait for the solver to hand out its state.
+const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
+
+/// Parameters that changed with the command of this number.
+#[derive(Debug)]
+pub struct Change {
+    /// Acts when the solver has carried out so many commands.
+    pub command: u64,
+    /// Names and values.
+    pub values: Vec<ParameterChange>,
+    /// The configuration with them.
+    pub config: Arc<Config>,
+}
+
+struct Commands {
+    sender: rtrb::Producer<Command>,
+    sent: u64,
+}
+
+/// Tells the solver.
+pub struct Control {
+    commands: Mutex<Commands>,
+    config: Mutex<Arc<Config>>,
+    changes: Sender<Change>,
+    gate: Gate,
+    gauges: Arc<Gauges>,
+}
+
+impl Control {
+    /// A control of a solver; `changes` go to the publisher.
+    pub fn new(
+        sender: rtrb::Producer<Command>,
+        config: Arc<Config>,
+        changes: Sender<Change>,
+        gate: Gate,
+        gauges: Arc<Gauges>,
+    ) -> Arc<Self> {
+        Arc::new(Self {
+            commands: Mutex::new(Commands { sender, sent: 0 }),
+            config: Mutex::new(config),
+            changes,
+            gate,
+            gauges,
+        })
+    }
+
+    fn config(&self) -> Arc<Config> {
+        Arc::clone(&self.config.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Sends commands that belong together. Gives the number of the last one.
+    fn send(&self, list: impl IntoIterator<Item = Command>) -> Result<u64, String> {
+        let mut commands = self.commands.lock().unwrap_or_else(PoisonError::into_inner);
+        for command in list {
+            commands
+                .sender
+                .push(command)
+                .map_err(|_| "the solver does not take commands; is a step taking very long?".to_owned())?;
+            commands.sent += 1;
+        }
+        Ok(commands.sent)
+    }
+
+    /// Whether parameters may take these values together.
+    ///
+    /// # Errors
+    /// What is wrong, in words.
+    pub fn check(&self, candidate: &ParameterStore) -> Result<(), String> {
+        configured::reconfigured(&self.config(), &candidate.all()).map(drop)
+    }
+
+    /// Lets accepted values act.
+    pub fn apply(&self, store: &mut ParameterStore, changed: &[Parameter]) {
+        let Ok(config) = configured::reconfigured(&self.config(), changed) else {
+            return;
+        };
+        let config = Arc::new(config);
+        *self.config.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&config);
+        configured::refresh_ranges(store, &config);
+        self.gate
+            .door
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .set_rules(config.inputs.rules());
+        let simulation = config.simulation();
+        let sent = self.send([
+            Command::Live(config.live()),
+            Command::Slew([simulation.rotary_speed_slew, simulation.weight_on_bit_slew]),
+            Command::Whirl(config.whirl_settings()),
+            Command::Schedule(outputs::schedule(&config)),
+        ]);
+        match sent {
+            Ok(command) => {
+                let values = changed
+                    .iter()
+                    .filter_map(|parameter| Some((parameter.name.clone(), number(&parameter.value)?)))
+                    .collect();
+                // The publisher has ended: so will the node.
+                let _ = self.changes.send(Change {
+                    command,
+                    values,
+                    config,
+                });
+            }
+            Err(why) => tracing::error!("parameters were accepted but could not be passed on: {why}"),
+        }
+    }
+
+    fn reset(&self) -> TriggerResponse {
+        tracing::info!("reset: the model goes back to its state after the start");
+        answer(
+            self.send([Command::Reset])
+                .map(|_| "the model goes back to its state after the start".to_owned()),
+        )
+    }
+
+    fn pause(&self, pause: bool) -> SetBoolResponse {
+        tracing::info!("{}", if pause { "paused" } else { "resumed" });
+        let told = self
+            .send([Command::Pause(pause)])
+            .map(|_| if pause { "paused" } else { "running" }.to_owned());
+        let TriggerResponse { success, message } = answer(told);
+        SetBoolResponse { success, message }
+    }
+
+    async fn save_checkpoint(self: Arc<Self>) -> TriggerResponse {
+        if self.gauges.phase() == Phase::Starting {
+            return answer(Err("the model is still being built".into()));
+        }
+        let saved = tokio::task::spawn_blocking(move || {
+            let (sender, receiver) = sync_channel(1);
+            self.send([Command::Checkpoint(sender)])?;
+            let bytes = receiver
+                .recv_timeout(CHECKPOINT_WAIT)
+                .map_err(|_| "the solver did not answer in time".to_owned())?
+                .map_err(|error| error.to_string())?;
+            let step = self.gauges.step.load(Ordering::Relaxed);
+            let path = PathBuf::from(format!(
+                "flexdrill_{}_step{step}.checkpoint",
+                &self.config().hash()[..12]
+            ));
+            std::fs::write(&path, &bytes).map_err(|error| format!("{}: {error}", path.display()))?;
+            let shown = std::path::absolute(&path).unwrap_or(path);
+            Ok(format!("{} ({} bytes)", shown.display(), bytes.len()))
+        });
+        let result = saved.await.unwrap_or_else(|error| Err(error.to_string()));
+        match &result {
+            Ok(message) => tracing::info!("checkpoint saved: {message}"),
+            Err(why) => tracing::warn!("no checkpoint: {why}"),
+        }
+        answer(result)
+    }
+}
+
+fn number(value: &ParameterValue) -> Option<f64> {
+    match value {
+        ParameterValue::Double(value) => Some(*value),
+        ParameterValue::Integer(value) => Some(*value as f64),
+        _ => None,
+    }
+}
+
+fn answer(result: Result<String, String>) -> TriggerResponse {
+    match result {
+        Ok(message) => TriggerResponse { success: true, message },
+        Err(message) => TriggerResponse {
+            success: false,
+            message,
+        },
+    }
+}
+
+/// Creates `~/reset`, `~/pause` and `~/save_checkpoint`; `name` makes a private name absolute.
+///
+/// # Errors
+/// When a service cannot be created.
+pub fn serve(
+    node: &mut Node,
+    participant: &DomainParticipant,
+    mapping: ServiceMapping,
+    control: &Arc<Control>,
+    name: impl Fn(&str) -> Result<String, crate::ros::args::ArgsError>,
+) -> Result<Vec<Task>, NodeError> {
+    let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
+        ServiceServer::new(
+            node,
+            participant,
+            &name(private)?,
+            &format!("std_srvs/srv/{kind}"),
+            mapping,
+        )
+    };
+    let (reset, pause) = (Arc::clone(control), Arc::clone(control));
+    Ok(vec![
+        Box::pin(server("~/reset", "Trigger")?.serve(at_once(move |_: TriggerRequest| reset.reset()))),
+        Box::pin(
+            server("~/pause", "SetBool")?.serve(at_once(move |request: SetBoolRequest| pause.pause(request.data))),
+        ),
+        Box::pin(
+            server("~/save_checkpoint", "Trigger")?.serve(shared(Arc::clone(control), |control, _: TriggerRequest| {
+                control.save_checkpoint()
+            })),
+        ),
+    ])
+}

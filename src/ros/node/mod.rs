@@ -1,0 +1,356 @@
+//! The node: what runs where, and how it begins and ends.
+//!
+//! - the solver's thread: [`super::solver`];
+//! - the publisher's thread: `publish`; the recorder's thread: `recording`;
+//! - tokio tasks: inputs and clock (`rig`), services and parameters (`control`).
+
+pub mod control;
+pub mod publish;
+pub mod publishers;
+pub mod recording;
+pub mod rig;
+
+use std::future::Future;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{channel, sync_channel};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use ros2_client::{Context, NodeName, NodeOptions};
+use tokio::task::JoinSet;
+
+use self::control::Control;
+use self::publish::{Publisher, PublisherParts};
+use self::publishers::Publishers;
+use self::recording::RecordingThread;
+use self::rig::{Gate, Now};
+use super::args::{NodeIdentity, Remapping};
+use super::network::Network;
+use super::parameters::{self, Parameters, configured};
+use super::service::ServiceMapping;
+use super::solver::Solver;
+use super::solver::clock::{SimulatedClock, WallClock};
+use super::solver::link::{Gauges, Targets, link};
+use super::{DEFAULT_NODE_NAME, NodeError, logging};
+use crate::bag::Recording;
+use crate::config::Config;
+use crate::inputs::{Door, InputKind};
+use crate::messages::topics::{self, TopicInfo};
+use crate::messages::{TwinStatus, outputs};
+use crate::pacing::clock;
+use crate::twin::{BuildError, Run, Simulation};
+
+/// Length of a period of the solver (s): inputs take effect this fast.
+const PERIOD: f64 = 5e-3;
+/// Samples that may wait for the recording.
+const RECEIVED: usize = 1024;
+/// Longest wait for the solver to end: a step that is split to its limit takes this long on a slow machine.
+const SOLVER_END: Duration = Duration::from_secs(5);
+
+/// All that decides how a node runs.
+#[derive(Debug, Clone)]
+pub struct NodeSetup {
+    /// Configuration, overrides included.
+    pub config: Config,
+    /// Where it was read from.
+    pub config_file: String,
+    /// Domain and reach.
+    pub network: Network,
+    /// Name and namespace, remapped.
+    pub identity: NodeIdentity,
+    /// Rules for topics and services.
+    pub remapping: Remapping,
+    /// Form of the services.
+    pub mapping: ServiceMapping,
+    /// File to record to.
+    pub record: Option<PathBuf>,
+    /// `/clock` paces the model.
+    pub use_sim_time: bool,
+    /// Log lines on `/rosout`.
+    pub rosout: bool,
+    /// State to start from.
+    pub checkpoint: Option<PathBuf>,
+    /// Model time after which it ends (s).
+    pub duration: Option<f64>,
+}
+
+/// What a node's run came to.
+#[derive(Debug)]
+pub struct RunSummary {
+    /// The last status.
+    pub status: TwinStatus,
+    /// The finished recording.
+    pub recording: Option<Recording>,
+}
+
+impl NodeSetup {
+    /// The absolute name of a topic.
+    ///
+    /// # Errors
+    /// When a remapped name is wrong.
+    pub fn topic_name(&self, topic: &TopicInfo) -> Result<String, NodeError> {
+        Ok(self.remapping.topic(&self.identity, DEFAULT_NODE_NAME, topic.name)?)
+    }
+}
+
+/// Runs a node until `shutdown` is done or the configured duration has passed.
+///
+/// # Errors
+/// When DDS, the model or the recording cannot be started, or the recording could not be finished.
+pub async fn run(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result<RunSummary, NodeError> {
+    let context = setup.network.start()?;
+    let result = run_in(&context, setup, shutdown).await;
+    logging::disconnect();
+    drop(context);
+    result
+}
+
+async fn run_in(
+    context: &Context,
+    setup: NodeSetup,
+    shutdown: impl Future<Output = ()>,
+) -> Result<RunSummary, NodeError> {
+    let participant = context.domain_participant();
+    let name = NodeName::new(&setup.identity.namespace, &setup.identity.name)
+        .map_err(|error| NodeError::Node(error.to_string()))?;
+    let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
+    let mut node = context
+        .new_node(name, options)
+        .map_err(|error| NodeError::Node(error.to_string()))?;
+    if setup.rosout {
+        logging::connect(&mut node, &participant)?;
+    }
+    let config = Arc::new(setup.config.clone());
+    let publishers = Publishers::new(&mut node, &participant, &config, &setup.identity, &setup.remapping)?;
+    let recording = match &setup.record {
+        Some(path) => {
+            // Names were checked when the publishers were made.
+            let name = |topic: &TopicInfo| setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned());
+            Some(RecordingThread::start(path, name)?)
+        }
+        None => None,
+    };
+
+    let simulated = Arc::new(AtomicU64::new(0));
+    let now: Now = time_of_inputs(setup.use_sim_time.then(|| Arc::clone(&simulated)));
+    let rig_time = rig_time(setup.use_sim_time.then(|| Arc::clone(&simulated)));
+    let settings = config.simulation();
+    let targets = Targets::new(settings.initial_inputs);
+    let gauges = Arc::new(Gauges::default());
+    let (solver_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
+    let door = Arc::new(Mutex::new(Door::new(config.inputs.rules())));
+    let gate = Gate {
+        door: Arc::clone(&door),
+        targets,
+        now: Arc::clone(&now),
+    };
+
+    let (change_sender, changes) = channel();
+    let control = Control::new(
+        commands,
+        Arc::clone(&config),
+        change_sender,
+        gate.clone(),
+        Arc::clone(&gauges),
+    );
+    let store = configured::declare(&config, &setup.config_file, setup.use_sim_time);
+    let (checking, applying) = (Arc::clone(&control), Arc::clone(&control));
+    let parameters = Parameters::new(
+        &mut node,
+        &participant,
+        store,
+        Box::new(move |candidate| checking.check(candidate)),
+        Box::new(move |store, changed| applying.apply(store, changed)),
+    )?;
+
+    let mut tasks = JoinSet::new();
+    for task in parameters::serve(&mut node, &participant, setup.mapping, &parameters)? {
+        tasks.spawn(task);
+    }
+    let service_name = |name: &str| setup.remapping.service(&setup.identity, DEFAULT_NODE_NAME, name);
+    for task in control::serve(&mut node, &participant, setup.mapping, &control, service_name)? {
+        tasks.spawn(task);
+    }
+    let (received_sender, received) = sync_channel(RECEIVED);
+    for (kind, topic) in [
+        (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
+        (InputKind::WeightOnBit, &topics::WEIGHT_ON_BIT_KN),
+    ] {
+        let subscription = rig::subscribe(&mut node, &participant, &setup.topic_name(topic)?, topic)?;
+        let record = recording.is_some().then(|| received_sender.clone());
+        tasks.spawn(rig::receive(gate.clone(), kind, subscription, record));
+    }
+    if setup.use_sim_time {
+        let subscription = rig::subscribe(
+            &mut node,
+            &participant,
+            &setup.topic_name(&topics::CLOCK)?,
+            &topics::CLOCK,
+        )?;
+        tasks.spawn(rig::follow_clock(gate.clone(), subscription, Arc::clone(&simulated)));
+    }
+    tasks.spawn(rig::keep_looking(gate));
+
+    let finish = Arc::new(AtomicBool::new(false));
+    let publisher = Publisher::new(PublisherParts {
+        end: publisher_end,
+        publishers,
+        recording,
+        received,
+        changes,
+        config: Arc::clone(&config),
+        gauges: Arc::clone(&gauges),
+        door,
+        now,
+        rig_time,
+        node_name: setup.identity.full_name(),
+        finish: Arc::clone(&finish),
+    })
+    .map_err(|error| NodeError::Node(error.to_string()))?;
+    let publisher_thread = spawn("publisher", move || publisher.run())?;
+
+    let (built_sender, built) = tokio::sync::oneshot::channel::<Result<(), BuildError>>();
+    let steps_per_period = (PERIOD / settings.time_step).round().max(1.0) as u64;
+    let checkpoint = read_checkpoint(&setup)?;
+    let clock_cell = setup.use_sim_time.then_some(simulated);
+    let solver_thread = spawn("solver", move || {
+        let run = match build(&config, checkpoint.as_deref()) {
+            Ok(run) => run,
+            Err(error) => return drop(built_sender.send(Err(error))),
+        };
+        // The node may have been told to end meanwhile.
+        let _ = built_sender.send(Ok(()));
+        match clock_cell {
+            Some(cell) => Solver::new(run, SimulatedClock::new(cell), solver_end, steps_per_period).run(),
+            None => Solver::new(run, WallClock, solver_end, steps_per_period).run(),
+        }
+    })?;
+
+    let outcome = wait(built, &gauges, settings.time_step, setup.duration, shutdown).await;
+
+    // The solver first, so that all it did is published; then the tasks; then what is left is written.
+    gauges.stop.store(true, Ordering::Relaxed);
+    let solver_ended = joined(solver_thread, SOLVER_END).await;
+    if !solver_ended {
+        tracing::warn!(
+            "the solver is still in a step after {} s; it is left behind",
+            SOLVER_END.as_secs()
+        );
+    }
+    tasks.shutdown().await;
+    finish.store(true, Ordering::Release);
+    let (recording, status) = tokio::task::spawn_blocking(move || publisher_thread.join())
+        .await
+        .ok()
+        .and_then(Result::ok)
+        .ok_or_else(|| NodeError::Node("the publisher's thread ended badly".into()))?;
+    drop(parameters);
+    logging::disconnect();
+    drop(node);
+    let recording = match recording {
+        Some(recording) => Some(
+            tokio::task::spawn_blocking(move || recording.finish())
+                .await
+                .map_err(|e| NodeError::Node(e.to_string()))??,
+        ),
+        None => None,
+    };
+    outcome?;
+    Ok(RunSummary { status, recording })
+}
+
+fn build(config: &Config, checkpoint: Option<&[u8]>) -> Result<Run, BuildError> {
+    let began = std::time::Instant::now();
+    let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
+    if let Some(bytes) = checkpoint {
+        simulation.restore(bytes)?;
+    }
+    tracing::info!(
+        "the tool is at its start after {:.1} s; model time runs",
+        began.elapsed().as_secs_f64()
+    );
+    Ok(Run::new(simulation, outputs::schedule(config)))
+}
+
+fn read_checkpoint(setup: &NodeSetup) -> Result<Option<Vec<u8>>, NodeError> {
+    let read = |path: &PathBuf| {
+        std::fs::read(path).map_err(|source| NodeError::Checkpoint {
+            path: path.clone(),
+            why: source.to_string(),
+        })
+    };
+    setup.checkpoint.as_ref().map(read).transpose()
+}
+
+/// Waits for the end of the run: told to, the duration has passed, or the model could not be built.
+async fn wait(
+    built: tokio::sync::oneshot::Receiver<Result<(), BuildError>>,
+    gauges: &Gauges,
+    time_step: f64,
+    duration: Option<f64>,
+    shutdown: impl Future<Output = ()>,
+) -> Result<(), NodeError> {
+    tokio::pin!(shutdown);
+    tokio::select! {
+        () = &mut shutdown => return Ok(()),
+        result = built => match result {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => return Err(error.into()),
+            Err(_) => return Err(NodeError::Node("the solver's thread ended badly".into())),
+        },
+    }
+    let over = async {
+        let Some(duration) = duration else {
+            return std::future::pending().await;
+        };
+        while (gauges.step.load(Ordering::Relaxed) as f64) * time_step < duration {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+        tracing::info!("the configured duration of {duration} s has passed");
+    };
+    tokio::select! {
+        () = shutdown => Ok(()),
+        () = over => Ok(()),
+    }
+}
+
+fn spawn<T: Send + 'static>(
+    name: &str,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Result<std::thread::JoinHandle<T>, NodeError> {
+    std::thread::Builder::new()
+        .name(name.to_owned())
+        .spawn(work)
+        .map_err(|error| NodeError::Node(format!("the {name}'s thread could not be started: {error}")))
+}
+
+/// Joins a thread, at most so long. Whether it ended.
+async fn joined(thread: std::thread::JoinHandle<()>, most: Duration) -> bool {
+    let deadline = tokio::time::Instant::now() + most;
+    while !thread.is_finished() {
+        if tokio::time::Instant::now() >= deadline {
+            return false;
+        }
+        tokio::time::sleep(Duration::from_millis(2)).await;
+    }
+    thread.join().is_ok()
+}
+
+fn time_of_inputs(simulated: Option<Arc<AtomicU64>>) -> Now {
+    match simulated {
+        Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as f64 * 1e-9),
+        None => Arc::new(|| clock::now() as f64 * 1e-9),
+    }
+}
+
+fn rig_time(simulated: Option<Arc<AtomicU64>>) -> Arc<dyn Fn() -> i64 + Send + Sync> {
+    match simulated {
+        Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as i64),
+        None => Arc::new(|| {
+            SystemTime::now()
+                .duration_since(UNIX_EPOCH)
+                .map_or(0, |since| since.as_nanos() as i64)
+        }),
+    }
+}

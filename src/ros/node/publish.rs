@@ -1,0 +1,318 @@
+//! The publisher's thread: frames and reports of the solver become messages, for DDS and the recording alike; status and
+//! diagnostics follow the wall clock, so that they go on when the model does not.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::Receiver;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use super::control::Change;
+use super::publishers::Publishers;
+use super::recording::RecordingThread;
+use super::rig::{Now, Received};
+use crate::config::Config;
+use crate::inputs::{Door, InputKind};
+use crate::messages::diagnostic_msgs::DiagnosticArray;
+use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
+use crate::messages::std_msgs::Float64;
+use crate::messages::topics::{self, TopicInfo};
+use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
+use crate::pacing::clock;
+use crate::ros::health::diagnostics::{Diagnostics, Evidence, describe};
+use crate::ros::health::status::{Sources, StatusKeeper};
+use crate::ros::solver::link::{Gauges, PublisherEnd, Report};
+use crate::twin::RunInputs;
+
+/// How often the rings are looked at: the delay that publishing adds.
+const LOOK: Duration = Duration::from_millis(1);
+
+/// What the publisher's thread is made of.
+pub struct PublisherParts {
+    /// From the solver.
+    pub end: PublisherEnd,
+    /// Output topics.
+    pub publishers: Publishers,
+    /// Recording, if any.
+    pub recording: Option<RecordingThread>,
+    /// Samples as received.
+    pub received: Receiver<Received>,
+    /// Parameters that changed.
+    pub changes: Receiver<Change>,
+    /// The configuration at the start.
+    pub config: Arc<Config>,
+    /// Of the solver.
+    pub gauges: Arc<Gauges>,
+    /// Inputs.
+    pub door: Arc<Mutex<Door>>,
+    /// Time as the door counts it.
+    pub now: Now,
+    /// Present instant on the rig's clock (ns since 1970).
+    pub rig_time: Arc<dyn Fn() -> i64 + Send + Sync>,
+    /// Name of the node, for the diagnostics.
+    pub node_name: String,
+    /// Set when the thread is to write what is left and end.
+    pub finish: Arc<AtomicBool>,
+}
+
+/// Publishes until told to finish.
+pub struct Publisher {
+    parts: PublisherParts,
+    outputs: Option<Outputs>,
+    status: StatusKeeper,
+    diagnostics: Diagnostics,
+    evidence: Evidence,
+    pending: Vec<Change>,
+    next_status: u64,
+    next_diagnostics: u64,
+    newest_status: TwinStatus,
+    told_late: bool,
+}
+
+impl Publisher {
+    /// A publisher of a run with this configuration.
+    ///
+    /// # Errors
+    /// When the meters cannot be made.
+    pub fn new(parts: PublisherParts) -> Result<Self, hdrhistogram::CreationError> {
+        let status = StatusKeeper::new(parts.config.solver.time_step, parts.config.hash())?;
+        let now = clock::now();
+        Ok(Self {
+            parts,
+            outputs: None,
+            status,
+            diagnostics: Diagnostics::default(),
+            evidence: Evidence::default(),
+            pending: Vec::new(),
+            next_status: now,
+            next_diagnostics: now,
+            newest_status: TwinStatus::default(),
+            told_late: false,
+        })
+    }
+
+    /// Runs until told to finish; gives back the recording and the last status.
+    pub fn run(mut self) -> (Option<RecordingThread>, TwinStatus) {
+        loop {
+            let finish = self.parts.finish.load(Ordering::Acquire);
+            let worked = self.turn();
+            if finish {
+                break;
+            }
+            if !worked {
+                std::thread::sleep(LOOK);
+            }
+        }
+        self.send_status();
+        (self.parts.recording, self.newest_status)
+    }
+
+    /// Looks at everything once. Whether there was something of the solver.
+    fn turn(&mut self) -> bool {
+        if self.outputs.is_none() && self.parts.gauges.start.load(Ordering::Acquire) != 0 {
+            self.begin();
+        }
+        let mut worked = false;
+        while let Ok(report) = self.parts.end.reports.pop() {
+            worked = true;
+            if let Err(error) = self.report(report) {
+                tracing::error!("a message could not be encoded: {error}");
+            }
+        }
+        while let Ok(time) = self.parts.end.step_times.pop() {
+            self.status.step_times.add(time);
+        }
+        while let Ok(received) = self.parts.received.try_recv() {
+            self.record_received(received);
+        }
+        let now = clock::now();
+        self.status.note(now, &self.parts.gauges);
+        let rates = self.parts.config.outputs.rates;
+        if due(&mut self.next_status, now, rates.status) {
+            self.send_status();
+        }
+        if due(&mut self.next_diagnostics, now, rates.diagnostics) {
+            self.send_diagnostics();
+        }
+        worked
+    }
+
+    /// The model has started: the clock of the run is known.
+    fn begin(&mut self) {
+        let config = Arc::clone(&self.parts.config);
+        let start = self.parts.gauges.start.load(Ordering::Acquire) as i64;
+        let mut outputs = Outputs::new(&config, start);
+        let configuration = config.to_yaml().unwrap_or_default();
+        let parts = &self.parts;
+        let sent = outputs.session(&config.hash(), &configuration, |encoded| parts.send(encoded));
+        if let Err(error) = sent {
+            tracing::error!("{error}");
+        }
+        self.outputs = Some(outputs);
+    }
+
+    fn report(&mut self, report: Report) -> Result<(), CdrError> {
+        match report {
+            Report::Frame(frame) => {
+                self.status.take(&frame.snapshot);
+                self.evidence.whirl = frame.snapshot.warning;
+                let parts = &self.parts;
+                let sent = self
+                    .outputs
+                    .as_mut()
+                    .map_or(Ok(()), |outputs| outputs.frame(&frame, |encoded| parts.send(encoded)));
+                // There is room: no more frames are in circulation than the ring holds.
+                let _ = self.parts.end.empty.push(frame);
+                sent
+            }
+            Report::Applied {
+                inputs,
+                ticks,
+                commands,
+            } => self.applied(&inputs, ticks, commands),
+            Report::Failed(failure, _) => {
+                tracing::error!(
+                    "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
+                    failure.time,
+                    describe(&failure)
+                );
+                self.status.fail(failure);
+                self.evidence.failure = Some(failure);
+                self.send_status();
+                self.send_diagnostics();
+                Ok(())
+            }
+            Report::Recovered => {
+                tracing::info!("the model moves again");
+                self.evidence.failure = None;
+                Ok(())
+            }
+        }
+    }
+
+    fn applied(&mut self, inputs: &RunInputs, ticks: u64, commands: u64) -> Result<(), CdrError> {
+        if inputs.reset {
+            self.evidence.failure = None;
+        }
+        self.pending.extend(self.parts.changes.try_iter());
+        let (acting, waiting): (Vec<Change>, Vec<Change>) = std::mem::take(&mut self.pending)
+            .into_iter()
+            .partition(|change| change.command <= commands);
+        self.pending = waiting;
+        let mut values: Vec<ParameterChange> = Vec::new();
+        for change in acting {
+            values.extend(change.values);
+            self.parts.config = change.config;
+        }
+        let parts = &self.parts;
+        let Some(outputs) = self.outputs.as_mut() else {
+            return Ok(());
+        };
+        outputs.reconfigure(&parts.config);
+        outputs.applied(inputs, &values, ticks, |encoded| parts.send(encoded))
+    }
+
+    fn record_received(&self, received: Received) {
+        let Some(recording) = &self.parts.recording else { return };
+        let topic = match received.kind {
+            InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
+            InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
+        };
+        if let Ok(cdr) = to_cdr(&Float64 { data: received.value }) {
+            recording.record(topic, (self.parts.rig_time)(), &cdr);
+        }
+    }
+
+    fn send_status(&mut self) {
+        let header = self.header();
+        let parts = &self.parts;
+        let door = parts.door.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let sources = Sources {
+            gauges: &parts.gauges,
+            door: &door,
+            now: (parts.now)(),
+            wall: clock::now(),
+            publishers: &parts.publishers,
+            recording: parts.recording.as_ref(),
+        };
+        let status = self.status.status(header, &sources);
+        self.parts.send_message(&topics::STATUS, &status, self.instant());
+        self.tell_late(&status);
+        self.newest_status = status;
+    }
+
+    /// One line when the model falls out of real time, one when it is back.
+    fn tell_late(&mut self, status: &TwinStatus) {
+        let skipping = status.state == TwinStatus::RUNNING && status.real_time_factor < 0.9 && status.steps_skipped > 0;
+        if skipping && !self.told_late {
+            tracing::warn!(
+                "not in real time: the model gains {:.2} s per second and skips the rest; take a coarser mesh or a faster machine",
+                status.real_time_factor
+            );
+        } else if self.told_late && status.real_time_factor > 0.98 {
+            tracing::info!("in real time again");
+        } else {
+            return;
+        }
+        self.told_late = skipping;
+    }
+
+    fn send_diagnostics(&mut self) {
+        let message = DiagnosticArray {
+            header: self.header(),
+            status: self
+                .diagnostics
+                .judge(&self.parts.node_name, &self.newest_status, &self.evidence),
+        };
+        self.parts.send_message(&topics::DIAGNOSTICS, &message, self.instant());
+    }
+
+    /// The present instant of the run (ns since 1970).
+    fn instant(&self) -> i64 {
+        match &self.outputs {
+            Some(outputs) => outputs.instant(self.parts.gauges.ticks.load(Ordering::Relaxed)),
+            None => (self.parts.rig_time)(),
+        }
+    }
+
+    fn header(&self) -> crate::messages::std_msgs::Header {
+        crate::messages::std_msgs::Header {
+            stamp: crate::messages::builtin_interfaces::Time::from_nanoseconds(self.instant()),
+            frame_id: self.parts.config.outputs.frame_id.clone(),
+        }
+    }
+}
+
+impl PublisherParts {
+    fn send(&self, encoded: Encoded<'_>) -> Result<(), CdrError> {
+        self.publishers.publish(encoded.topic, encoded.cdr);
+        if let Some(recording) = &self.recording {
+            recording.record(encoded.topic, encoded.stamp, encoded.cdr);
+        }
+        Ok(())
+    }
+
+    fn send_message<M: Message>(&self, topic: &'static TopicInfo, message: &M, stamp: i64) {
+        match to_cdr(message) {
+            // Counted when there is no room.
+            Ok(cdr) => drop(self.send(Encoded {
+                topic,
+                stamp,
+                cdr: &cdr,
+            })),
+            Err(error) => tracing::error!("{error}"),
+        }
+    }
+}
+
+/// Whether something at `rate` (Hz) is due; moves the deadline on its grid.
+fn due(next: &mut u64, now: u64, rate: f64) -> bool {
+    if rate <= 0.0 || now < *next {
+        return false;
+    }
+    let interval = (1e9 / rate) as u64;
+    *next += interval.max(1);
+    if *next <= now {
+        *next = now + interval;
+    }
+    true
+}

@@ -1,0 +1,94 @@
+//! One publisher per output topic, and the bag that gets the same bytes.
+
+use std::sync::Arc;
+
+use ros2_client::Node;
+use rustdds::DomainParticipant;
+
+use crate::config::Config;
+use crate::messages::topics::{self, Cadence, TopicInfo};
+use crate::ros::NodeError;
+use crate::ros::args::{NodeIdentity, Remapping};
+use crate::ros::publisher::{Offer, TopicCounters, TopicPublisher};
+
+/// Rate for which topics that are sent on change are sized (Hz).
+const CHANGES_RATE: f64 = 50.0;
+/// Bytes of the CDR header, which DDS writes itself.
+const CDR_HEADER: usize = 4;
+
+/// An output topic.
+struct Entry {
+    topic: &'static TopicInfo,
+    name: String,
+    publisher: TopicPublisher,
+}
+
+/// All output topics of the node.
+pub struct Publishers {
+    entries: Vec<Entry>,
+}
+
+impl Publishers {
+    /// Creates every topic that the node publishes.
+    ///
+    /// # Errors
+    /// When a remapped name is wrong or DDS refuses a topic.
+    pub fn new(
+        node: &mut Node,
+        participant: &DomainParticipant,
+        config: &Config,
+        identity: &NodeIdentity,
+        remapping: &Remapping,
+    ) -> Result<Self, NodeError> {
+        let mut entries = Vec::new();
+        for topic in topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received) {
+            let name = remapping.topic(identity, crate::ros::DEFAULT_NODE_NAME, topic.name)?;
+            let offer = Offer {
+                reliable: topic.qos.reliable,
+                latched: topic.qos.transient_local,
+                depth: topic.qos.depth as i32,
+                rate: rate(config, topic).max(CHANGES_RATE),
+            };
+            let publisher = TopicPublisher::new(node, participant, &name, topic.kind.ros_type, offer)?;
+            entries.push(Entry { topic, name, publisher });
+        }
+        Ok(Self { entries })
+    }
+
+    /// Publishes CDR with its header. False when there was no room.
+    pub fn publish(&self, topic: &TopicInfo, cdr: &[u8]) -> bool {
+        let body = cdr.get(CDR_HEADER..).unwrap_or_default();
+        self.entry(topic).is_some_and(|entry| entry.publisher.publish(body))
+    }
+
+    /// The absolute name of a topic.
+    pub fn name(&self, topic: &TopicInfo) -> &str {
+        self.entry(topic).map_or(topic.name, |entry| &entry.name)
+    }
+
+    /// Name and counters of every topic.
+    pub fn counters(&self) -> impl Iterator<Item = (&str, Arc<TopicCounters>)> {
+        self.entries
+            .iter()
+            .map(|entry| (entry.name.as_str(), entry.publisher.counters()))
+    }
+
+    fn entry(&self, topic: &TopicInfo) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.topic.name == topic.name)
+    }
+}
+
+fn rate(config: &Config, topic: &TopicInfo) -> f64 {
+    let rates = &config.outputs.rates;
+    match topic.cadence {
+        Cadence::Rate("joint_deflections") => rates.joint_deflections,
+        Cadence::Rate("contact_forces") => rates.contact_forces,
+        Cadence::Rate("whirl") => rates.whirl,
+        Cadence::Rate("bit_state") => rates.bit_state,
+        Cadence::Rate("status") => rates.status,
+        Cadence::Rate("tool_shape") => rates.tool_shape,
+        Cadence::Rate("joint_states") => rates.joint_states,
+        Cadence::Rate("diagnostics") => rates.diagnostics,
+        Cadence::Rate(_) | Cadence::OnChange | Cadence::Received => 0.0,
+    }
+}
