@@ -58,9 +58,9 @@ pub enum NodeError {
         /// From DDS.
         source: CreateError,
     },
-    /// The node itself.
+    /// A part of the node could not be started or ended badly.
     #[error("{0}")]
-    Node(String),
+    Stopped(String),
     /// The model could not be built.
     #[error(transparent)]
     Build(#[from] crate::twin::BuildError),

@@ -113,11 +113,11 @@ async fn run_in(
 ) -> Result<RunSummary, NodeError> {
     let participant = context.domain_participant();
     let name = NodeName::new(&setup.identity.namespace, &setup.identity.name)
-        .map_err(|error| NodeError::Node(error.to_string()))?;
+        .map_err(|error| NodeError::Stopped(error.to_string()))?;
     let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
     let mut node = context
         .new_node(name, options)
-        .map_err(|error| NodeError::Node(error.to_string()))?;
+        .map_err(|error| NodeError::Stopped(error.to_string()))?;
     if setup.rosout {
         logging::connect(&mut node, &participant)?;
     }
@@ -207,7 +207,7 @@ async fn run_in(
         node_name: setup.identity.full_name(),
         finish: Arc::clone(&finish),
     })
-    .map_err(|error| NodeError::Node(error.to_string()))?;
+    .map_err(|error| NodeError::Stopped(error.to_string()))?;
     let publisher_thread = spawn("publisher", move || publisher.run())?;
 
     let (built_sender, built) = tokio::sync::oneshot::channel::<Result<(), BuildError>>();
@@ -244,7 +244,7 @@ async fn run_in(
         .await
         .ok()
         .and_then(Result::ok)
-        .ok_or_else(|| NodeError::Node("the publisher's thread ended badly".into()))?;
+        .ok_or_else(|| NodeError::Stopped("the publisher's thread ended badly".into()))?;
     drop(parameters);
     logging::disconnect();
     drop(node);
@@ -252,7 +252,7 @@ async fn run_in(
         Some(recording) => Some(
             tokio::task::spawn_blocking(move || recording.finish())
                 .await
-                .map_err(|e| NodeError::Node(e.to_string()))??,
+                .map_err(|e| NodeError::Stopped(e.to_string()))??,
         ),
         None => None,
     };
@@ -297,7 +297,7 @@ async fn wait(
         result = built => match result {
             Ok(Ok(())) => {}
             Ok(Err(error)) => return Err(error.into()),
-            Err(_) => return Err(NodeError::Node("the solver's thread ended badly".into())),
+            Err(_) => return Err(NodeError::Stopped("the solver's thread ended badly".into())),
         },
     }
     let over = async {
@@ -322,7 +322,7 @@ fn spawn<T: Send + 'static>(
     std::thread::Builder::new()
         .name(name.to_owned())
         .spawn(work)
-        .map_err(|error| NodeError::Node(format!("the {name}'s thread could not be started: {error}")))
+        .map_err(|error| NodeError::Stopped(format!("the {name}'s thread could not be started: {error}")))
 }
 
 /// Joins a thread, at most so long. Whether it ended.
