@@ -3,22 +3,16 @@
 //! Every inner loop runs over a whole column of fixed length (entries that must not change get a zero multiplier), so that it becomes a
 //! few vector instructions.
 
-/// Pivots below this part of the block's largest entry are taken as zero: rounding of a block whose entries span the range from
-/// inertia to contact stiffness.
-const PIVOT_FLOOR: f64 = 1e-18;
-
 /// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. `FUSED` uses fused multiply-add, which is fast only where the
 /// processor has it.
 ///
 /// # Errors
-/// The size of the largest available pivot when it vanishes or is not a number.
+/// The size of the largest available pivot when it is zero or not a number.
 #[inline(always)]
 pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
     a: &mut [[f64; N]; N],
     b: &mut [[f64; N]; C],
 ) -> Result<(), f64> {
-    let largest = a.iter().flatten().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    let floor = PIVOT_FLOOR * largest;
     let mut reciprocals = [0.0; N];
     for k in 0..N {
         let mut p = k;
@@ -29,7 +23,8 @@ pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
                 p = r;
             }
         }
-        if size.is_nan() || size <= floor {
+        // A block that is singular but for rounding passes here; Newton's residual then tells.
+        if size.is_nan() || size == 0.0 {
             return Err(size);
         }
         if p != k {

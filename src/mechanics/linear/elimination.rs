@@ -4,7 +4,7 @@
 //! only, so the Schur complement touches the next block's first twelve rows and columns.
 
 use super::block::{solve_columns, subtract_product};
-use super::system::{BlockSystem, Layout};
+use super::system::{BlockParts, BlockSystem, Layout};
 use super::{LinearSolver, Singular};
 
 /// Columns solved per station: twelve of the coupling and the right-hand side.
@@ -65,8 +65,14 @@ impl StationElimination {
     }
 
     #[inline(always)]
-    fn run<const FUSED: bool>(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
-        let layout = system.layout();
+    fn run<const FUSED: bool>(&mut self, system: &mut BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
+        let BlockParts {
+            layout,
+            plain,
+            joint,
+            upper,
+            lower,
+        } = system.parts();
         let last = layout.stations() - 1;
         // What the station above adds: columns of L S^-1 (U, r).
         let mut carry = [[0.0; 12]; COLUMNS];
@@ -75,48 +81,45 @@ impl StationElimination {
             let offset = layout.offset(station);
             let mut outgoing = [[0.0; 12]; COLUMNS];
             if layout.is_large(station) {
-                let mut block = system.joint[slot].data.0;
+                let block = &mut joint[slot].data.0;
                 for (column, carry) in block.iter_mut().zip(&carry[..12]) {
                     column.iter_mut().zip(carry).for_each(|(x, c)| *x -= c);
                 }
                 let solution = &mut self.joint[slot];
                 solution.iter_mut().for_each(|column| column.fill(0.0));
                 if station < last {
-                    for (column, upper) in solution.iter_mut().zip(&system.upper[station].data.0) {
-                        column[12..18].copy_from_slice(&upper[..6]);
-                        column[6..12].copy_from_slice(&upper[6..]);
+                    for (column, coupling) in solution.iter_mut().zip(&upper[station].data.0) {
+                        column[12..18].copy_from_slice(&coupling[..6]);
+                        column[6..12].copy_from_slice(&coupling[6..]);
                     }
                 }
                 solution[12].copy_from_slice(&rhs[offset..offset + 24]);
                 solution[12].iter_mut().zip(&carry[12]).for_each(|(x, c)| *x -= c);
-                solve_columns::<24, COLUMNS, FUSED>(&mut block, solution)
-                    .map_err(|pivot| Singular { station, pivot })?;
+                solve_columns::<24, COLUMNS, FUSED>(block, solution).map_err(|pivot| Singular { station, pivot })?;
                 for (out, column) in outgoing.iter_mut().zip(solution.iter()) {
                     out[..6].copy_from_slice(&column[12..18]);
                     out[6..].copy_from_slice(&column[6..12]);
                 }
             } else {
-                let mut block = system.plain[slot].data.0;
+                let block = &mut plain[slot].data.0;
                 for (column, carry) in block.iter_mut().zip(&carry[..12]) {
                     column.iter_mut().zip(carry).for_each(|(x, c)| *x -= c);
                 }
                 let solution = &mut self.plain[slot];
                 if station < last {
-                    solution[..12].copy_from_slice(&system.upper[station].data.0);
+                    solution[..12].copy_from_slice(&upper[station].data.0);
                 } else {
                     solution[..12].fill([0.0; 12]);
                 }
                 solution[12].copy_from_slice(&rhs[offset..offset + 12]);
                 solution[12].iter_mut().zip(&carry[12]).for_each(|(x, c)| *x -= c);
-                solve_columns::<12, COLUMNS, FUSED>(&mut block, solution)
-                    .map_err(|pivot| Singular { station, pivot })?;
+                solve_columns::<12, COLUMNS, FUSED>(block, solution).map_err(|pivot| Singular { station, pivot })?;
                 outgoing = *solution;
             }
             if station < last {
-                let lower = &system.lower[station].data.0;
                 for (carry, out) in carry.iter_mut().zip(&outgoing) {
                     let mut product = [0.0; 12];
-                    subtract_product::<12, 12, FUSED>(&mut product, lower, out);
+                    subtract_product::<12, 12, FUSED>(&mut product, &lower[station].data.0, out);
                     *carry = product.map(|x| -x);
                 }
             }
@@ -126,13 +129,15 @@ impl StationElimination {
         for station in (0..=last).rev() {
             let (slot, offset) = (layout.slot(station), layout.offset(station));
             if layout.is_large(station) {
-                let [gain @ .., mut x] = self.joint[slot];
-                subtract_product::<24, 12, FUSED>(&mut x, &gain, &below);
+                let [gain @ .., x] = &self.joint[slot];
+                let mut x = *x;
+                subtract_product::<24, 12, FUSED>(&mut x, gain, &below);
                 rhs[offset..offset + 24].copy_from_slice(&x);
                 below.copy_from_slice(&x[..12]);
             } else {
-                let [gain @ .., mut x] = self.plain[slot];
-                subtract_product::<12, 12, FUSED>(&mut x, &gain, &below);
+                let [gain @ .., x] = &self.plain[slot];
+                let mut x = *x;
+                subtract_product::<12, 12, FUSED>(&mut x, gain, &below);
                 rhs[offset..offset + 12].copy_from_slice(&x);
                 below = x;
             }
@@ -142,19 +147,19 @@ impl StationElimination {
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
-    fn run_avx2(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
+    fn run_avx2(&mut self, system: &mut BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
         self.run::<true>(system, rhs)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-    fn run_avx512(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
+    fn run_avx512(&mut self, system: &mut BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
         self.run::<true>(system, rhs)
     }
 }
 
 impl LinearSolver for StationElimination {
-    fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
+    fn solve(&mut self, system: &mut BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
         match self.instructions {
             Instructions::Portable => self.run::<false>(system, rhs),
             // SAFETY: chosen only where the processor was found to have these instructions.

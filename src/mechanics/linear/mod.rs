@@ -24,9 +24,9 @@ pub struct Singular {
 
 /// Solves the block system of one Newton iteration.
 pub trait LinearSolver: Send {
-    /// Solves `system x = rhs`; `rhs` becomes x.
+    /// Solves `system x = rhs`; `rhs` becomes x. The system's entries may be used up on the way.
     ///
     /// # Errors
     /// When a block cannot be factorised.
-    fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular>;
+    fn solve(&mut self, system: &mut BlockSystem, rhs: &mut [f64]) -> Result<(), Singular>;
 }

@@ -92,6 +92,15 @@ pub struct BlockSystem {
     pub lower: Vec<Coupling>,
 }
 
+/// The parts of a system, borrowed.
+pub(super) struct BlockParts<'a> {
+    pub layout: &'a Layout,
+    pub plain: &'a mut [SMatrix<f64, 12, 12>],
+    pub joint: &'a mut [SMatrix<f64, 24, 24>],
+    pub upper: &'a [Coupling],
+    pub lower: &'a [Coupling],
+}
+
 impl BlockSystem {
     /// A zero system.
     pub fn new(layout: Layout) -> Self {
@@ -103,6 +112,17 @@ impl BlockSystem {
             upper: vec![Coupling::zeros(); couplings],
             lower: vec![Coupling::zeros(); couplings],
             layout,
+        }
+    }
+
+    /// All parts at once, for a solver that works in place.
+    pub(super) fn parts(&mut self) -> BlockParts<'_> {
+        BlockParts {
+            layout: &self.layout,
+            plain: &mut self.plain,
+            joint: &mut self.joint,
+            upper: &self.upper,
+            lower: &self.lower,
         }
     }
 
