@@ -6,6 +6,7 @@ mod recover;
 mod run;
 mod signals;
 mod watch;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -29,6 +30,7 @@ enum Command {
     Recover(recover::RecoverArgs),
     #[command(hide = true)]
     GenerateMessages(generate_messages::Args),
+    Verify(verify::VerifyArgs),
 }
 
 /// The command line cannot be used as it is: exit code 2.
@@ -55,6 +57,7 @@ pub fn main() -> ExitCode {
         Command::Watch(args) => watch::run(&args),
         Command::Recover(args) => recover::run(&args),
         Command::GenerateMessages(args) => generate_messages::run(&args),
+        Command::Verify(args) => verify::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -122,9 +122,10 @@ impl Stepper {
         rest.v.fill(0.0);
         rest.a.fill(0.0);
         rest.time = 0.0;
-        // What Newton's tolerance left unbalanced becomes an acceleration, so that the first step begins in balance.
         let conditions = self.conditions(0.0, weight_on_bit);
-        let (model, newton, _, _) = self.parts();
+        let (model, newton, _, trial) = self.parts();
+        newton.polish_rest(model, &mut rest, trial, &conditions);
+        // What is still unbalanced becomes an acceleration, so that the first step begins in balance.
         newton
             .balance_accelerations(model, &mut rest, &conditions)
             .map_err(StartError::Singular)?;
