@@ -5,8 +5,8 @@ mod generate_messages;
 mod recover;
 mod run;
 mod signals;
-mod watch;
 mod verify;
+mod watch;
 
 use std::process::ExitCode;
 
