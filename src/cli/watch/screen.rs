@@ -91,7 +91,7 @@ fn warning_line(warning: Option<&WhirlWarning>) -> Line<'static> {
         WhirlWarning::WARNING => Style::new().fg(Color::Black).bg(DOUBTFUL),
         _ => Style::new().fg(Color::White).bg(BAD).add_modifier(Modifier::BOLD),
     };
-    Line::styled(format!(" whirl {}", words::warning(warning)), style)
+    Line::styled(format!(" {} ", words::warning(warning)), style)
 }
 
 fn inputs(board: &Board) -> Paragraph<'static> {
@@ -350,7 +350,7 @@ mod tests {
         });
         board.take_warning(WhirlWarning {
             severity: WhirlWarning::WARNING,
-            message: "backward whirl at 45 deg".into(),
+            message: "Warning: backward whirl at 45 deg".into(),
             ..WhirlWarning::default()
         });
         board
@@ -368,7 +368,7 @@ mod tests {
         let text = picture(&full_board(now), now, 80, 24);
         for part in [
             "RUNNING",
-            "WARNING: backward whirl at 45 deg",
+            "Warning: backward whirl at 45 deg",
             "RPM 40.1 r/min",
             "x0.910 real time",
             "3 at limit",

@@ -208,6 +208,7 @@ pub(super) fn warning(warning: Option<&WhirlWarning>) -> String {
     match warning {
         None => "no warning yet".to_owned(),
         Some(warning) if warning.message.is_empty() => severity(warning.severity).to_owned(),
-        Some(warning) => format!("{}: {}", severity(warning.severity), warning.message),
+        // The sentence begins with the level.
+        Some(warning) => warning.message.clone(),
     }
 }
