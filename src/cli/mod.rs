@@ -2,9 +2,13 @@
 
 mod check;
 mod generate_messages;
+mod progress;
 mod recover;
+mod replay;
+mod rig;
 mod run;
 mod signals;
+mod source;
 mod verify;
 mod watch;
 
@@ -12,6 +16,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use self::replay::TimedInput;
 use crate::ros::args;
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
@@ -25,6 +30,8 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::RunArgs),
+    Rig(rig::RigArgs),
+    Replay(replay::ReplayArgs),
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
     Recover(recover::RecoverArgs),
@@ -52,7 +59,9 @@ pub fn main() -> ExitCode {
     let cli = Cli::parse_from(arguments);
     let result: anyhow::Result<()> = match cli.command {
         Command::Run(args) => run::run(&args, &ros_args),
+        Command::Rig(args) => rig::run(&args, &ros_args),
         _ if !ros_args.is_empty() => Err(WrongUse::new("only `run` and `rig` take --ros-args").into()),
+        Command::Replay(args) => replay::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
         Command::Recover(args) => recover::run(&args),

@@ -8,6 +8,7 @@ pub mod node;
 pub mod parameters;
 pub mod publisher;
 pub mod raw;
+pub mod rig_node;
 pub mod service;
 pub mod solver;
 pub mod subscriber;

@@ -1,0 +1,63 @@
+//! A progress bar on a terminal, a line now and then elsewhere.
+
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Time between two lines where there is no terminal.
+const LINE_EVERY: Duration = Duration::from_secs(10);
+
+/// Progress of model time towards an end (s).
+pub(super) struct Progress {
+    bar: Option<ProgressBar>,
+    end: f64,
+    began: Instant,
+    told: Instant,
+}
+
+impl Progress {
+    /// A bar up to `end` (s of model time).
+    pub(super) fn new(end: f64) -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let bar = ProgressBar::new((end * 1e3) as u64);
+            // The template is a constant; were it wrong, the plain bar would do.
+            if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  {eta} left") {
+                bar.set_style(style);
+            }
+            bar
+        });
+        let now = Instant::now();
+        Self {
+            bar,
+            end,
+            began: now,
+            told: now,
+        }
+    }
+
+    /// The model is at `time` (s).
+    pub(super) fn at(&mut self, time: f64) {
+        let wall = self.began.elapsed().as_secs_f64();
+        let speed = if wall > 0.0 { time / wall } else { 0.0 };
+        if let Some(bar) = &self.bar {
+            bar.set_position((time * 1e3) as u64);
+            bar.set_message(format!("{time:.1} of {:.1} s, {speed:.2} x real time", self.end));
+        } else if self.told.elapsed() >= LINE_EVERY {
+            self.told = Instant::now();
+            eprintln!("{time:.1} of {:.1} s of model time, {speed:.2} x real time", self.end);
+        }
+    }
+
+    /// Wall time since the start (s).
+    pub(super) fn elapsed(&self) -> f64 {
+        self.began.elapsed().as_secs_f64()
+    }
+
+    /// Takes the bar away.
+    pub(super) fn done(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! `flexdrill replay`: a bag or a field log through the model as fast as it goes.
+
+mod inputs;
+mod player;
+mod recording;
+mod summary;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use self::player::Player;
+use super::progress::Progress;
+use super::run::load_config;
+use super::{WrongUse, source};
+use crate::bag;
+
+pub(crate) use inputs::TimedInput;
+
+/// Run a bag or a field log through the model as fast as it goes, into a bag.
+///
+/// One of our recordings is replayed with its own configuration and applied inputs: the outputs are the same to the bit.
+/// From other bags and from field logs the inputs are taken.
+#[derive(Debug, Args)]
+pub(super) struct ReplayArgs {
+    /// Bag (MCAP, SQLite or their folder) or field log (CSV).
+    input: PathBuf,
+    /// Bag to write: FILE.mcap or a folder.
+    #[arg(long, value_name = "OUT")]
+    out: PathBuf,
+    /// Configuration, where the input does not bring its own; without it the paper's case, built in.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// At most so much model time (s).
+    #[arg(long, value_name = "SECONDS")]
+    duration: Option<f64>,
+    #[command(flatten)]
+    source: source::SourceArgs,
+}
+
+/// # Errors
+/// When the input cannot be used, a step fails, or the bag cannot be written.
+pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
+    if source::is_bag(&args.input)? && recording::is_ours(&bag::open(&args.input)?) {
+        if args.config.is_some() || args.source.is_given() {
+            return Err(WrongUse::new("a recording of flexdrill brings its own configuration and inputs: leave out --config, --from, --to and --mapping, or use another bag").into());
+        }
+        return recording::Script::read(&args.input)?.replay(&args.out, args.duration);
+    }
+    let (config, name) = load_config(args.config.as_deref())?;
+    println!("configuration {name}, hash {}", &config.hash()[..12]);
+    let samples = args.source.read(&args.input)?;
+    inputs::replay(config, &samples, &args.out, args.duration)
+}
+
+fn finish(player: Player, progress: &Progress) -> anyhow::Result<()> {
+    progress.done();
+    let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);
+    let (recording, tally) = player.finish()?;
+    println!("wrote {} messages to {}", recording.messages, recording.path.display());
+    tally.print(wall, time_step);
+    Ok(())
+}

@@ -1,0 +1,86 @@
+//! Inputs with times, from a field log or anybody's bag, through the same door as live samples.
+
+use std::path::Path;
+
+use super::player::Player;
+use crate::cli::progress::Progress;
+use crate::config::Config;
+use crate::inputs::{Door, InputKind};
+use crate::messages::topics::TopicInfo;
+use crate::twin::RunInputs;
+
+/// A sample at an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TimedInput {
+    /// ns since 1970.
+    pub time: i64,
+    /// Which input.
+    pub kind: InputKind,
+    /// r/min or kN.
+    pub value: f64,
+}
+
+/// How often inputs take effect (s), as in the node.
+const PERIOD: f64 = 5e-3;
+/// Model time after the last sample (s).
+const TAIL: f64 = 1.0;
+
+/// Runs the model through the samples, which are in the order of their times.
+pub(super) fn replay(config: Config, samples: &[TimedInput], out: &Path, duration: Option<f64>) -> anyhow::Result<()> {
+    let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
+        anyhow::bail!("there is no sample of rotary speed or weight on bit to replay");
+    };
+    let time_step = config.solver.time_step;
+    let span = (last.time - first.time) as f64 * 1e-9 + TAIL;
+    let span = duration.map_or(span, |duration| duration.min(span));
+    let steps = (span / time_step).round() as u64;
+    let per_period = ((PERIOD / time_step).round() as u64).max(1);
+    let mut door = Door::new(config.inputs.rules());
+    let mut player = Player::new(config, first.time, out, |topic: &TopicInfo| {
+        if topic.name.starts_with('/') {
+            topic.name.to_owned()
+        } else {
+            format!("/{}", topic.name)
+        }
+    })?;
+    let mut progress = Progress::new(span);
+    let mut waiting = samples.iter().peekable();
+    let mut told: Option<RunInputs> = None;
+    let mut refused = 0_u64;
+    while player.step() < steps {
+        let now = player.time_of(player.step());
+        let due = |sample: &&TimedInput| (sample.time - first.time) as f64 * 1e-9 <= now;
+        while let Some(sample) = waiting.next_if(due) {
+            let at = (sample.time - first.time) as f64 * 1e-9;
+            if let Err(rejection) = door.offer(sample.kind, sample.value, at) {
+                refused += 1;
+                if refused <= 10 {
+                    eprintln!("at {at:.2} s: {rejection}");
+                }
+            }
+        }
+        let inputs = RunInputs {
+            inputs: door.targets(now),
+            input_quality: door.quality(now) as u8,
+            ..player.inputs()
+        };
+        let same = told.is_some_and(|told| {
+            RunInputs {
+                step: told.step,
+                ..inputs
+            } == told
+        });
+        if !same {
+            player.apply(&inputs, &[], told.is_none())?;
+            told = Some(inputs);
+        }
+        for _ in 0..per_period.min(steps - player.step()) {
+            player.advance_surely()?;
+        }
+        progress.at(player.time_of(player.step()));
+    }
+    if refused > 0 {
+        eprintln!("{refused} samples were refused in all");
+    }
+    super::finish(player, &progress)
+}

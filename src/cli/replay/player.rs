@@ -1,0 +1,169 @@
+//! Drives a run as fast as it goes and writes what the node would have published.
+
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+
+use super::summary::Tally;
+use crate::bag::{BagError, Recorder, Recording, Topic};
+use crate::config::Config;
+use crate::mechanics::{StepFailure, StepOutcome};
+use crate::messages::CdrError;
+use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
+use crate::messages::topics::{self, Cadence, TopicInfo};
+use crate::ros::health::diagnostics::describe;
+use crate::twin::{Frame, Run, RunInputs, Simulation};
+
+/// Topics that a replay can give: those that do not tell of wall-clock time.
+fn replayed() -> impl Iterator<Item = &'static TopicInfo> {
+    topics::ALL
+        .iter()
+        .filter(|topic| topic.cadence != Cadence::Received)
+        .filter(|topic| ![topics::STATUS.name, topics::DIAGNOSTICS.name].contains(&topic.name))
+}
+
+#[derive(Debug, thiserror::Error)]
+enum WriteError {
+    #[error(transparent)]
+    Cdr(#[from] CdrError),
+    #[error(transparent)]
+    Bag(#[from] BagError),
+}
+
+/// A run on its way into a bag.
+pub(super) struct Player {
+    run: Run,
+    config: Config,
+    frame: Frame,
+    outputs: Outputs,
+    recorder: Recorder,
+    topics: Vec<&'static TopicInfo>,
+    /// What a person is told at the end.
+    pub tally: Tally,
+}
+
+impl Player {
+    /// Builds the model and begins the bag. `start` is in ns since 1970; `name` makes topics absolute.
+    pub(super) fn new(
+        config: Config,
+        start: i64,
+        out: &Path,
+        name: impl Fn(&TopicInfo) -> String,
+    ) -> anyhow::Result<Self> {
+        let topics: Vec<_> = replayed().collect();
+        let recorded: Vec<Topic> = topics
+            .iter()
+            .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
+            .collect();
+        let recorder = Recorder::create(out, &recorded)?;
+        let simulation = Simulation::new(&config.tool(), &config.simulation())?;
+        let run = Run::new(simulation, schedule(&config));
+        let mut player = Self {
+            frame: run.new_frame(),
+            run,
+            outputs: Outputs::new(&config, start),
+            config,
+            recorder,
+            topics,
+            tally: Tally::default(),
+        };
+        let (hash, yaml) = (player.config.hash(), player.config.to_yaml()?);
+        let (recorder, topics) = (&mut player.recorder, &player.topics);
+        player
+            .outputs
+            .session(&hash, &yaml, |encoded| write(recorder, topics, encoded))?;
+        Ok(player)
+    }
+
+    /// Steps taken since the start or the last reset.
+    pub(super) fn step(&self) -> u64 {
+        self.run.simulation().step()
+    }
+
+    /// Model time of a step (s).
+    pub(super) fn time_of(&self, step: u64) -> f64 {
+        step as f64 * self.config.solver.time_step
+    }
+
+    /// What drives the run now.
+    pub(super) fn inputs(&self) -> RunInputs {
+        self.run.applied()
+    }
+
+    /// Takes over a changed configuration.
+    pub(super) fn reconfigure(&mut self, config: Config) {
+        self.outputs.reconfigure(&config);
+        self.config = config;
+    }
+
+    /// The present configuration.
+    pub(super) fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Lets new values act; at the start and after a reset the state is shown.
+    pub(super) fn apply(&mut self, inputs: &RunInputs, changes: &[ParameterChange], first: bool) -> anyhow::Result<()> {
+        self.run.apply(inputs);
+        let ticks = self.run.ticks();
+        let (recorder, topics) = (&mut self.recorder, &self.topics);
+        self.outputs
+            .applied(inputs, changes, ticks, |encoded| write(recorder, topics, encoded))?;
+        if inputs.reset {
+            self.tally.resets += 1;
+        }
+        if first || inputs.reset { self.show() } else { Ok(()) }
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// When the step fails or the bag cannot be written.
+    pub(super) fn advance(&mut self) -> anyhow::Result<Result<(), StepFailure>> {
+        match self.run.advance() {
+            StepOutcome::Advanced { iterations, halvings } => {
+                self.tally.step(iterations, halvings);
+                self.show()?;
+                Ok(Ok(()))
+            }
+            StepOutcome::Failed(failure) => Ok(Err(failure)),
+        }
+    }
+
+    /// One step that must not fail.
+    pub(super) fn advance_surely(&mut self) -> anyhow::Result<()> {
+        if let Err(failure) = self.advance()? {
+            bail!(
+                "step {} at model time {:.4} s failed: {}; what was replayed until then is in the bag",
+                self.step(),
+                failure.time,
+                describe(&failure)
+            );
+        }
+        Ok(())
+    }
+
+    fn show(&mut self) -> anyhow::Result<()> {
+        if self.run.due().is_empty() {
+            return Ok(());
+        }
+        self.run.capture(&mut self.frame);
+        self.tally.take(&self.frame.snapshot);
+        let (recorder, topics) = (&mut self.recorder, &self.topics);
+        self.outputs
+            .frame(&self.frame, |encoded| write(recorder, topics, encoded))?;
+        Ok(())
+    }
+
+    /// Ends the bag.
+    pub(super) fn finish(self) -> anyhow::Result<(Recording, Tally)> {
+        let recording = self.recorder.finish().context("the bag could not be finished")?;
+        Ok((recording, self.tally))
+    }
+}
+
+fn write(recorder: &mut Recorder, topics: &[&TopicInfo], encoded: Encoded<'_>) -> Result<(), WriteError> {
+    match topics.iter().position(|topic| topic.name == encoded.topic.name) {
+        Some(index) => Ok(recorder.record(index, encoded.stamp, encoded.cdr)?),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,156 @@
+//! What a replay came to, for a person.
+
+use std::collections::BTreeMap;
+
+use crate::twin::Snapshot;
+
+/// The largest value of something and where and when it was.
+#[derive(Debug, Clone, Copy, Default)]
+struct Peak {
+    value: f64,
+    depth: f64,
+    time: f64,
+}
+
+impl Peak {
+    fn take(&mut self, values: &[f64], depths: &[f64], time: f64) {
+        for (value, depth) in values.iter().zip(depths) {
+            if *value > self.value {
+                *self = Self {
+                    value: *value,
+                    depth: *depth,
+                    time,
+                };
+            }
+        }
+    }
+}
+
+/// Counted and kept over a replay.
+#[derive(Debug, Default)]
+pub(super) struct Tally {
+    /// Times that the model went back to its start.
+    pub resets: u64,
+    steps: u64,
+    iterations: u64,
+    halvings: BTreeMap<u32, u64>,
+    bend: Peak,
+    stop: Peak,
+    pipe_guide: Peak,
+    guide_wall: Peak,
+    joints_at_limit: usize,
+    last: Option<Last>,
+}
+
+#[derive(Debug)]
+struct Last {
+    energy_error: f64,
+    drive: f64,
+    rejected: u64,
+    warnings: u64,
+}
+
+impl Tally {
+    pub(super) fn step(&mut self, iterations: u32, halvings: u32) {
+        self.steps += 1;
+        self.iterations += u64::from(iterations);
+        if halvings > 0 {
+            *self.halvings.entry(halvings).or_default() += 1;
+        }
+    }
+
+    pub(super) fn take(&mut self, snapshot: &Snapshot) {
+        let (joints, contacts, time) = (&snapshot.joints, &snapshot.contacts, snapshot.time);
+        self.bend.take(&joints.bend_angle, &joints.measured_depth, time);
+        self.stop.take(&joints.stop_moment, &joints.measured_depth, time);
+        self.pipe_guide
+            .take(&contacts.pipe_guide.normal_peak, &contacts.measured_depth, time);
+        self.guide_wall
+            .take(&contacts.guide_wall.normal_peak, &contacts.measured_depth, time);
+        let at_limit = joints
+            .bend_angle
+            .iter()
+            .zip(&joints.limit_angle)
+            .filter(|(angle, limit)| angle >= limit)
+            .count();
+        self.joints_at_limit = self.joints_at_limit.max(at_limit);
+        self.last = Some(Last {
+            energy_error: snapshot.energy.error,
+            drive: snapshot.energy.drive,
+            rejected: snapshot.solver.rejected,
+            warnings: snapshot.warning.sequence,
+        });
+    }
+
+    /// Prints it. `wall` is how long it took (s), `time_step` the model's (s).
+    pub(super) fn print(&self, wall: f64, time_step: f64) {
+        let row = |name: &str, value: String| println!("  {name:<22} {value}");
+        let model = self.steps as f64 * time_step;
+        row(
+            "model time",
+            format!(
+                "{model:.2} s in {wall:.1} s, {:.2} x real time",
+                if wall > 0.0 { model / wall } else { 0.0 }
+            ),
+        );
+        row(
+            "steps",
+            format!("{} of {} ms, {} resets", self.steps, time_step * 1e3, self.resets),
+        );
+        if self.steps > 0 {
+            row(
+                "Newton iterations",
+                format!("{:.2} per step", self.iterations as f64 / self.steps as f64),
+            );
+        }
+        let split: u64 = self.halvings.values().sum();
+        let deepest = self.halvings.keys().next_back().copied().unwrap_or_default();
+        row(
+            "halved steps",
+            if split == 0 {
+                "none".into()
+            } else {
+                format!("{split}, deepest 1/{}", 1_u64 << deepest.min(63))
+            },
+        );
+        let place = |peak: &Peak| format!("at {:.2} m, model time {:.2} s", peak.depth, peak.time);
+        row(
+            "largest pipe-guide force",
+            format!("{:.0} N {}", self.pipe_guide.value, place(&self.pipe_guide)),
+        );
+        row(
+            "largest guide-wall force",
+            format!("{:.0} N {}", self.guide_wall.value, place(&self.guide_wall)),
+        );
+        row(
+            "largest bend",
+            format!("{:.2} deg {}", self.bend.value.to_degrees(), place(&self.bend)),
+        );
+        if self.joints_at_limit > 0 {
+            row(
+                "joints at their limit",
+                format!(
+                    "up to {}, stop moment up to {:.0} N m {}",
+                    self.joints_at_limit,
+                    self.stop.value,
+                    place(&self.stop)
+                ),
+            );
+        } else {
+            row("joints at their limit", "never".into());
+        }
+        if let Some(last) = &self.last {
+            let share = if last.drive == 0.0 {
+                String::new()
+            } else {
+                format!(
+                    ", {:.2} % of the drive's work",
+                    100.0 * (last.energy_error / last.drive).abs()
+                )
+            };
+            row("energy error", format!("{:.3} J{share}", last.energy_error));
+            row("rejected sub-steps", last.rejected.to_string());
+            row("whirl warnings", format!("{} changes of level", last.warnings));
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! `flexdrill rig`: plays a log into the twin as a rig would.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+
+use super::{TimedInput, WrongUse, signals, source};
+use crate::inputs::InputKind;
+use crate::ros::args::RosArgs;
+use crate::ros::logging;
+use crate::ros::network::Network;
+use crate::ros::rig_node::{RIG_NODE_NAME, RigNode};
+
+/// Time between two lines.
+const TELL: Duration = Duration::from_secs(5);
+/// A sample is never followed by the next within less than this: what is overdue is left out, not sent in a burst.
+const LEAST_GAP: Duration = Duration::from_millis(2);
+/// Time for discovery before the first sample.
+const DISCOVERY: Duration = Duration::from_millis(300);
+
+/// Publish a field log's or a bag's inputs in real time.
+#[derive(Debug, Args)]
+pub(super) struct RigArgs {
+    /// Field log (CSV) or bag (MCAP, SQLite or their folder).
+    log: PathBuf,
+    /// Speed: 2 plays twice as fast.
+    #[arg(long, default_value_t = 1.0)]
+    rate: f64,
+    /// Begin again at the end.
+    #[arg(long = "loop")]
+    again: bool,
+    /// DDS domain, 0 to 232; wins over ROS_DOMAIN_ID.
+    #[arg(long, value_name = "ID")]
+    domain: Option<u16>,
+    /// Namespace of the node and its topics.
+    #[arg(long, value_name = "NS", default_value = "/")]
+    namespace: String,
+    #[command(flatten)]
+    source: source::SourceArgs,
+}
+
+/// # Errors
+/// When the log or the network cannot be used.
+pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
+    let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
+    logging::start(&ros_args);
+    if !(args.rate > 0.0 && args.rate.is_finite()) {
+        return Err(WrongUse::new(format!(
+            "--rate {}: use a number above 0, such as 2 for twice as fast",
+            args.rate
+        ))
+        .into());
+    }
+    let samples = args.source.read(&args.log)?;
+    let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+    let identity = ros_args
+        .remapping
+        .identity(&args.namespace, RIG_NODE_NAME)
+        .map_err(WrongUse::new)?;
+    for note in notes {
+        tracing::warn!("{note}");
+    }
+    let node = RigNode::new(&network, &identity, &ros_args.remapping)?;
+    println!(
+        "playing {} ({} samples) at {} x real time",
+        args.log.display(),
+        samples.len(),
+        args.rate
+    );
+    println!(
+        "to {} and {}, domain {}; Ctrl-C ends it",
+        node.topics()[0],
+        node.topics()[1],
+        network.domain_id
+    );
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    runtime.block_on(async {
+        let shutdown = signals::shutdown()?;
+        tokio::select! {
+            () = shutdown => {}
+            () = play(&node, &samples, args.rate, args.again) => {}
+        }
+        anyhow::Ok(())
+    })?;
+    println!("stopped");
+    Ok(())
+}
+
+async fn play(node: &RigNode, samples: &[TimedInput], rate: f64, again: bool) {
+    tokio::time::sleep(DISCOVERY).await;
+    loop {
+        play_once(node, samples, rate).await;
+        if !again {
+            return;
+        }
+        println!("from the beginning again");
+    }
+}
+
+async fn play_once(node: &RigNode, samples: &[TimedInput], rate: f64) {
+    let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
+        return;
+    };
+    let at = |sample: &TimedInput| (sample.time - first.time) as f64 * 1e-9;
+    let began = Instant::now();
+    let mut told = began;
+    let mut newest: [Option<f64>; 2] = [None; 2];
+    let (mut next, mut sent, mut left_out) = (0, 0_u64, 0_u64);
+    while let Some(sample) = samples.get(next) {
+        let due = Duration::from_secs_f64(at(sample) / rate);
+        tokio::time::sleep_until((began + due).into()).await;
+        let now = began.elapsed().as_secs_f64() * rate;
+        // Of all that is due by now the newest of each input counts.
+        let mut batch: [Option<f64>; 2] = [None; 2];
+        while let Some(sample) = samples.get(next).filter(|sample| at(sample) <= now) {
+            left_out += u64::from(batch[sample.kind.index()].replace(sample.value).is_some());
+            next += 1;
+        }
+        for kind in InputKind::ALL {
+            if let Some(value) = batch[kind.index()] {
+                sent += u64::from(node.publish(kind, value));
+                newest[kind.index()] = Some(value);
+            }
+        }
+        if told.elapsed() >= TELL {
+            told = Instant::now();
+            let show = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}"));
+            let late = if left_out > 0 {
+                format!(", {left_out} left out because others came at the same time")
+            } else {
+                String::new()
+            };
+            println!(
+                "{now:.0} of {:.0} s: {} r/min, {} kN, {sent} samples sent{late}, {} listening",
+                at(last),
+                show(newest[0]),
+                show(newest[1]),
+                node.listeners()
+            );
+        }
+        tokio::time::sleep(LEAST_GAP).await;
+    }
+    // The last samples reach the other side before the node goes.
+    tokio::time::sleep(DISCOVERY).await;
+    println!("end of the log after {:.1} s: {sent} samples sent", at(last));
+}
