@@ -147,6 +147,8 @@ fn values_change_by_key_and_are_checked() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn garbage_never_panics(text in "\\PC{0,200}") {
         let _ = Config::from_text("garbage", &text);

@@ -137,6 +137,8 @@ fn any_value() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn targets_stay_within_limits_whatever_comes(
         samples in prop::collection::vec((any::<bool>(), any_value(), any_value()), 0..50),

@@ -1,6 +1,7 @@
 //! The command line, one file per subcommand. Exit codes: 0 done, 1 failed with a reason, 2 wrong use.
 
 mod check;
+mod generate_demo_log;
 mod generate_messages;
 mod progress;
 mod recover;
@@ -36,6 +37,8 @@ enum Command {
     Watch(watch::WatchArgs),
     Recover(recover::RecoverArgs),
     #[command(hide = true)]
+    GenerateDemoLog(generate_demo_log::Args),
+    #[command(hide = true)]
     GenerateMessages(generate_messages::Args),
     Verify(verify::VerifyArgs),
 }
@@ -65,6 +68,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
         Command::Recover(args) => recover::run(&args),
+        Command::GenerateDemoLog(args) => generate_demo_log::run(&args),
         Command::GenerateMessages(args) => generate_messages::run(&args),
         Command::Verify(args) => verify::run(&args),
     };

@@ -7,7 +7,7 @@ use super::lines::Lines;
 
 /// Limits of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Bound {
+pub(crate) struct Bound {
     low: f64,
     high: f64,
     low_is_in: bool,
@@ -15,7 +15,7 @@ pub(super) struct Bound {
 
 impl Bound {
     /// low <= x <= high.
-    pub(super) const fn within(low: f64, high: f64) -> Self {
+    pub(crate) const fn within(low: f64, high: f64) -> Self {
         Self {
             low,
             high,
@@ -24,7 +24,7 @@ impl Bound {
     }
 
     /// low < x <= high.
-    pub(super) const fn above(low: f64, high: f64) -> Self {
+    pub(crate) const fn above(low: f64, high: f64) -> Self {
         Self {
             low,
             high,
@@ -72,16 +72,16 @@ pub struct NumberKey {
 }
 
 /// Walks a configuration.
-pub(super) struct Checker<'a> {
+pub(crate) struct Checker<'a> {
     file: &'a str,
     lines: &'a Lines,
     path: Vec<String>,
-    pub(super) problems: Vec<Problem>,
-    pub(super) numbers: Vec<NumberKey>,
+    pub(crate) problems: Vec<Problem>,
+    pub(crate) numbers: Vec<NumberKey>,
 }
 
 impl<'a> Checker<'a> {
-    pub(super) fn new(file: &'a str, lines: &'a Lines) -> Self {
+    pub(crate) fn new(file: &'a str, lines: &'a Lines) -> Self {
         Self {
             file,
             lines,
@@ -92,14 +92,14 @@ impl<'a> Checker<'a> {
     }
 
     /// Everything checked in `inside` is below `key`.
-    pub(super) fn below(&mut self, key: impl ToString, inside: impl FnOnce(&mut Self)) {
+    pub(crate) fn below(&mut self, key: impl ToString, inside: impl FnOnce(&mut Self)) {
         self.path.push(key.to_string());
         inside(self);
         self.path.pop();
     }
 
     /// A number against its limits. NaN and infinities never hold.
-    pub(super) fn number(&mut self, key: &str, value: f64, bound: Bound, unit: &'static str, reason: &'static str) {
+    pub(crate) fn number(&mut self, key: &str, value: f64, bound: Bound, unit: &'static str, reason: &'static str) {
         if !bound.holds(value) {
             self.wrong(key, number(value), unit, bound.words(unit), reason);
         }
@@ -116,14 +116,14 @@ impl<'a> Checker<'a> {
     }
 
     /// A count against its limits, both allowed.
-    pub(super) fn count(&mut self, key: &str, value: usize, low: usize, high: usize, reason: &str) {
+    pub(crate) fn count(&mut self, key: &str, value: usize, low: usize, high: usize, reason: &str) {
         if value < low || value > high {
             self.wrong(key, value, "", format!("{low} to {high}"), reason);
         }
     }
 
     /// Reports `value` unless `holds`.
-    pub(super) fn require(
+    pub(crate) fn require(
         &mut self,
         holds: bool,
         key: &str,
@@ -138,7 +138,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports a value.
-    pub(super) fn wrong(
+    pub(crate) fn wrong(
         &mut self,
         key: &str,
         value: impl ToString,
@@ -173,7 +173,7 @@ impl<'a> Checker<'a> {
 }
 
 /// A number as a person would write it: plain near one, with an exponent far from it.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     if value != 0.0 && value.is_finite() && !(1e-4..1e7).contains(&size) {
         format!("{value:e}")

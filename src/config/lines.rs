@@ -8,7 +8,7 @@ use serde_saphyr::Spanned;
 
 /// A YAML document reduced to its keys and where their values stand.
 #[derive(Debug, Default)]
-pub(super) struct Lines {
+pub(crate) struct Lines {
     entries: Vec<Entry>,
 }
 
@@ -21,7 +21,7 @@ struct Entry {
 
 impl Lines {
     /// Of `text`; empty if it is not YAML, which the typed reading then reports.
-    pub(super) fn of(text: &str) -> Self {
+    pub(crate) fn of(text: &str) -> Self {
         let options = serde_saphyr::options! {
             non_finite_float_policy: serde_saphyr::NonFiniteFloatPolicy::AsString,
         };
@@ -68,7 +68,7 @@ impl Lines {
     }
 
     /// Line of `key`, and whether it is the key itself rather than its nearest enclosing key.
-    pub(super) fn find(&self, key: &str) -> (Option<u64>, bool) {
+    pub(crate) fn find(&self, key: &str) -> (Option<u64>, bool) {
         let mut part = key;
         loop {
             if let Some(entry) = self.entries.iter().find(|entry| entry.key == part) {
@@ -82,18 +82,18 @@ impl Lines {
     }
 
     /// Whether `key` is written in the file.
-    pub(super) fn has(&self, key: &str) -> bool {
+    pub(crate) fn has(&self, key: &str) -> bool {
         self.place(key).is_some()
     }
 
     /// Line and column of `key`.
-    pub(super) fn place(&self, key: &str) -> Option<(u64, u64)> {
+    pub(crate) fn place(&self, key: &str) -> Option<(u64, u64)> {
         let entry = self.entries.iter().find(|entry| entry.key == key)?;
         Some((entry.line, entry.column))
     }
 
     /// The last key that begins at or before a place in the file; empty if none.
-    pub(super) fn key_at(&self, line: u64, column: u64) -> &str {
+    pub(crate) fn key_at(&self, line: u64, column: u64) -> &str {
         self.entries
             .iter()
             .filter(|entry| (entry.line, entry.column) <= (line, column))

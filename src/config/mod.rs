@@ -9,18 +9,18 @@
 //! [`Config::with_value`], which checks again.
 
 mod boundary;
-mod checker;
+pub(crate) mod checker;
 mod contact;
 mod derived;
 mod environment;
 mod error;
 mod inputs;
-mod lines;
+pub(crate) mod lines;
 mod loads;
 mod outputs;
 mod pipe;
 mod place;
-mod reading;
+pub(crate) mod reading;
 mod run;
 mod solver;
 mod start;
@@ -60,6 +60,23 @@ use crate::twin::{Inputs, SimulationSettings};
 use checker::Checker;
 use lines::Lines;
 use place::Mesh;
+
+/// Keys without a default.
+const REQUIRED: &[&str] = &[
+    "well",
+    "well.sections",
+    "well.hole_diameter",
+    "tool",
+    "tool.links",
+    "tool.pipe",
+    "tool.guide",
+    "tool.guide.outer_diameter",
+    "tool.guide.inner_diameter",
+    "tool.joint",
+    "tool.joint.limit_deg",
+    "tool.bit",
+    "tool.bit.diameter",
+];
 
 /// The whole schema, top level.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -141,7 +158,8 @@ impl Config {
     /// When the text is not YAML of this schema, or does not make sense.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
         let lines = Lines::of(text);
-        let schema = serde_saphyr::from_str(text).map_err(|error| reading::syntax_error(name, text, &lines, &error))?;
+        let schema = serde_saphyr::from_str(text)
+            .map_err(|error| reading::syntax_error(name, text, &lines, REQUIRED, &error))?;
         Self::checked(name, &lines, schema)
     }
 

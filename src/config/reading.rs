@@ -3,31 +3,21 @@
 use super::error::ConfigError;
 use super::lines::Lines;
 
-/// Keys without a default, to name the one that is missing.
-const REQUIRED: &[&str] = &[
-    "well",
-    "well.sections",
-    "well.hole_diameter",
-    "tool",
-    "tool.links",
-    "tool.pipe",
-    "tool.guide",
-    "tool.guide.outer_diameter",
-    "tool.guide.inner_diameter",
-    "tool.joint",
-    "tool.joint.limit_deg",
-    "tool.bit",
-    "tool.bit.diameter",
-];
-
-/// Words the error of reading `text`, the content of the file `name`.
-pub(super) fn syntax_error(name: &str, text: &str, lines: &Lines, error: &serde_saphyr::Error) -> ConfigError {
+/// Words the error of reading `text`, the content of the file `name`. `required` are the keys without a default, to name
+/// the one that is missing.
+pub(crate) fn syntax_error(
+    name: &str,
+    text: &str,
+    lines: &Lines,
+    required: &[&str],
+    error: &serde_saphyr::Error,
+) -> ConfigError {
     let (mut line, mut column) = error.location().map_or((0, 0), |place| (place.line(), place.column()));
     let mut key = lines.key_at(line, column).to_string();
     let mut message = plain_message(error);
     if let serde_saphyr::Error::SerdeMissingField { field, .. } = error.without_snippet() {
         // The reader notices a missing key only at the end of its parent, or later.
-        let missing = REQUIRED.iter().find(|path| {
+        let missing = required.iter().find(|path| {
             let (parent, name) = path.rsplit_once('.').unwrap_or(("", path));
             name == *field && !lines.has(path) && (parent.is_empty() || lines.has(parent))
         });

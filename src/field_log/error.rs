@@ -1,0 +1,65 @@
+//! Why a field log could not be read at all. What is wrong with single rows stands in the [`super::Report`].
+
+use std::path::PathBuf;
+
+use crate::config::ConfigError;
+
+/// Why a field log could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum FieldLogError {
+    /// The mapping file is wrong.
+    #[error(transparent)]
+    Mapping(#[from] ConfigError),
+    /// The log could not be opened or read.
+    #[error("{}: cannot be read: {reason}", path.display())]
+    Read {
+        /// As given.
+        path: PathBuf,
+        /// The system's reason.
+        reason: String,
+    },
+    /// The header lacks a column that the mapping names.
+    #[error("{file}: no column `{column}`, which {key} of the mapping names; the header has: {found}")]
+    MissingColumn {
+        /// Name of the log.
+        file: String,
+        /// The column.
+        column: String,
+        /// Key of the mapping.
+        key: String,
+        /// The header.
+        found: String,
+    },
+    /// No row has a readable time.
+    #[error("{file}: no row with a readable time in column `{column}`; the mapping says its format is {format}")]
+    NoRows {
+        /// Name of the log.
+        file: String,
+        /// The time column.
+        column: String,
+        /// The format of the mapping.
+        format: &'static str,
+    },
+    /// The range asked for is empty or outside the log.
+    #[error("{file}: nothing between {from} and {to}; the log has rows {first_row} to {last_row}, {length:.1} s")]
+    EmptyRange {
+        /// Name of the log.
+        file: String,
+        /// As asked.
+        from: String,
+        /// As asked.
+        to: String,
+        /// First row with a time.
+        first_row: u64,
+        /// Last row with a time.
+        last_row: u64,
+        /// s.
+        length: f64,
+    },
+    /// A place in a log could not be understood.
+    #[error("`{text}` is not a place in a log: write a row number (6345) or seconds since the log's first row (90s)")]
+    Position {
+        /// As given.
+        text: String,
+    },
+}

@@ -1,0 +1,368 @@
+//! The mapping file: which column is what.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Condition, TimeFormat};
+use crate::config::ConfigError;
+use crate::config::checker::{Bound, Checker};
+use crate::config::lines::Lines;
+use crate::config::reading;
+use crate::inputs::units::{klbf_to_kn, n_to_kn, rad_per_s_to_rpm};
+
+/// Which column of a log is what.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mapping {
+    /// For people. Default empty.
+    #[serde(default)]
+    pub title: String,
+    /// One character between fields. Default a comma.
+    #[serde(default = "comma")]
+    pub separator: char,
+    /// Values that stand for "no value", beside an empty field. Default none.
+    #[serde(default)]
+    pub missing: Vec<f64>,
+    /// Required.
+    pub columns: Columns,
+    /// What counts as wrong.
+    #[serde(default)]
+    pub quality: Quality,
+}
+
+fn comma() -> char {
+    ','
+}
+
+/// The columns.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Columns {
+    /// Required.
+    pub time: TimeColumn,
+    /// Required.
+    pub rotary_speed: RotarySpeedColumn,
+    /// `direct: {...}` or `hookload: {...}`. Required.
+    pub weight_on_bit: WeightOnBitColumn,
+}
+
+/// Time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimeColumn {
+    /// Name in the header.
+    pub column: String,
+    /// `seconds`, `milliseconds` or `iso8601`. Default seconds.
+    #[serde(default)]
+    pub format: TimeFormat,
+}
+
+/// Speed of the top drive.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RotarySpeedColumn {
+    /// Name in the header.
+    pub column: String,
+    /// Required.
+    pub unit: SpeedUnit,
+    /// Factor to the tool's range. Default 1.
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Units of speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SpeedUnit {
+    /// Turns per minute.
+    #[serde(rename = "r/min")]
+    RevolutionsPerMinute,
+    /// Radians per second.
+    #[serde(rename = "rad/s")]
+    RadiansPerSecond,
+    /// Turns per second.
+    #[serde(rename = "Hz")]
+    Hertz,
+}
+
+impl SpeedUnit {
+    pub(super) fn to_rpm(self, value: f64) -> f64 {
+        match self {
+            Self::RevolutionsPerMinute => value,
+            Self::RadiansPerSecond => rad_per_s_to_rpm(value),
+            Self::Hertz => value * 60.0,
+        }
+    }
+}
+
+/// Units of weight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum WeightUnit {
+    /// Newton.
+    N,
+    /// Kilonewton.
+    #[serde(rename = "kN")]
+    Kilonewton,
+    /// Ten newton times thousand.
+    #[serde(rename = "kdaN")]
+    Kilodecanewton,
+    /// Thousand pounds-force.
+    #[serde(rename = "klbf")]
+    Kilopound,
+}
+
+impl WeightUnit {
+    pub(super) fn to_kn(self, value: f64) -> f64 {
+        match self {
+            Self::N => n_to_kn(value),
+            Self::Kilonewton => value,
+            Self::Kilodecanewton => value * 10.0,
+            Self::Kilopound => klbf_to_kn(value),
+        }
+    }
+}
+
+/// Where the weight on bit comes from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WeightOnBitColumn {
+    /// The log has it.
+    Direct(Direct),
+    /// It is the hookload that is missing on the hook while drilling.
+    Hookload(Hookload),
+}
+
+/// A column of weight on bit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Direct {
+    /// Name in the header.
+    pub column: String,
+    /// Required.
+    pub unit: WeightUnit,
+    /// Factor to the tool's range. Default 1.
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+/// Weight on bit = (tare - hookload) x scale while drilling, 0 otherwise. The tare is the median hookload over the last
+/// `tare_window` of the last stretch that was off bottom and rotating.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hookload {
+    /// Name in the header.
+    pub column: String,
+    /// Required.
+    pub unit: WeightUnit,
+    /// When the bit is on bottom and drills. Required.
+    pub drilling: Condition,
+    /// When the bit is off bottom. Required.
+    pub off_bottom: Condition,
+    /// Faster than this counts as rotating. Default 10.
+    #[serde(default = "ten")]
+    pub rotating_above_rpm: f64,
+    /// s. Default 30.
+    #[serde(default = "thirty")]
+    pub tare_window: f64,
+    /// A stretch with fewer rows gives no tare. Default 20.
+    #[serde(default = "twenty")]
+    pub tare_min_rows: usize,
+    /// A weight this little below zero counts as zero, one further below is left out. Before scaling. Default 5.
+    #[serde(default = "five")]
+    pub negative_band_kn: f64,
+    /// Factor to the tool's range. Default 1.
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn five() -> f64 {
+    5.0
+}
+
+fn ten() -> f64 {
+    10.0
+}
+
+fn thirty() -> f64 {
+    30.0
+}
+
+fn twenty() -> usize {
+    20
+}
+
+/// What counts as wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Quality {
+    /// A longer time between two rows is a gap (s). Default 5.
+    pub max_gap: f64,
+    /// A single sample further than this from both its neighbours is a spike and left out. Default 50.
+    pub spike_rpm: f64,
+    /// The same for weight or hookload. Default 100.
+    pub spike_kn: f64,
+    /// A value other than 0 that does not change for longer is reported as frozen (s). Default 120.
+    pub frozen_after: f64,
+}
+
+impl Default for Quality {
+    fn default() -> Self {
+        Self {
+            max_gap: 5.0,
+            spike_rpm: 50.0,
+            spike_kn: 100.0,
+            frozen_after: 120.0,
+        }
+    }
+}
+
+const REQUIRED: &[&str] = &[
+    "columns",
+    "columns.time",
+    "columns.time.column",
+    "columns.rotary_speed",
+    "columns.rotary_speed.column",
+    "columns.rotary_speed.unit",
+    "columns.weight_on_bit",
+    "columns.weight_on_bit.direct.column",
+    "columns.weight_on_bit.direct.unit",
+    "columns.weight_on_bit.hookload.column",
+    "columns.weight_on_bit.hookload.unit",
+    "columns.weight_on_bit.hookload.drilling",
+    "columns.weight_on_bit.hookload.drilling.column",
+    "columns.weight_on_bit.hookload.off_bottom",
+    "columns.weight_on_bit.hookload.off_bottom.column",
+];
+
+impl Mapping {
+    /// Reads and checks a mapping file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not YAML of this schema, or does not make sense.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigError> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Read {
+            path: path.to_path_buf(),
+            reason,
+        })?;
+        Self::from_text(&path.display().to_string(), &text)
+    }
+
+    /// Reads and checks a text; `name` stands for the file in errors.
+    ///
+    /// # Errors
+    /// When the text is not YAML of this schema, or does not make sense.
+    pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
+        let lines = Lines::of(text);
+        let mapping: Self = serde_saphyr::from_str(text)
+            .map_err(|error| reading::syntax_error(name, text, &lines, REQUIRED, &error))?;
+        let mut checker = Checker::new(name, &lines);
+        mapping.check(&mut checker);
+        if checker.problems.is_empty() {
+            Ok(mapping)
+        } else {
+            Err(ConfigError::Invalid {
+                problems: checker.problems,
+            })
+        }
+    }
+
+    /// Factor that the log's weight on bit is multiplied by.
+    pub fn weight_scale(&self) -> f64 {
+        match &self.columns.weight_on_bit {
+            WeightOnBitColumn::Direct(direct) => direct.scale,
+            WeightOnBitColumn::Hookload(hookload) => hookload.scale,
+        }
+    }
+
+    fn check(&self, c: &mut Checker) {
+        c.require(
+            self.separator.is_ascii() && self.separator != '"' && self.separator != '\n',
+            "separator",
+            format!("{:?}", self.separator),
+            "",
+            "one ASCII character other than a quote or a line end",
+            "",
+        );
+        let scale = Bound::above(0.0, 1e3);
+        let scale_reason = "a factor to the tool's range; 1 takes the log as it is";
+        c.below("columns", |c| {
+            c.below("rotary_speed", |c| {
+                c.number("scale", self.columns.rotary_speed.scale, scale, "", scale_reason);
+            });
+            c.below("weight_on_bit", |c| match &self.columns.weight_on_bit {
+                WeightOnBitColumn::Direct(direct) => c.below("direct", |c| {
+                    c.number("scale", direct.scale, scale, "", scale_reason);
+                }),
+                WeightOnBitColumn::Hookload(hookload) => c.below("hookload", |c| {
+                    c.number("scale", hookload.scale, scale, "", scale_reason);
+                    hookload.check(c);
+                }),
+            });
+        });
+        c.below("quality", |c| self.quality.check(c));
+    }
+}
+
+impl Hookload {
+    fn check(&self, c: &mut Checker) {
+        c.below("drilling", |c| self.drilling.check(c));
+        c.below("off_bottom", |c| self.off_bottom.check(c));
+        let reason = "a string that stands still hangs with its friction";
+        c.number(
+            "rotating_above_rpm",
+            self.rotating_above_rpm,
+            Bound::within(0.0, 1000.0),
+            "r/min",
+            reason,
+        );
+        let reason = "long enough for a median, short enough for the depth of the connection";
+        c.number("tare_window", self.tare_window, Bound::above(0.0, 3600.0), "s", reason);
+        c.count(
+            "tare_min_rows",
+            self.tare_min_rows,
+            1,
+            100_000,
+            "a median of too few is chance",
+        );
+        let reason = "the noise of a hookload";
+        c.number(
+            "negative_band_kn",
+            self.negative_band_kn,
+            Bound::within(0.0, 1000.0),
+            "kN",
+            reason,
+        );
+    }
+}
+
+impl Quality {
+    fn check(&self, c: &mut Checker) {
+        c.number("max_gap", self.max_gap, Bound::above(0.0, 86_400.0), "s", "a day");
+        c.number(
+            "spike_rpm",
+            self.spike_rpm,
+            Bound::above(0.0, 1e6),
+            "r/min",
+            "1e6 switches it off",
+        );
+        c.number(
+            "spike_kn",
+            self.spike_kn,
+            Bound::above(0.0, 1e6),
+            "kN",
+            "1e6 switches it off",
+        );
+        c.number(
+            "frozen_after",
+            self.frozen_after,
+            Bound::above(0.0, 1e9),
+            "s",
+            "1e9 switches it off",
+        );
+    }
+}

@@ -1,0 +1,67 @@
+//! A part of a log.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::FieldLogError;
+
+/// A place in a log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Position {
+    /// As an editor numbers rows, the header being row 1. Written `6345`.
+    Row(u64),
+    /// Seconds since the log's first row. Written `90s`.
+    Time(f64),
+}
+
+impl FromStr for Position {
+    type Err = FieldLogError;
+
+    fn from_str(text: &str) -> Result<Self, FieldLogError> {
+        let error = || FieldLogError::Position { text: text.to_string() };
+        if let Some(seconds) = text.strip_suffix('s') {
+            let seconds: f64 = seconds.trim().parse().map_err(|_| error())?;
+            return if seconds.is_finite() && seconds >= 0.0 {
+                Ok(Self::Time(seconds))
+            } else {
+                Err(error())
+            };
+        }
+        text.parse().map(Self::Row).map_err(|_| error())
+    }
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Row(row) => write!(f, "row {row}"),
+            Self::Time(time) => write!(f, "{time} s"),
+        }
+    }
+}
+
+/// From a place to a place, both included; `None` is the log's begin or end.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Range {
+    /// First.
+    pub from: Option<Position>,
+    /// Last.
+    pub to: Option<Position>,
+}
+
+impl Range {
+    /// The whole log.
+    pub const ALL: Self = Self { from: None, to: None };
+
+    pub(super) fn contains(&self, row: u64, time: f64) -> bool {
+        let after = self.from.is_none_or(|from| match from {
+            Position::Row(first) => row >= first,
+            Position::Time(first) => time >= first,
+        });
+        let before = self.to.is_none_or(|to| match to {
+            Position::Row(last) => row <= last,
+            Position::Time(last) => time <= last,
+        });
+        after && before
+    }
+}

@@ -1,0 +1,25 @@
+//! What comes out of a log.
+
+use crate::inputs::InputKind;
+
+/// One sample as a topic would bring it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimedInput {
+    /// Since the first row of the range that was read (s).
+    pub time: f64,
+    /// Which input.
+    pub kind: InputKind,
+    /// r/min or kN, in the unit of the input's topic.
+    pub value: f64,
+    /// Row in the log, as an editor numbers it.
+    pub row: u64,
+}
+
+/// Samples in the order of time, rotary speed before weight on bit of the same row.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct InputSequence {
+    /// The samples.
+    pub inputs: Vec<TimedInput>,
+    /// Time from the first to the last row that was read (s), samples or not.
+    pub duration: f64,
+}

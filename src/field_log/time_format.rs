@@ -1,0 +1,127 @@
+//! How a log writes time.
+
+use serde::{Deserialize, Serialize};
+
+/// How a log writes time. Only differences matter.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TimeFormat {
+    /// A number of seconds.
+    #[default]
+    Seconds,
+    /// A number of milliseconds.
+    Milliseconds,
+    /// `2024-05-01T12:30:05.25Z`; also with a blank for the T, with or without the Z or an offset such as +02:00.
+    Iso8601,
+}
+
+impl TimeFormat {
+    /// For people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Seconds => "seconds",
+            Self::Milliseconds => "milliseconds",
+            Self::Iso8601 => "iso8601",
+        }
+    }
+
+    /// Seconds, from some epoch; `None` when the text is not of this format.
+    pub fn parse(self, text: &str) -> Option<f64> {
+        let seconds = match self {
+            Self::Seconds => text.parse::<f64>().ok()?,
+            Self::Milliseconds => text.parse::<f64>().ok()? * 1e-3,
+            Self::Iso8601 => iso8601(text)?,
+        };
+        seconds.is_finite().then_some(seconds)
+    }
+}
+
+/// Seconds since 1970-01-01.
+fn iso8601(text: &str) -> Option<f64> {
+    let (date, time) = text.split_once(['T', ' '])?;
+    let mut parts = date.split('-');
+    let year = whole(parts.next()?, 4)?;
+    let month = whole(parts.next()?, 2).filter(|month| (1..=12).contains(month))?;
+    let day = whole(parts.next()?, 2).filter(|day| (1..=31).contains(day))?;
+    if parts.next().is_some() {
+        return None;
+    }
+    let (clock, offset) = split_offset(time)?;
+    let mut parts = clock.split(':');
+    let hour = whole(parts.next()?, 2).filter(|hour| *hour < 24)?;
+    let minute = whole(parts.next()?, 2).filter(|minute| *minute < 60)?;
+    let second_text = parts.next().unwrap_or("0");
+    if parts.next().is_some() || !second_text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') {
+        return None;
+    }
+    let second = second_text.parse::<f64>().ok().filter(|second| *second < 61.0)?;
+    Some((days_since_1970(year, month, day) * 86_400 + hour * 3600 + minute * 60 - offset) as f64 + second)
+}
+
+/// The clock and the offset from UTC (s).
+fn split_offset(time: &str) -> Option<(&str, i64)> {
+    if let Some(clock) = time.strip_suffix(['Z', 'z']) {
+        return Some((clock, 0));
+    }
+    let Some(at) = time.find(['+', '-']) else {
+        return Some((time, 0));
+    };
+    let sign = if time[at..].starts_with('-') { -1 } else { 1 };
+    let digits: String = time[at + 1..].chars().filter(|character| *character != ':').collect();
+    let (hours, minutes) = match digits.len() {
+        2 => (whole(&digits, 2)?, 0),
+        4 if digits.is_ascii() => (whole(&digits[..2], 2)?, whole(&digits[2..], 2)?),
+        _ => return None,
+    };
+    Some((&time[..at], sign * (hours * 3600 + minutes * 60)))
+}
+
+fn whole(text: &str, digits: usize) -> Option<i64> {
+    let fits = text.len() == digits && text.bytes().all(|byte| byte.is_ascii_digit());
+    fits.then(|| text.parse().ok()).flatten()
+}
+
+/// Days of the Gregorian calendar, counted in years that begin in March so that the leap day comes last.
+fn days_since_1970(year: i64, month: i64, day: i64) -> i64 {
+    let (year, month) = if month > 2 {
+        (year, month - 3)
+    } else {
+        (year - 1, month + 9)
+    };
+    let leap_days = year / 4 - year / 100 + year / 400;
+    // Months from March on alternate so that this gives their first days: 0, 31, 61, 92, ...
+    let days_before_month = (153 * month + 2) / 5;
+    // 719_469: the count of 1970-01-01 on this scale, plus one because days count from 1.
+    year * 365 + leap_days + days_before_month + day - 719_469
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_instants() {
+        let parse = |text| TimeFormat::Iso8601.parse(text);
+        assert_eq!(parse("1970-01-01T00:00:00Z"), Some(0.0));
+        assert_eq!(parse("2000-02-29 12:00:00.5"), Some(951_825_600.5));
+        assert_eq!(parse("2024-12-31T23:59:59+01:00"), Some(1_735_685_999.0));
+        assert_eq!(parse("2024-12-31T17:59-0500"), Some(1_735_685_940.0));
+    }
+
+    #[test]
+    fn nonsense_is_none() {
+        for text in [
+            "",
+            "12:30",
+            "2024-13-01T00:00:00",
+            "2024-1-1T00:00:00",
+            "2024-01-01T25:00:00",
+            "2024-01-01Tx",
+            "2024-01-01T00:00:00+é1",
+        ] {
+            assert_eq!(TimeFormat::Iso8601.parse(text), None, "{text}");
+        }
+        assert_eq!(TimeFormat::Seconds.parse("nan"), None);
+        assert_eq!(TimeFormat::Milliseconds.parse("1500"), Some(1.5));
+    }
+}
