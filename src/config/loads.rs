@@ -94,7 +94,7 @@ impl History {
                 c.number("end", *end, TIME, "s", TIME_REASON);
                 let bound = format!("after start, {} s", number(*start));
                 c.require(
-                    !(end <= start),
+                    end > start,
                     "end",
                     number(*end),
                     "s",
@@ -120,7 +120,7 @@ impl History {
                         c.number("0", time, TIME, "s", TIME_REASON);
                         c.number("1", value, FORCE, "N or N m", FORCE_REASON);
                         let bound = format!("after the pair before, {} s", number(before));
-                        c.require(!(time <= before), "0", number(time), "s", bound, "times must increase");
+                        c.require(time > before, "0", number(time), "s", bound, "times must increase");
                     });
                     before = time;
                 }

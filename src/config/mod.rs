@@ -322,7 +322,7 @@ impl Schema {
         c.below("tool", |c| self.tool.check(c));
         let guide = self.tool.guide.outer_diameter;
         c.require(
-            !(guide >= self.well.hole_diameter),
+            guide < self.well.hole_diameter,
             "well.hole_diameter",
             self.well.hole_diameter,
             "m",

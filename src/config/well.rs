@@ -102,7 +102,7 @@ impl Well {
         });
         let end = self.end_inclination_deg();
         c.require(
-            !(end > 180.0),
+            end <= 180.0,
             "sections",
             format!("{end} at the bottom"),
             "deg",
