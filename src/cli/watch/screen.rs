@@ -9,7 +9,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Axis, Block, Cell, Chart, Dataset, GraphType, Paragraph, Row, Sparkline, Table};
+use ratatui::widgets::{Axis, Block, Borders, Cell, Chart, Dataset, GraphType, Paragraph, Row, Sparkline, Table, Wrap};
 
 use super::board::{Board, HISTORY};
 use super::profile::binned;
@@ -40,18 +40,18 @@ pub(super) fn quit_pressed(patience: Duration) -> std::io::Result<bool> {
 pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
     let [title, warning, top, middle, bottom] = Layout::vertical([
         Constraint::Length(1),
-        Constraint::Length(1),
+        Constraint::Length(2),
         Constraint::Length(6),
         Constraint::Min(8),
-        Constraint::Length(8),
+        Constraint::Length(7),
     ])
     .areas(frame.area());
     frame.render_widget(title_line(board, now), title);
-    frame.render_widget(warning_line(board.warning()), warning);
+    frame.render_widget(warning_lines(board.warning()), warning);
     let [left, right] = Layout::horizontal([Constraint::Percentage(50); 2]).areas(top);
     frame.render_widget(inputs(board), left);
     frame.render_widget(pace(board), right);
-    let [left, right] = Layout::horizontal([Constraint::Percentage(50); 2]).areas(middle);
+    let [left, right] = Layout::horizontal([Constraint::Percentage(46), Constraint::Percentage(54)]).areas(middle);
     draw_bit(frame, board, left);
     draw_whirl(frame, board, right);
     draw_forces(frame, board, bottom);
@@ -84,14 +84,16 @@ fn title_line(board: &Board, now: Instant) -> Line<'static> {
     ])
 }
 
-fn warning_line(warning: Option<&WhirlWarning>) -> Line<'static> {
+fn warning_lines(warning: Option<&WhirlWarning>) -> Paragraph<'static> {
     let style = match warning.map_or(WhirlWarning::OK, |warning| warning.severity) {
         WhirlWarning::OK => Style::new().fg(GOOD),
         WhirlWarning::WATCH => Style::new().fg(DOUBTFUL),
         WhirlWarning::WARNING => Style::new().fg(Color::Black).bg(DOUBTFUL),
         _ => Style::new().fg(Color::White).bg(BAD).add_modifier(Modifier::BOLD),
     };
-    Line::styled(format!(" {} ", words::warning(warning)), style)
+    Paragraph::new(words::warning(warning))
+        .style(style)
+        .wrap(Wrap { trim: true })
 }
 
 fn inputs(board: &Board) -> Paragraph<'static> {
@@ -113,7 +115,9 @@ fn inputs(board: &Board) -> Paragraph<'static> {
             BAD,
         ));
     }
-    Paragraph::new(lines).block(Block::bordered().title(" inputs as applied, joints "))
+    Paragraph::new(lines)
+        .wrap(Wrap { trim: true })
+        .block(Block::bordered().title(" inputs as applied, joints "))
 }
 
 fn pace(board: &Board) -> Paragraph<'static> {
@@ -149,7 +153,7 @@ fn draw_bit(frame: &mut Frame, board: &Board, area: Rect) {
         || " bit ".to_owned(),
         |bit| {
             format!(
-                " bit {:.1} r/min {:.0} N m, stick-slip {:.2} ",
+                " bit {:.1} r/min {:.0} N m slip {:.2} ",
                 rad_per_s_to_rpm(bit.rotary_speed),
                 bit.torque,
                 bit.stick_slip_index
@@ -234,16 +238,16 @@ fn draw_whirl(frame: &mut Frame, board: &Board, area: Rect) {
             Row::new([
                 Cell::from(row.place),
                 Cell::from(Span::styled(words::whirl_kind(row.kind), color)),
-                Cell::from(format!("{:5.2}", row.ratio)),
+                Cell::from(format!("{:6.2}", row.ratio)),
                 Cell::from(format!("{:4.2}", row.clearance_ratio)),
-                Cell::from(format!("{:3.0} %", 100.0 * row.contact_duty)),
+                Cell::from(format!("{:3.0}%", 100.0 * row.contact_duty)),
                 Cell::from(format!("{:4.2}", row.confidence)),
             ])
         });
-    let widths = [13, 8, 5, 4, 5, 4].map(Constraint::Length);
-    let header = Row::new(["place", "whirl", "ratio", "gap", "touch", "sure"]).style(Modifier::DIM);
+    let widths = [9, 8, 6, 4, 4, 4].map(Constraint::Length);
+    let header = Row::new(["deg of", "whirl", " ratio", " gap", " hit", "sure"]).style(Modifier::DIM);
     let table = Table::new(rows, widths)
-        .column_spacing(0)
+        .column_spacing(1)
         .header(header)
         .block(Block::bordered().title(title));
     frame.render_widget(table, area);
@@ -262,7 +266,7 @@ fn draw_forces(frame: &mut Frame, board: &Board, area: Rect) {
         ),
         _ => " contact forces ".to_owned(),
     };
-    let block = Block::bordered().title(ends);
+    let block = Block::new().borders(Borders::TOP).title(ends);
     let inner = block.inner(area);
     frame.render_widget(block, area);
     let rows = Layout::vertical([
@@ -372,8 +376,8 @@ mod tests {
             "RPM 40.1 r/min",
             "x0.910 real time",
             "3 at limit",
-            "bit 40.1 r/min 92 N m",
-            " 45 deg pipe backward-3.70",
+            "bit 40.1 r/min 92 N m slip",
+            " 45 pipe  backward  -3.70",
             "forward 0 backward 1 chaotic 0 none 1",
             "pipe-guide: largest 1.50 kN at 45 deg, 2.50 m",
             "guide-wall: largest no contact",

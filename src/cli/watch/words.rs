@@ -190,7 +190,7 @@ pub(super) fn whirl_rows(whirl: &WhirlState) -> Vec<WhirlRow> {
         .into_iter()
         .map(|index| WhirlRow {
             place: format!(
-                "{:>3.0} deg {}",
+                "{:>3.0} {}",
                 rad_to_deg(at(&whirl.inclination, index)),
                 body(whirl.body.get(index).copied().unwrap_or_default())
             ),
