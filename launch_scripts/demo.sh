@@ -8,7 +8,7 @@ usage() {
     cat <<EOT
 usage: launch_scripts/demo.sh [options] [LOG]
   LOG             a rig log (CSV) to play; default: the generated log in config/field_logs/
-  --mapping FILE  mapping of the log's columns; default: beside the log, or as flexdrill rig finds it
+  --mapping FILE  how the log's columns are read; default: config/field_logs/rig_1hz.yaml
   --from S, --to S  play only this part of the log (seconds from its start)
   --config FILE   configuration of the twin; default: the finest shipped one that holds real time on this machine
   --record FILE   record a bag meanwhile
@@ -17,10 +17,11 @@ usage: launch_scripts/demo.sh [options] [LOG]
 EOT
 }
 
-log="" config="" seconds="" rig_options=() node_options=() watch_options=()
+log="" mapping="" config="" seconds="" rig_options=() node_options=() watch_options=()
 while [ $# -gt 0 ]; do
     case $1 in
-    --mapping | --from | --to) rig_options+=("$1" "${2:?$1 needs a value}") && shift ;;
+    --mapping) mapping=${2:?--mapping needs a file} && shift ;;
+    --from | --to) rig_options+=("$1" "${2:?$1 needs a value}") && shift ;;
     --config) config=${2:?--config needs a file} && shift ;;
     --record) node_options+=(--record "${2:?--record needs a file}") && shift ;;
     --seconds) seconds=${2:?--seconds needs a number} && shift ;;
@@ -36,10 +37,14 @@ done
 build
 local_dds
 if [ -z "$log" ]; then
-    log=$(find "$root/config/field_logs" -name '*.csv' | sort | head -n 1)
-    [ -n "$log" ] || fail "no log in config/field_logs; give one as argument"
+    log=$root/config/field_logs/demo.csv
+    # It begins with a connection; 45 s later the tool turns and drilling is near.
+    [ ${#rig_options[@]} -gt 0 ] || rig_options=(--from 45)
 fi
 [ -r "$log" ] || fail "cannot read the log $log"
+case $log in
+*.csv) rig_options+=(--mapping "${mapping:-$root/config/field_logs/rig_1hz.yaml}") ;;
+esac
 
 work=$(mktemp -d)
 node_pid="" rig_pid=""

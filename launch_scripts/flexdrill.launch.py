@@ -1,7 +1,7 @@
 """Starts the twin under ROS 2, and on request a rig that plays a log into it.
 
     ros2 launch launch_scripts/flexdrill.launch.py config:=config/coarse.yaml namespace:=rig_7
-    ros2 launch launch_scripts/flexdrill.launch.py log:=path/to/rig_log.csv record:=run.mcap
+    ros2 launch launch_scripts/flexdrill.launch.py log:=path/to/rig_log.csv record:=my_run
 
 The binary is target/release/flexdrill of this repository, or else the one on PATH; binary:=... names another.
 """
@@ -21,8 +21,9 @@ ARGUMENTS = [
     ("node_name", "flexdrill", "name of the node"),
     ("params_file", "", "ROS 2 parameter file"),
     ("use_sim_time", "false", "take the time from /clock"),
-    ("record", "", "bag to record to (MCAP); empty: none"),
+    ("record", "", "bag to record to (a folder, or a file .mcap); empty: none"),
     ("log", "", "rig log or bag to play into the twin; empty: wait for a real rig"),
+    ("mapping", str(ROOT / "config" / "field_logs" / "rig_1hz.yaml"), "columns of a log in CSV"),
     ("rate", "1.0", "speed of playing the log"),
     ("binary", "", "path of the flexdrill binary"),
 ]
@@ -56,6 +57,8 @@ def start(context):
     actions = [ExecuteProcess(cmd=node, name="flexdrill", output="screen", sigterm_timeout="15")]
     if value["log"]:
         rig = [binary, "rig", value["log"], "--rate", value["rate"]]
+        if value["log"].endswith(".csv"):
+            rig += ["--mapping", value["mapping"]]
         if value["namespace"]:
             rig += ["--namespace", f"/{value['namespace'].strip('/')}"]
         actions.append(ExecuteProcess(cmd=rig, name="flexdrill_rig", output="screen"))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A bag or a field log through the model, as fast as it goes: launch_scripts/replay.sh IN [OUT.mcap] [options of
-# `flexdrill replay`]. Without OUT the result is IN's name with _replayed.mcap.
+# A bag or a field log through the model, as fast as it goes: launch_scripts/replay.sh IN [OUT] [options of
+# `flexdrill replay`]. Without OUT the result is a folder with IN's name and _replayed.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 input=${1:-}
@@ -10,7 +10,7 @@ shift
 case ${1:-} in
 "" | -*)
     output=$(basename "${input%/}")
-    output="${output%.*}_replayed.mcap"
+    output="${output%.*}_replayed"
     ;;
 *) output=$1 && shift ;;
 esac

@@ -137,7 +137,7 @@ impl WhirlAnalysis {
             })
             .collect();
         Self {
-            settings: settings.clone(),
+            settings: *settings,
             sample_interval,
             places,
             drive_angle: vec![0.0; capacity + 1],
@@ -204,7 +204,7 @@ impl WhirlAnalysis {
         let max_window = settings.max_window.min(self.settings.max_window);
         self.settings = WhirlSettings {
             max_window,
-            ..settings.clone()
+            ..*settings
         };
     }
 
