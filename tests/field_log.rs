@@ -203,7 +203,7 @@ fn hookload_without_a_tare_gives_no_weight() {
 #[test]
 fn a_range_keeps_the_tare_from_before_it() {
     let range = Range {
-        from: Some("92".parse().unwrap()),
+        from: Some("row:92".parse().unwrap()),
         to: Some("100s".parse().unwrap()),
     };
     let (sequence, report) = read_range(config_file("field_logs/demo.csv"), &rig_mapping(), &range).unwrap();
@@ -221,9 +221,10 @@ fn a_range_keeps_the_tare_from_before_it() {
 
 #[test]
 fn places_are_rows_or_seconds() {
-    assert_eq!("6345".parse::<Position>().unwrap(), Position::Row(6345));
+    assert_eq!("row:6345".parse::<Position>().unwrap(), Position::Row(6345));
+    assert_eq!("90".parse::<Position>().unwrap(), Position::Time(90.0));
     assert_eq!("90s".parse::<Position>().unwrap(), Position::Time(90.0));
-    for text in ["", "s", "-5", "-5s", "nans", "1e999s", "row 5"] {
+    for text in ["", "s", "-5", "-5s", "nans", "1e999s", "row 5", "row:-5"] {
         assert!(text.parse::<Position>().is_err(), "{text}");
     }
 }

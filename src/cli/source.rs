@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 
-use super::TimedInput;
+use super::{TimedInput, WrongUse};
 use crate::bag::{self, BagError};
+use crate::field_log::{self, Mapping, Position};
 use crate::inputs::InputKind;
 use crate::messages::Message;
 use crate::messages::std_msgs::Float64;
@@ -14,15 +15,15 @@ use crate::messages::std_msgs::Float64;
 /// Which part of a source is used, and how its columns are read.
 #[derive(Debug, Args)]
 pub(super) struct SourceArgs {
-    /// Mapping of a field log's columns (YAML).
+    /// Mapping of a field log's columns (YAML). Default: the only YAML file beside the log.
     #[arg(long, value_name = "FILE")]
     mapping: Option<PathBuf>,
-    /// Begin so many seconds after the first sample.
-    #[arg(long, value_name = "SECONDS")]
-    from: Option<f64>,
-    /// End so many seconds after the first sample.
-    #[arg(long, value_name = "SECONDS")]
-    to: Option<f64>,
+    /// Begin so many seconds after the start, or at a row of a field log (row:6345, as an editor numbers it).
+    #[arg(long, value_name = "PLACE")]
+    from: Option<Position>,
+    /// End there.
+    #[arg(long, value_name = "PLACE")]
+    to: Option<Position>,
 }
 
 /// Whether a path is a bag, not a text file.
@@ -43,24 +44,37 @@ impl SourceArgs {
         self.mapping.is_some() || self.from.is_some() || self.to.is_some()
     }
 
-    /// The samples in the order of their times.
+    /// The samples in the order of their times. What is wrong in a field log is told on standard error.
     ///
     /// # Errors
     /// When the source cannot be read or holds none.
     pub(super) fn read(&self, path: &Path) -> anyhow::Result<Vec<TimedInput>> {
         let mut samples = if is_bag(path)? {
-            from_bag(path)?
+            self.part_of_bag(path, from_bag(path)?)?
         } else {
             self.from_log(path)?
         };
+        if samples.is_empty() {
+            bail!("{}: no sample of rotary speed or weight on bit in it", path.display());
+        }
         // Stable: samples of one instant stay in the order of the source.
         samples.sort_by_key(|sample| sample.time);
-        let Some(first) = samples.first().map(|sample| sample.time) else {
-            bail!("{}: no sample of rotary speed or weight on bit in it", path.display());
+        Ok(samples)
+    }
+
+    /// Those between --from and --to.
+    fn part_of_bag(&self, path: &Path, mut samples: Vec<TimedInput>) -> anyhow::Result<Vec<TimedInput>> {
+        let seconds_of = |place: Option<Position>, default: f64| match place {
+            None => Ok(default),
+            Some(Position::Time(seconds)) => Ok(seconds),
+            Some(Position::Row(row)) => Err(WrongUse::new(format!("row:{row}: a bag has no rows; give seconds"))),
+        };
+        let (from, to) = (seconds_of(self.from, 0.0)?, seconds_of(self.to, f64::INFINITY)?);
+        let Some(first) = samples.iter().map(|sample| sample.time).min() else {
+            return Ok(samples);
         };
         let seconds = |sample: &TimedInput| (sample.time - first) as f64 * 1e-9;
-        let (from, to) = (self.from.unwrap_or(0.0), self.to.unwrap_or(f64::INFINITY));
-        let all = samples.last().map(seconds).unwrap_or_default();
+        let all = samples.iter().map(seconds).fold(0.0, f64::max);
         samples.retain(|sample| (from..=to).contains(&seconds(sample)));
         if samples.is_empty() {
             bail!(
@@ -72,8 +86,52 @@ impl SourceArgs {
     }
 
     fn from_log(&self, path: &Path) -> anyhow::Result<Vec<TimedInput>> {
-        let _ = &self.mapping;
-        bail!("{}: this is not a bag (MCAP, SQLite or their folder)", path.display())
+        let mapping_file = match &self.mapping {
+            Some(file) => file.clone(),
+            None => mapping_beside(path)?,
+        };
+        let mapping = Mapping::load(&mapping_file)?;
+        let range = field_log::Range {
+            from: self.from,
+            to: self.to,
+        };
+        let (sequence, report) = field_log::read_range(path, &mapping, &range)?;
+        eprint!("{report}");
+        let samples = sequence.inputs.iter().map(|input| TimedInput {
+            // Times of a log begin at 0 and are at most some years.
+            time: (input.time * 1e9).round() as i64,
+            kind: input.kind,
+            value: input.value,
+        });
+        Ok(samples.collect())
+    }
+}
+
+/// The only YAML file in the folder of a log.
+fn mapping_beside(log: &Path) -> anyhow::Result<PathBuf> {
+    let folder = match log.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).with_context(|| format!("{}", folder.display()))? {
+        let path = entry.with_context(|| format!("{}", folder.display()))?.path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "yaml" || extension == "yml")
+        {
+            found.push(path);
+        }
+    }
+    match found.as_slice() {
+        [only] => Ok(only.clone()),
+        _ => Err(WrongUse::new(format!(
+            "{}: {} YAML files beside it; say with --mapping FILE which column is what (config/field_logs/rig_1hz.yaml \
+             is an example)",
+            log.display(),
+            found.len()
+        ))
+        .into()),
     }
 }
 

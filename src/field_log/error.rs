@@ -57,7 +57,9 @@ pub enum FieldLogError {
         length: f64,
     },
     /// A place in a log could not be understood.
-    #[error("`{text}` is not a place in a log: write a row number (6345) or seconds since the log's first row (90s)")]
+    #[error(
+        "`{text}` is not a place in a log: write seconds since the log's first row (90) or a row as an editor numbers it (row:6345)"
+    )]
     Position {
         /// As given.
         text: String,

@@ -8,9 +8,9 @@ use super::FieldLogError;
 /// A place in a log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Position {
-    /// As an editor numbers rows, the header being row 1. Written `6345`.
+    /// As an editor numbers rows, the header being row 1. Written `row:6345`.
     Row(u64),
-    /// Seconds since the log's first row. Written `90s`.
+    /// Seconds since the log's first row. Written `90` or `90s`.
     Time(f64),
 }
 
@@ -19,15 +19,15 @@ impl FromStr for Position {
 
     fn from_str(text: &str) -> Result<Self, FieldLogError> {
         let error = || FieldLogError::Position { text: text.to_string() };
-        if let Some(seconds) = text.strip_suffix('s') {
-            let seconds: f64 = seconds.trim().parse().map_err(|_| error())?;
-            return if seconds.is_finite() && seconds >= 0.0 {
-                Ok(Self::Time(seconds))
-            } else {
-                Err(error())
-            };
+        if let Some(row) = text.strip_prefix("row:") {
+            return row.parse().map(Self::Row).map_err(|_| error());
         }
-        text.parse().map(Self::Row).map_err(|_| error())
+        let seconds: f64 = text.strip_suffix('s').unwrap_or(text).parse().map_err(|_| error())?;
+        if seconds.is_finite() && seconds >= 0.0 {
+            Ok(Self::Time(seconds))
+        } else {
+            Err(error())
+        }
     }
 }
 
