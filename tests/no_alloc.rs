@@ -1,0 +1,59 @@
+//! Once the tool is built, advancing it and looking at it allocate nothing.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use flexdrill::config::Config;
+use flexdrill::mechanics::StepOutcome;
+use flexdrill::twin::{Inputs, Simulation};
+
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+// SAFETY: all calls go to the system's allocator; counting touches a thread-local cell that needs no allocation itself.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn advance_and_snapshot_allocate_nothing() {
+    let config = Config::load("config/default.yaml").unwrap();
+    let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    let mut snapshot = simulation.new_snapshot();
+    let inputs = Inputs {
+        rotary_speed: 4.19,
+        weight_on_bit: 10e3,
+    };
+    simulation.advance(&inputs);
+    let before = ALLOCATIONS.get();
+    // Long enough for contacts, stops, evaluations of the whirl analysis and a slew of both inputs.
+    for step in 0..2000 {
+        assert!(matches!(simulation.advance(&inputs), StepOutcome::Advanced { .. }));
+        if step % 40 == 0 {
+            simulation.snapshot(&mut snapshot, true);
+        }
+    }
+    assert_eq!(ALLOCATIONS.get() - before, 0);
+    // And the counter counts.
+    drop(std::hint::black_box(vec![1_u8; 100]));
+    assert_eq!(ALLOCATIONS.get() - before, 1);
+}

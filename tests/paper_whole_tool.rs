@@ -1,0 +1,180 @@
+//! The whole tool of `config/default.yaml`: its step is converged, its energy adds up.
+//!
+//! Without bit torque the chain is stable and runs with different steps can be compared point by point. With it, small differences
+//! grow e-fold every 15 to 30 ms, so only statistics can.
+
+use flexdrill::config::Config;
+use flexdrill::mechanics::StepOutcome;
+use flexdrill::mechanics::state::translation;
+use flexdrill::twin::{Inputs, Simulation};
+
+const RATED: Inputs = Inputs {
+    rotary_speed: 40.0 * std::f64::consts::TAU / 60.0,
+    weight_on_bit: 10e3,
+};
+/// Contact forces are averaged over this (s).
+const INTERVAL: f64 = 0.02;
+
+/// What is compared, sampled at the end of every interval.
+struct Record {
+    bit_speed: Vec<f64>,
+    /// Both coordinates of every joint.
+    positions: Vec<Vec<f64>>,
+    /// Both layers of every station, averaged.
+    forces: Vec<Vec<f64>>,
+    /// Root mean square of the contact forces over the whole run.
+    rms: Vec<f64>,
+    energy_error: f64,
+    drive_work: f64,
+}
+
+fn run(eta: f64, step: f64, duration: f64, perturbation: f64) -> Record {
+    let config = Config::load("config/default.yaml").unwrap();
+    let config = config.with_value("tool.bit.friction_factor", eta).unwrap();
+    // The weight is on before the start, so that the run begins at rest under it.
+    let config = config.with_value("inputs.weight_on_bit.initial_kn", 10.0).unwrap();
+    let config = config.with_value("solver.time_step", step).unwrap();
+    let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    let per_interval = (INTERVAL / step).round() as usize;
+    let stations = simulation.stepper().model().stations.len();
+    let mut record = Record {
+        bit_speed: vec![],
+        positions: vec![],
+        forces: vec![],
+        rms: vec![0.0; 2 * stations],
+        energy_error: 0.0,
+        drive_work: 0.0,
+    };
+    let intervals = (duration / INTERVAL).round() as usize;
+    for interval in 0..intervals {
+        let mut mean = vec![0.0; 2 * stations];
+        for _ in 0..per_interval {
+            let load = if interval == 0 {
+                RATED.weight_on_bit + perturbation
+            } else {
+                RATED.weight_on_bit
+            };
+            let outcome = simulation.advance(&Inputs {
+                weight_on_bit: load,
+                ..RATED
+            });
+            assert!(matches!(outcome, StepOutcome::Advanced { .. }), "{outcome:?}");
+            let forces = &simulation.stepper().newton().assembler;
+            for (k, touch) in forces.inner.iter().chain(&forces.outer).enumerate() {
+                let normal = touch.map_or(0.0, |touch| touch.normal);
+                mean[k] += normal / per_interval as f64;
+                record.rms[k] += normal * normal / (per_interval * intervals) as f64;
+            }
+        }
+        let (model, state) = (simulation.stepper().model(), simulation.stepper().state());
+        record
+            .bit_speed
+            .push(state.v[model.stations[model.last()].pipe_above + 3]);
+        let joints = model
+            .joint_stations
+            .iter()
+            .map(|&s| translation(&state.q, model.stations[s].pipe_above));
+        record.positions.push(joints.flat_map(|at| [at.y, at.z]).collect());
+        record.forces.push(mean);
+    }
+    record.rms.iter_mut().for_each(|square| *square = square.sqrt());
+    record.energy_error = simulation.stepper().audit().error;
+    record.drive_work = simulation.stepper().audit().drive;
+    record
+}
+
+fn range(values: impl Iterator<Item = f64>) -> f64 {
+    let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
+    high - low
+}
+
+fn default_step() -> f64 {
+    Config::load("config/default.yaml").unwrap().solver.time_step
+}
+
+#[test]
+fn halving_the_step_twice_changes_little_without_bit_torque() {
+    let h = default_step();
+    let (coarse, fine) = (run(0.0, h, 2.0, 0.0), run(0.0, h / 4.0, 2.0, 0.0));
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
+    let bit = apart(&coarse.bit_speed, &fine.bit_speed) / range(fine.bit_speed.iter().copied());
+    assert!(bit < 0.01, "bit speed differs by {:.3} % of its range", 100.0 * bit);
+    for joint in 0..fine.positions[0].len() {
+        let of = |record: &Record| record.positions.iter().map(|at| at[joint]).collect::<Vec<_>>();
+        let (a, b) = (of(&coarse), of(&fine));
+        let error = apart(&a, &b) / range(b.iter().copied());
+        assert!(
+            error < 0.01,
+            "joint {} differs by {:.3} % of its own range",
+            joint / 2,
+            100.0 * error
+        );
+    }
+    // Forces relative to the range over the tool: a station that hardly touches has no range of its own.
+    let stations = fine.rms.len() / 2;
+    for (name, layer) in [("pipe-guide", 0..stations), ("guide-wall", stations..2 * stations)] {
+        let whole = range(fine.forces.iter().flat_map(|at| at[layer.clone()].iter().copied()));
+        for (a, b) in coarse.forces.iter().zip(&fine.forces) {
+            let error = apart(&a[layer.clone()], &b[layer.clone()]);
+            assert!(error <= 0.05 * whole, "{name} force differs by {error} N of {whole} N");
+        }
+    }
+}
+
+/// Distance of two RMS profiles relative to their size.
+fn profile_distance(a: &[f64], b: &[f64]) -> f64 {
+    let norm = |x: &mut dyn Iterator<Item = f64>| x.map(|v| v * v).sum::<f64>().sqrt();
+    norm(&mut a.iter().zip(b).map(|(x, y)| x - y)) / norm(&mut a.iter().copied())
+}
+
+/// Root mean square of the bit speed about its mean after the run-up.
+fn ripple(record: &Record) -> f64 {
+    let after = &record.bit_speed[record.bit_speed.len() / 4..];
+    let mean = after.iter().sum::<f64>() / after.len() as f64;
+    (after.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / after.len() as f64).sqrt()
+}
+
+#[test]
+fn with_bit_torque_statistics_agree_and_energy_adds_up() {
+    let h = default_step();
+    let duration = 20.0;
+    let perturbed: Vec<Record> = [0.0, 1.0, -1.0].map(|newton| run(0.235, h, duration, newton)).into();
+    let fine = run(0.235, h / 2.0, duration, 0.0);
+
+    let pairs = [(0, 1), (0, 2), (1, 2)];
+    let spread = pairs
+        .map(|(i, j)| profile_distance(&perturbed[i].rms, &perturbed[j].rms))
+        .into_iter()
+        .fold(0.0, f64::max);
+    let distance = perturbed
+        .iter()
+        .map(|run| profile_distance(&run.rms, &fine.rms))
+        .fold(f64::MAX, f64::min);
+    // Four draws of one distribution: the nearest of three is farther than their largest distance only by a real difference.
+    assert!(
+        distance <= spread,
+        "RMS contact forces: {distance:.3} from the nearest run, which differ by {spread:.3}"
+    );
+
+    let ripples: Vec<f64> = perturbed.iter().map(ripple).collect();
+    let (low, high) = ripples
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(l, h), &r| (l.min(r), h.max(r)));
+    // Three draws are expected to span 1.7 standard deviations; the fourth is allowed three beyond.
+    let margin = 2.0 * (high - low);
+    let got = ripple(&fine);
+    assert!(
+        got > low - margin && got < high + margin,
+        "ripple {got} against {ripples:?}"
+    );
+
+    for record in perturbed.iter().chain([&fine]) {
+        let part = record.energy_error.abs() / record.drive_work;
+        assert!(
+            part < 0.01,
+            "energy error {} J of {} J",
+            record.energy_error,
+            record.drive_work
+        );
+    }
+}
