@@ -150,10 +150,11 @@ fn with_bit_torque_statistics_agree_and_energy_adds_up() {
         .iter()
         .map(|run| profile_distance(&run.rms, &fine.rms))
         .fold(f64::MAX, f64::min);
-    // Four draws of one distribution: the nearest of three is farther than their largest distance only by a real difference.
+    // Four draws of one distribution: the nearest of three is farther than their largest distance only by a real difference; one of
+    // less than 1 %, the limit on positions, is granted.
     assert!(
-        distance <= spread,
-        "RMS contact forces: {distance:.3} from the nearest run, which differ by {spread:.3}"
+        distance <= spread.max(0.01),
+        "RMS contact forces: {distance:.4} from the nearest run, which differ by {spread:.4}"
     );
 
     let ripples: Vec<f64> = perturbed.iter().map(ripple).collect();
