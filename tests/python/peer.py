@@ -57,11 +57,16 @@ class Peer:
 
     def publish(self, topic, type, value, kind="reliable", wait=5.0):
         made = ros_types.make(type)
-        if topic not in self.writers:
+        is_new = topic not in self.writers
+        if is_new:
             self.writers[topic] = DataWriter(self.participant, Topic(self.participant, "rt" + topic, made), qos=qos(kind))
         writer, deadline = self.writers[topic], time.monotonic() + wait
         while not writer.get_matched_subscriptions() and time.monotonic() < deadline:
             time.sleep(0.01)
+        if is_new:
+            # The other side may learn of this writer a moment later, and it reads best effort.
+            time.sleep(0.5)
+        value = {field: float(item) if item in ("NaN", "Infinity", "-Infinity") else item for field, item in value.items()}
         writer.write(ros_types.from_plain(made, value))
         return {"matched": len(writer.get_matched_subscriptions())}
 

@@ -1,0 +1,311 @@
+//! The node against a DDS program of another vendor (Cyclone DDS, Python), over loopback in a network of their own.
+
+mod common;
+
+use common::Network;
+use serde_json::{Value, json};
+
+const STATUS: (&str, &str) = ("/twin/status", "flexdrill/msg/TwinStatus");
+
+/// All outputs with their types and how a reader asks for them.
+const OUTPUTS: [(&str, &str, &str); 11] = [
+    ("/twin/joint_deflections", "flexdrill/msg/JointDeflections", "reliable"),
+    ("/twin/contact_forces", "flexdrill/msg/ContactForces", "reliable"),
+    ("/twin/whirl", "flexdrill/msg/WhirlState", "reliable"),
+    ("/twin/whirl_warnings", "flexdrill/msg/WhirlWarning", "latched"),
+    ("/twin/bit_state", "flexdrill/msg/BitState", "reliable"),
+    (STATUS.0, STATUS.1, "reliable"),
+    ("/twin/tool_shape", "visualization_msgs/msg/MarkerArray", "best_effort"),
+    ("/twin/session", "flexdrill/msg/SessionInfo", "latched"),
+    ("/joint_states", "sensor_msgs/msg/JointState", "reliable"),
+    ("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "reliable"),
+    ("/rosout", "rcl_interfaces/msg/Log", "latched"),
+];
+const JOINTS: usize = 6;
+const STATIONS: usize = 15;
+
+fn length(message: &Value, field: &str) -> usize {
+    message[field]
+        .as_array()
+        .unwrap_or_else(|| panic!("{field} in {message}"))
+        .len()
+}
+
+#[test]
+fn inputs_go_in_and_all_outputs_come_out() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    for (topic, kind, qos) in OUTPUTS {
+        peer.subscribe(topic, kind, qos);
+    }
+    peer.send("/rig/rotary_speed_rpm", json!(40.0));
+    peer.send("/rig/weight_on_bit_kn", json!(10.0));
+    // The slew limits take 2 s to 40 r/min; the inputs may be sent once only.
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let newest = |peer: &mut common::Peer, topic: &str| {
+        let messages = peer.take(topic, 1, 10.0);
+        messages.last().unwrap_or_else(|| panic!("nothing on {topic}")).clone()
+    };
+    let joints = newest(&mut peer, "/twin/joint_deflections");
+    for field in [
+        "measured_depth",
+        "bend_angle",
+        "lateral_y",
+        "spin_rate",
+        "axial_force",
+        "torque",
+    ] {
+        assert_eq!(length(&joints, field), JOINTS, "{field}");
+    }
+    assert_eq!(joints["header"]["frame_id"], "flexible_tool");
+    let contacts = newest(&mut peer, "/twin/contact_forces");
+    for field in ["state", "pipe_guide_normal_peak", "guide_wall_gap"] {
+        assert_eq!(length(&contacts, field), STATIONS, "{field}");
+    }
+    let clearance = 0.0085 + 1e-9;
+    assert!(
+        contacts["pipe_guide_gap"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|gap| gap.as_f64().unwrap() <= clearance)
+    );
+    let bit = newest(&mut peer, "/twin/bit_state");
+    assert!(bit["weight_on_bit"].as_f64().unwrap() > 1000.0, "{bit}");
+    let status = peer.status_with(STATUS.0, |status| {
+        status["input_state"] == json!([1, 1]) || status["input_state"] == json!([2, 2])
+    });
+    assert_eq!(status["input_name"], json!(["rotary_speed", "weight_on_bit"]));
+    assert!((status["input_received"][0].as_f64().unwrap() - 40.0 * std::f64::consts::PI / 30.0).abs() < 1e-12);
+    assert_eq!(status["input_received"][1], 10e3);
+    assert!(
+        newest(&mut peer, "/twin/session")["configuration"]
+            .as_str()
+            .unwrap()
+            .contains("build_angle_deg: 19")
+    );
+    assert_eq!(newest(&mut peer, "/joint_states")["name"][0], "joint_01");
+    let items = newest(&mut peer, "/diagnostics")["status"].clone();
+    let names: Vec<&str> = items
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|item| item["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names.len(), 5, "{names:?}");
+    assert!(
+        !newest(&mut peer, "/twin/tool_shape")["markers"]
+            .as_array()
+            .unwrap()
+            .is_empty()
+    );
+    assert!(newest(&mut peer, "/twin/whirl").get("whirl_rate").is_some());
+    twin.signal("INT");
+    assert_eq!(twin.end(), Some(0));
+}
+
+#[test]
+fn parameters_and_services_answer_both_kinds_of_clients() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&["--namespace", "rig_7"]);
+    twin.wait_for("model time runs");
+    let node = "/rig_7/flexdrill";
+    let service = |name: &str| format!("{node}/{name}");
+    let double = |name: &str, value: f64| json!({"name": name, "value": {"type": 3, "double_value": value}});
+    peer.subscribe("/parameter_events", "rcl_interfaces/msg/ParameterEvent", "reliable");
+    let set = "rcl_interfaces/srv/SetParameters";
+    let good = json!({"parameters": [double("contact.inner.friction_axial", 0.25)]});
+    assert_eq!(
+        peer.call(&service("set_parameters"), set, good.clone())["results"][0]["successful"],
+        true
+    );
+    assert_eq!(
+        peer.call_as_rmw_cyclone(&service("set_parameters"), set, good)["results"][0]["successful"],
+        true
+    );
+    let events = peer.take("/parameter_events", 2, 5.0);
+    assert_eq!(
+        events[0]["changed_parameters"][0]["name"],
+        "contact.inner.friction_axial"
+    );
+    assert_eq!(events[0]["node"], node);
+
+    let refused = json!({"parameters": [
+        {"name": "tool.links", "value": {"type": 2, "integer_value": 9}},
+        double("contact.inner.friction_axial", -1.0),
+        double("contact.inner.friction_axail", 0.1),
+    ]});
+    let results = peer.call_as_rmw_cyclone(&service("set_parameters"), set, refused)["results"].clone();
+    let reason = |index: usize| results[index]["reason"].as_str().unwrap().to_owned();
+    assert!(reason(0).contains("geometry"), "{results}");
+    assert!(reason(1).contains("must be 0 to"), "{results}");
+    assert!(reason(2).contains("there is no parameter"), "{results}");
+
+    // All or nothing: the first of the two would be fine.
+    let mixed =
+        json!({"parameters": [double("tool.bit.friction_factor", 0.1), double("contact.outer.friction_axial", -1.0)]});
+    let atomic = peer.call(
+        &service("set_parameters_atomically"),
+        "rcl_interfaces/srv/SetParametersAtomically",
+        mixed,
+    );
+    assert_eq!(atomic["result"]["successful"], false);
+    let names = json!({"names": ["tool.bit.friction_factor", "contact.inner.friction_axial", "use_sim_time"]});
+    let values = peer.call(
+        &service("get_parameters"),
+        "rcl_interfaces/srv/GetParameters",
+        names.clone(),
+    )["values"]
+        .clone();
+    assert_eq!(values[0]["double_value"], 0.235);
+    assert_eq!(values[1]["double_value"], 0.25);
+    assert_eq!(values[2]["type"], 1);
+    let described = peer.call_as_rmw_cyclone(
+        &service("describe_parameters"),
+        "rcl_interfaces/srv/DescribeParameters",
+        names,
+    )["descriptors"]
+        .clone();
+    assert_eq!(described[1]["floating_point_range"][0]["from_value"], 0.0);
+    assert_eq!(described[2]["read_only"], true);
+    let listed = peer.call(
+        &service("list_parameters"),
+        "rcl_interfaces/srv/ListParameters",
+        json!({"prefixes": ["outputs.rates"]}),
+    );
+    assert_eq!(length(&listed["result"], "names"), 8);
+
+    // Replies are not lost: the same question many times.
+    for _ in 0..30 {
+        peer.call_as_rmw_cyclone(
+            &service("list_parameters"),
+            "rcl_interfaces/srv/ListParameters",
+            json!({"depth": 1}),
+        );
+    }
+
+    let topic = "/rig_7/twin/status";
+    peer.subscribe(topic, STATUS.1, "reliable");
+    let trigger = "std_srvs/srv/Trigger";
+    assert_eq!(
+        peer.call(&service("pause"), "std_srvs/srv/SetBool", json!({"data": true}))["success"],
+        true
+    );
+    let paused = peer.status_with(topic, |status| status["state"] == 2);
+    let step = paused["step_count"].as_u64().unwrap();
+    let later = peer.status_with(topic, |status| {
+        status["sequence"].as_u64() > paused["sequence"].as_u64()
+    });
+    assert_eq!(later["step_count"], step, "time stands still");
+    assert_eq!(peer.call(&service("reset"), trigger, json!({}))["success"], true);
+    peer.status_with(topic, |status| status["step_count"] == 0);
+    peer.call_as_rmw_cyclone(&service("pause"), "std_srvs/srv/SetBool", json!({"data": false}));
+    peer.status_with(topic, |status| {
+        status["state"] == 1 && status["step_count"].as_u64() > Some(0)
+    });
+}
+
+#[test]
+fn bad_and_missing_inputs_are_told_and_survived() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    peer.subscribe(STATUS.0, STATUS.1, "reliable");
+    peer.status_with(STATUS.0, |status| status["input_state"] == json!([0, 0]));
+    let (speed, weight) = ("/rig/rotary_speed_rpm", "/rig/weight_on_bit_kn");
+    peer.send(speed, json!(30.0));
+    peer.send(weight, json!(5.0));
+    for bad in [json!("NaN"), json!("Infinity"), json!(-3.0), json!(1e9)] {
+        peer.send(speed, bad);
+    }
+    let rejected = peer.status_with(STATUS.0, |status| status["input_rejected"][0] == 4);
+    assert_eq!(rejected["input_state"][0], 4);
+    assert!(
+        (rejected["input_received"][0].as_f64().unwrap() - std::f64::consts::PI).abs() < 1e-12,
+        "the last good value is held"
+    );
+    assert!(
+        twin.said().contains("rig/rotary_speed_rpm: NaN r/min refused"),
+        "{}",
+        twin.said()
+    );
+    // Silence: stale after 2 s, held for 0.5 s, then brought to zero.
+    peer.status_with(STATUS.0, |status| status["input_state"] == json!([3, 3]));
+    peer.status_with(STATUS.0, |status| status["input_applied"][1] == 0.0);
+    peer.send(speed, json!(20.0));
+    peer.send(weight, json!(4.0));
+    peer.status_with(STATUS.0, |status| status["input_state"] == json!([1, 1]));
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+}
+
+#[test]
+fn a_late_joiner_gets_the_latched_warning_and_a_killed_node_comes_back() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let warnings = ("/twin/whirl_warnings", "flexdrill/msg/WhirlWarning");
+    peer.subscribe(warnings.0, warnings.1, "latched");
+    peer.subscribe(STATUS.0, STATUS.1, "reliable");
+    let latched = peer.take(warnings.0, 1, 10.0);
+    assert!(!latched.is_empty(), "the level was sent before the peer came");
+    let before = peer.status_with(STATUS.0, |_| true);
+    twin.signal("KILL");
+    twin.end();
+    let mut again = network.twin(&[]);
+    again.wait_for("model time runs");
+    let after = peer.status_with(STATUS.0, |status| {
+        status["header"]["stamp"]["sec"].as_i64() >= before["header"]["stamp"]["sec"].as_i64()
+            && status["step_count"].as_u64() < before["step_count"].as_u64()
+    });
+    assert_eq!(after["config_hash"], before["config_hash"]);
+    peer.send("/rig/rotary_speed_rpm", json!(25.0));
+    peer.status_with(STATUS.0, |status| status["input_state"][0] == 1);
+}
+
+#[test]
+fn a_stalled_reader_holds_up_nobody() {
+    let Some(network) = Network::new() else { return };
+    let (Some(mut stalled), Some(mut healthy)) = (network.peer(), network.peer()) else {
+        return;
+    };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    for peer in [&mut stalled, &mut healthy] {
+        peer.subscribe(STATUS.0, STATUS.1, "reliable");
+        peer.subscribe("/twin/contact_forces", "flexdrill/msg/ContactForces", "reliable");
+        assert!(!peer.take("/twin/contact_forces", 1, 10.0).is_empty());
+    }
+    stalled.signal("STOP");
+    healthy.take("/twin/contact_forces", 1, 0.0);
+    let before = healthy.status_with(STATUS.0, |_| true);
+    let mut counts = Vec::new();
+    for _ in 0..6 {
+        counts.push(healthy.take("/twin/contact_forces", 1000, 1.0).len());
+    }
+    let after = healthy.status_with(STATUS.0, |status| {
+        status["sequence"].as_u64() > before["sequence"].as_u64()
+    });
+    stalled.signal("CONT");
+    // 50 Hz of model time; a busy machine skips some.
+    assert!(
+        counts.iter().all(|count| *count >= 10),
+        "{counts:?} messages in each second"
+    );
+    assert_eq!(
+        after["output_dropped"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|dropped| **dropped != json!(0))
+            .count(),
+        0,
+        "{after}"
+    );
+}
