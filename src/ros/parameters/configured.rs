@@ -162,19 +162,25 @@ pub fn with_values(config: &Config, origin: &str, values: Vec<(String, Value)>) 
         let place = tree
             .pointer_mut(&pointer(&key))
             .ok_or_else(|| ConfigError::UnknownKey { key: key.clone() })?;
-        let fits = kind(place) == kind(&value) || place.is_null() || (place.is_f64() && value.is_number());
-        if !fits {
-            return Err(ConfigError::WrongType {
-                key,
-                value: value.to_string(),
-                message: format!("must be {}", kind(place)),
-            });
-        }
-        *place = if place.is_f64() && value.is_number() {
+        let value = if place.is_f64() && value.is_number() {
             Value::from(value.as_f64())
         } else {
             value
         };
+        if *place == value {
+            continue;
+        }
+        let wrong_type = |value: &Value, message: String| ConfigError::WrongType {
+            key: key.clone(),
+            value: value.to_string(),
+            message,
+        };
+        if kind(place) != kind(&value) && !place.is_null() {
+            return Err(wrong_type(&value, format!("must be {}", kind(place))));
+        }
+        *place = value.clone();
+        // One by one, so that the error names the key: the types do not tell by themselves.
+        serde_json::from_value::<Schema>(tree.clone()).map_err(|error| wrong_type(&value, error.to_string()))?;
     }
     let schema: Schema = serde_json::from_value(tree).map_err(|error| ConfigError::WrongType {
         key: origin.to_owned(),

@@ -1,0 +1,113 @@
+//! The command line of `run`, `rig` and `replay`: exit codes and what is said.
+
+mod common;
+
+use std::process::{Command, Output};
+
+use common::{Network, Program, root};
+
+fn flexdrill(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn refused(arguments: &[&str], code: i32, words: &[&str]) {
+    let output = flexdrill(arguments);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+    for word in words {
+        assert!(said.contains(word), "{arguments:?} should say '{word}': {said}");
+    }
+}
+
+#[test]
+fn wrong_use_is_2_and_a_failure_is_1() {
+    refused(&["run", "--no-such-option"], 2, &["--no-such-option"]);
+    refused(&["run", "--ros-args", "-p", "x"], 2, &["name:=value"]);
+    refused(&["run", "--ros-args", "-r", "__ns:=rig"], 2, &["begin with '/'"]);
+    refused(&["run", "--domain", "400"], 2, &["400", "232"]);
+    refused(&["run", "--service-mapping", "both"], 2, &["auto"]);
+    refused(&["run", "--config", "/nowhere.yaml"], 1, &["/nowhere.yaml"]);
+    refused(&["run", "--ros-args", "-p", "tool.link:=3"], 1, &["tool.link"]);
+    refused(&["run", "--ros-args", "-p", "tool.links:=-3"], 1, &["tool.links"]);
+    refused(
+        &["check", "config/default.yaml", "--ros-args", "-r", "a:=b"],
+        2,
+        &["--ros-args"],
+    );
+    refused(
+        &["replay", "/nowhere.mcap", "--out", "/tmp/never.mcap"],
+        1,
+        &["/nowhere.mcap"],
+    );
+    let log = root().join("config/field_logs/demo.csv");
+    refused(&["rig", log.to_str().unwrap(), "--rate", "0"], 2, &["--rate"]);
+    refused(&["rig", log.to_str().unwrap(), "--from", "soon"], 2, &["soon"]);
+}
+
+#[test]
+fn a_log_is_replayed_deterministically() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = root().join("config/field_logs/demo.csv");
+    let config = common::small_config();
+    let replay = |name: &str| {
+        let out = folder.path().join(name).join("out.mcap");
+        let output = flexdrill(&[
+            "replay",
+            log.to_str().unwrap(),
+            "--config",
+            config.to_str().unwrap(),
+            "--from",
+            "60s",
+            "--duration",
+            "4",
+            "--out",
+            out.to_str().unwrap(),
+        ]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("largest pipe-guide force"));
+        flexdrill::bag::open(&out)
+            .unwrap()
+            .map(|message| message.unwrap())
+            .map(|m| (m.topic.name.clone(), m.log_time, m.data))
+            .collect::<Vec<_>>()
+    };
+    let (first, second) = (replay("a"), replay("b"));
+    assert!(first.len() > 800, "{}", first.len());
+    assert!(first == second, "two replays differ");
+}
+
+#[test]
+fn a_rig_drives_the_twin_and_both_end_on_signals() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[
+        "--domain",
+        "7",
+        "--namespace",
+        "/rig_7",
+        "--ros-args",
+        "-r",
+        "__node:=twin",
+    ]);
+    assert!(twin.wait_for("node /rig_7/twin").contains("flexdrill"));
+    twin.wait_for("model time runs");
+    let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    command
+        .env("ROS_DOMAIN_ID", "7")
+        .arg("rig")
+        .arg(root().join("config/field_logs/demo.csv"));
+    command.args(["--from", "60s", "--rate", "5", "--loop", "--namespace", "/rig_7"]);
+    let mut rig = Program::start(command);
+    assert!(rig.wait_for("listening").contains("1 listening"));
+    // Another domain hears nothing of it.
+    peer.subscribe("/rig_7/twin/status", "flexdrill/msg/TwinStatus", "reliable");
+    assert!(peer.take("/rig_7/twin/status", 1, 1.0).is_empty());
+    rig.signal("INT");
+    assert_eq!(rig.end(), Some(0));
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+    assert!(twin.said().contains("ended after"), "{}", twin.said());
+}
