@@ -60,7 +60,7 @@ fn a_log_is_replayed_deterministically() {
             "--config",
             config.to_str().unwrap(),
             "--from",
-            "60s",
+            "60",
             "--duration",
             "4",
             "--out",
@@ -99,7 +99,7 @@ fn a_rig_drives_the_twin_and_both_end_on_signals() {
         .env("ROS_DOMAIN_ID", "7")
         .arg("rig")
         .arg(root().join("config/field_logs/demo.csv"));
-    command.args(["--from", "60s", "--rate", "5", "--loop", "--namespace", "/rig_7"]);
+    command.args(["--from", "60", "--rate", "5", "--loop", "--namespace", "/rig_7"]);
     let mut rig = Program::start(command);
     assert!(rig.wait_for("listening").contains("1 listening"));
     // Another domain hears nothing of it.

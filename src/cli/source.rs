@@ -52,7 +52,7 @@ impl SourceArgs {
         let mut samples = if is_bag(path)? {
             self.part_of_bag(path, from_bag(path)?)?
         } else {
-            self.from_log(path)?
+            self.log_samples(path)?
         };
         if samples.is_empty() {
             bail!("{}: no sample of rotary speed or weight on bit in it", path.display());
@@ -85,7 +85,7 @@ impl SourceArgs {
         Ok(samples)
     }
 
-    fn from_log(&self, path: &Path) -> anyhow::Result<Vec<TimedInput>> {
+    fn log_samples(&self, path: &Path) -> anyhow::Result<Vec<TimedInput>> {
         let mapping_file = match &self.mapping {
             Some(file) => file.clone(),
             None => mapping_beside(path)?,

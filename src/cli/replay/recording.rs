@@ -55,7 +55,7 @@ impl Script {
             })
             .collect();
         let (mut session, mut applied) = (None, Vec::new());
-        let (mut status_step, mut newest_stamp, mut status_before) = (0, None, 0);
+        let (mut status_step, mut newest_stamp) = (0, None);
         for message in bag.by_ref() {
             // A damaged part loses what is in it; a lost AppliedInputs shows by its step.
             let message = message?;
@@ -68,7 +68,6 @@ impl Script {
                     if inputs.reset {
                         status_step = 0;
                         newest_stamp = None;
-                        status_before += 1;
                     }
                     applied.push(inputs);
                 }
@@ -85,7 +84,6 @@ impl Script {
                 cut.reason
             );
         }
-        let _ = status_before;
         let session = session.with_context(|| format!("{}: it holds no {}", path.display(), topics::SESSION.name))?;
         if applied.is_empty() {
             bail!(

@@ -68,7 +68,7 @@ impl RecordingThread {
     pub fn start(path: &Path, name: impl Fn(&TopicInfo) -> String) -> Result<Self, BagError> {
         let recorded: Vec<Topic> = topics::ALL
             .iter()
-            .map(|topic| Topic::new(&name(topic), &topic.kind, topic.qos))
+            .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
             .collect();
         let recorder = Recorder::create(path, &recorded)?;
         let path = recorder.path().to_owned();

@@ -40,6 +40,7 @@ pub enum Command {
 
 /// What the solver tells, in the order in which it happened.
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant)] // A box would be allocated on the solver's thread.
 pub enum Report {
     /// A snapshot; the frame must be given back.
     Frame(Box<Frame>),
