@@ -1,5 +1,6 @@
 //! The command line, one file per subcommand. Exit codes: 0 done, 1 failed with a reason, 2 wrong use.
 
+mod bench;
 mod check;
 mod generate_demo_log;
 mod generate_messages;
@@ -41,6 +42,7 @@ enum Command {
     #[command(hide = true)]
     GenerateMessages(generate_messages::Args),
     Verify(verify::VerifyArgs),
+    Bench(bench::BenchArgs),
 }
 
 /// The command line cannot be used as it is: exit code 2.
@@ -71,6 +73,7 @@ pub fn main() -> ExitCode {
         Command::GenerateDemoLog(args) => generate_demo_log::run(&args),
         Command::GenerateMessages(args) => generate_messages::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Bench(args) => bench::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -170,7 +170,7 @@ impl Labelled {
     pub fn generate(index: usize, random: &mut Random) -> Self {
         let rpm = random.within(20.0, 120.0);
         let rotary_speed = rpm * TAU / 60.0;
-        let sign = if index % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
         let whirl = if sign > 0.0 {
             WhirlKind::Forward
         } else {
