@@ -84,8 +84,9 @@ fn one(config: &Config, args: &BenchArgs) -> anyhow::Result<()> {
     };
     let mut snapshot = simulation.new_snapshot();
     let mut figures = Figures::new(&snapshot);
-    let mut steps = Histogram::<u64>::new(3)?;
-    let mut frames = Histogram::<u64>::new(3)?;
+    // Nanoseconds up to a minute, to three digits.
+    let mut steps = Histogram::<u64>::new_with_bounds(1, 60_000_000_000, 3)?;
+    let mut frames = steps.clone();
     let per_frame = (FRAME / dt).round().max(1.0) as u64;
     let total = (args.duration / dt).round() as u64;
     let (mut busy, mut frame) = (Duration::ZERO, Duration::ZERO);

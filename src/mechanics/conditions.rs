@@ -8,6 +8,8 @@ use super::gap::GapLaw;
 pub struct Conditions {
     /// Model time (s).
     pub time: f64,
+    /// Angle of the drive (rad), for a driven top.
+    pub drive_angle: f64,
     /// Weight on bit (N), compressing.
     pub weight_on_bit: f64,
     /// eta D WOB / 3 of Eq. 1 (N m), >= 0.
@@ -23,7 +25,7 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// The description's laws with the live parameters in force.
+    /// The description's laws with the live parameters in force, the drive at angle 0.
     pub fn new(description: &ToolDescription, live: &LiveParameters, time: f64, weight_on_bit: f64) -> Self {
         let mut inner = GapLaw {
             surface: description.inner,
@@ -37,6 +39,7 @@ impl Conditions {
         [outer.surface.friction_tangential, outer.surface.friction_axial] = live.outer_friction;
         Self {
             time,
+            drive_angle: 0.0,
             weight_on_bit,
             bit_torque: live.bit_friction_factor * description.bit.diameter * weight_on_bit.max(0.0) / 3.0,
             bit_slip_rate: description.bit.slip_rate,

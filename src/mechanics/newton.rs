@@ -95,8 +95,8 @@ impl Newton {
         }
     }
 
-    /// Solves the step of size `h` that ends under `conditions` with the drive at `drive_angle`. `to` holds the new state on
-    /// success; the assembler holds its residual with the reactions.
+    /// Solves the step of size `h` that ends under `conditions`. `to` holds the new state on success; the assembler holds its
+    /// residual with the reactions.
     ///
     /// # Errors
     /// Why and where no iterate was accepted; the iterations made are in the first field.
@@ -106,7 +106,6 @@ impl Newton {
         scheme: Newmark,
         h: f64,
         conditions: &Conditions,
-        drive_angle: f64,
         from: &State,
         to: &mut State,
     ) -> Result<u32, (u32, StepFailure)> {
@@ -114,6 +113,7 @@ impl Newton {
         to.pipe_axial.copy_from_slice(&from.pipe_axial);
         to.guide_axial.copy_from_slice(&from.guide_axial);
         to.time = conditions.time;
+        let drive_angle = conditions.drive_angle;
         to.drive_angle = drive_angle;
         if let Some(driven) = model.driven {
             to.q[driven] = drive_angle;

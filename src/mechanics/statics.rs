@@ -88,7 +88,7 @@ impl Stepper {
         let mut steps = 0;
         while steps < MOST_STEPS {
             steps += 1;
-            match newton.step(model, scheme, h, &conditions, 0.0, state, trial) {
+            match newton.step(model, scheme, h, &conditions, state, trial) {
                 Ok(iterations) => {
                     std::mem::swap(state, trial);
                     state.update_axial(model);

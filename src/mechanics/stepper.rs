@@ -298,16 +298,15 @@ impl Stepper {
         let (from, to) = (at(done), at(done + size));
         let time = self.before_step.time + h * to;
         let [load_0, load_1] = forcing.weight_on_bit;
-        let conditions = self.conditions(time, load_0 + (load_1 - load_0) * to);
+        let mut conditions = self.conditions(time, load_0 + (load_1 - load_0) * to);
         let [speed_0, speed_1] = forcing.rotary_speed;
-        let angle = self.before_step.drive_angle + h * to * (speed_0 + 0.5 * (speed_1 - speed_0) * to);
+        conditions.drive_angle = self.before_step.drive_angle + h * to * (speed_0 + 0.5 * (speed_1 - speed_0) * to);
         let step = h * (to - from);
         let made = self.newton.step(
             &self.model,
             self.scheme,
             step,
             &conditions,
-            angle,
             &self.state,
             &mut self.trial,
         )?;
