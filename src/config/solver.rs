@@ -8,7 +8,7 @@ use super::checker::{Bound, Checker};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
-    /// s. Default 0.00025.
+    /// s. Default 0.0005.
     pub time_step: f64,
     /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Default 0.6.
     pub gamma: f64,
@@ -21,7 +21,7 @@ pub struct Solver {
 impl Default for Solver {
     fn default() -> Self {
         Self {
-            time_step: 0.00025,
+            time_step: 0.0005,
             gamma: 0.6,
             max_iterations: 15,
             max_halvings: 6,

@@ -3,7 +3,7 @@
 //!
 //! ```no_run
 //! use flexdrill::pacing::{Pacer, clock};
-//! let mut pacer = Pacer::new(clock::now(), 0.00025, 40);
+//! let mut pacer = Pacer::new(clock::now(), 0.0005, 20);
 //! loop {
 //!     clock::sleep_until(pacer.deadline());
 //!     // advance the model by one step
