@@ -5,6 +5,7 @@
 //! its bytes fit the request type exactly with or without those 16 bytes in front. So a server here answers each
 //! client in its own way, and `ros2 param` works from both.
 
+use std::collections::HashSet;
 use std::future::Future;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -28,6 +29,10 @@ const PADDING: usize = 4;
 const DEPTH: usize = 64;
 /// Longest wait for a new client's reply reader to be discovered.
 const CLIENT_WAIT: Duration = Duration::from_millis(500);
+
+/// Discovery knows a reader some time before our writer is matched with it, on another thread; nothing tells when. Paid once
+/// per client.
+const MATCH_WAIT: Duration = Duration::from_millis(100);
 
 /// Which form of services is served.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,6 +166,7 @@ impl ServiceServer {
         Answer: Future<Output = Resp>,
     {
         let mut requests = self.server.receive_request_stream();
+        let mut known_clients = HashSet::new();
         while let Some(received) = requests.next().await {
             let (id, RawCdr(body)) = match received {
                 Ok(request) => request,
@@ -181,7 +187,9 @@ impl ServiceServer {
                 }
             };
             let response = handler(request).await;
-            self.wait_for_client(&id).await;
+            if known_clients.insert(GUID::from(id.writer_gid)) {
+                self.wait_for_client(&id).await;
+            }
             self.reply(id, dialect, &body, &response);
         }
     }
@@ -211,15 +219,10 @@ impl ServiceServer {
             })
         };
         let deadline = tokio::time::Instant::now() + CLIENT_WAIT;
-        let mut waited = false;
         while !known() && tokio::time::Instant::now() < deadline {
-            waited = true;
             tokio::time::sleep(Duration::from_millis(5)).await;
         }
-        if waited {
-            // Discovery knows the reader a moment before the writer is matched with it.
-            tokio::time::sleep(Duration::from_millis(10)).await;
-        }
+        tokio::time::sleep(MATCH_WAIT).await;
     }
 }
 
