@@ -8,11 +8,12 @@ use nalgebra::{Matrix3, Matrix6, Vector2};
 use super::beam::ElementMatrix;
 use super::conditions::Conditions;
 use super::description::Direction;
+use super::element_force::{Ends, ends, plus};
 use super::gap::{GapMatrix, GapVector, Touch, regularised_sign};
 use super::joint::{Joint, JointMatrix, JointVector, Row, Stop};
-use super::linear::BlockSystem;
+use super::linear::{BlockSystem, Diagonal, add_columns};
 use super::model::{Model, Station};
-use super::state::{State, guide_element, joint_rotations, node, pipe_element, translation};
+use super::state::{State, joint_rotations, node, translation};
 
 /// Factors of the tangent k K + d C + m M: (1, gamma/(beta h), 1/(beta h^2)) in a Newmark step, Eq. 41; (0, 0, 1) to find
 /// accelerations.
@@ -54,6 +55,14 @@ pub struct Assembler {
     /// Elastic, damping and inertia part of the tangent for `base_for`.
     base: BlockSystem,
     base_for: Option<(TangentFactors, f64, f64)>,
+    /// Diagonal blocks of `base` with the geometric stiffness of the axial forces below and with supports: what `system` holds where
+    /// no contact and no joint adds to it.
+    still: Diagonal,
+    still_for: Option<TangentFactors>,
+    pipe_axial: Vec<f64>,
+    guide_axial: Vec<f64>,
+    /// Stations whose block in `system` differs from `still`.
+    changed: Vec<bool>,
 }
 
 impl Assembler {
@@ -73,6 +82,11 @@ impl Assembler {
             residual: vec![0.0; model.unknowns()],
             base: system.clone(),
             base_for: None,
+            still: system.diagonal.clone(),
+            still_for: None,
+            pipe_axial: vec![0.0; model.pipe.len()],
+            guide_axial: vec![0.0; model.guide.len()],
+            changed: vec![false; model.stations.len()],
             system,
             inner: vec![None; model.stations.len()],
             outer: vec![None; model.stations.len()],
@@ -122,30 +136,34 @@ impl Assembler {
 
     fn elements(&mut self, model: &Model, state: &State, conditions: &Conditions) {
         let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
+        let motion = |first: usize, second: usize| {
+            let q = ends(&state.q, first, second);
+            let v = ends(&state.v, first, second);
+            let a = ends(&state.a, first, second);
+            (plus(&q, beta, &v), plus(&a, alpha, &v), q)
+        };
         for (e, element) in model.pipe.iter().enumerate() {
-            let q = pipe_element(model, e, &state.q);
-            let v = pipe_element(model, e, &state.v);
-            let a = pipe_element(model, e, &state.a);
-            let beam = &element.beam;
-            let f = beam.stiffness_times(&(q + v * beta))
-                + beam.mass_times(&(a + v * alpha))
-                + beam.geometric_times(&q) * state.pipe_axial[e]
-                - element.weight;
-            self.scatter(model.stations[e].pipe_below, &f.as_slice()[..6]);
-            self.scatter(model.stations[e + 1].pipe_above, &f.as_slice()[6..]);
+            let (first, second) = (model.stations[e].pipe_below, model.stations[e + 1].pipe_above);
+            let (x, a, q) = motion(first, second);
+            let f = element.force.total(&x, &a, &q, state.pipe_axial[e]);
+            self.scatter_ends(first, second, &plus(&f, -1.0, &element.weight.data.0[0]));
         }
         for (e, element) in model.guide.iter().enumerate() {
-            let q = element.to_chord(&guide_element(model, e, &state.q));
-            let v = element.to_chord(&guide_element(model, e, &state.v));
-            let a = element.to_chord(&guide_element(model, e, &state.a));
-            let beam = &element.beam;
-            let f = beam.stiffness_times(&(q + v * beta))
-                + beam.mass_times(&(a + v * alpha))
-                + beam.geometric_times(&q) * state.guide_axial[e];
-            let f = element.from_chord(&f) - element.weight;
-            self.scatter(model.stations[e].guide, &f.as_slice()[..6]);
-            self.scatter(model.stations[e + 1].guide, &f.as_slice()[6..]);
+            let (first, second) = (model.stations[e].guide, model.stations[e + 1].guide);
+            let (x, a, q) = motion(first, second);
+            let chord = |values| element.turn.to_chord(values);
+            let f = element
+                .force
+                .total(&chord(&x), &chord(&a), &chord(&q), state.guide_axial[e]);
+            let f = element.turn.from_chord(&f);
+            self.scatter_ends(first, second, &plus(&f, -1.0, &element.weight.data.0[0]));
         }
+    }
+
+    #[inline]
+    fn scatter_ends(&mut self, first: usize, second: usize, force: &Ends) {
+        self.scatter(first, &force[..6]);
+        self.scatter(second, &force[6..]);
     }
 
     #[inline]
@@ -219,10 +237,20 @@ impl Assembler {
         if self.base_for != Some(key) {
             self.build_base(model, conditions, factors);
             self.base_for = Some(key);
+            self.still_for = None;
         }
-        self.system.copy_from(&self.base);
-        if factors.stiffness != 0.0 {
-            self.geometric_tangent(model, state, factors.stiffness);
+        if self.still_for == Some(factors)
+            && self.pipe_axial == state.pipe_axial
+            && self.guide_axial == state.guide_axial
+        {
+            for (station, changed) in self.changed.iter_mut().enumerate() {
+                if std::mem::take(changed) {
+                    self.system.restore(station, &self.still);
+                }
+            }
+        } else {
+            self.build_still(model, state, factors.stiffness);
+            self.still_for = Some(factors);
         }
         self.gap_tangent(model, factors);
         self.joint_tangent(model, state, factors);
@@ -230,8 +258,11 @@ impl Assembler {
         let spin = Direction::Psi as usize;
         self.system
             .add(model.last(), spin, spin, factors.damping * self.bit_torque_slope);
-        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
-            self.system.hold(unknown);
+        self.changed[model.last()] = true;
+        for &unknown in model.held.iter().chain(&model.driven) {
+            if self.changed[model.layout.station_of(unknown)] {
+                self.system.hold(unknown);
+            }
         }
     }
 
@@ -242,14 +273,11 @@ impl Assembler {
         self.base.clear();
         for (e, element) in model.pipe.iter().enumerate() {
             let m = element.beam.stiffness() * elastic + element.beam.mass() * inertial;
-            add_pipe_element(&mut self.base, model, e, &m);
+            add_pipe_element(&mut self.base, model, e, &m, 1.0);
         }
         for (e, element) in model.guide.iter().enumerate() {
-            add_guide_element(
-                &mut self.base,
-                e,
-                &(element.stiffness * elastic + element.mass * inertial),
-            );
+            let m = element.stiffness * elastic + element.mass * inertial;
+            add_guide_element(&mut self.base, e, &m, 1.0);
         }
         for point in &model.masses {
             let station = model.layout.station_of(point.unknown);
@@ -275,25 +303,35 @@ impl Assembler {
         }
     }
 
-    fn geometric_tangent(&mut self, model: &Model, state: &State, factor: f64) {
-        let mut at = (f64::NAN, ElementMatrix::zeros());
-        for (e, element) in model.pipe.iter().enumerate() {
-            if at.0 != element.beam.length {
-                at = (element.beam.length, element.beam.geometric());
+    /// The part of the tangent that lasts while the axial forces do.
+    fn build_still(&mut self, model: &Model, state: &State, factor: f64) {
+        self.system.copy_from(&self.base);
+        if factor != 0.0 {
+            for (e, element) in model.pipe.iter().enumerate() {
+                add_pipe_element(
+                    &mut self.system,
+                    model,
+                    e,
+                    &element.geometric,
+                    factor * state.pipe_axial[e],
+                );
             }
-            add_pipe_element(&mut self.system, model, e, &(at.1 * (factor * state.pipe_axial[e])));
+            for (e, element) in model.guide.iter().enumerate() {
+                add_guide_element(&mut self.system, e, &element.geometric, factor * state.guide_axial[e]);
+            }
         }
-        for (e, element) in model.guide.iter().enumerate() {
-            add_guide_element(
-                &mut self.system,
-                e,
-                &(element.geometric * (factor * state.guide_axial[e])),
-            );
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            self.system.hold(unknown);
         }
+        self.still.copy_from(&self.system.diagonal);
+        self.pipe_axial.copy_from_slice(&state.pipe_axial);
+        self.guide_axial.copy_from_slice(&state.guide_axial);
+        self.changed.fill(false);
     }
 
     fn gap_tangent(&mut self, model: &Model, factors: TangentFactors) {
         for (s, station) in model.stations.iter().enumerate() {
+            self.changed[s] |= self.inner[s].is_some() || self.outer[s].is_some();
             if let Some(touch) = &self.inner[s] {
                 let local = -(touch.by_displacement * factors.stiffness + touch.by_velocity * factors.damping);
                 let (pp, pg, gp, gg) = inner_tangent(model, station, &local);
@@ -314,6 +352,7 @@ impl Assembler {
         for (j, joint) in model.joints.iter().enumerate() {
             let (station, first) = (model.joint_stations[j], model.multipliers(j));
             let JointLinearisation { rows, stop } = &self.joints[j];
+            self.changed[station] = true;
             let mut m: JointMatrix = stop.stiffness * factors.stiffness + stop.damping * factors.damping;
             for (r, row) in rows.iter().take(Joint::rotational_rows(joint.kind)).enumerate() {
                 m += row.hessian * (factors.stiffness * model.moment_scale * state.q[first + 3 + r]);
@@ -421,22 +460,31 @@ fn turn_columns(m: &Matrix6<f64>, p: &Matrix3<f64>) -> Matrix6<f64> {
     out
 }
 
-fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize, m: &ElementMatrix) {
+fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize, m: &ElementMatrix, factor: f64) {
     let first = if model.stations[e].joint.is_some() { 12 } else { 0 };
-    add_element(system, e, first, 0, m);
+    add_element(system, e, first, 0, m, factor);
 }
 
-fn add_guide_element(system: &mut BlockSystem, e: usize, m: &ElementMatrix) {
-    add_element(system, e, 6, 6, m);
+fn add_guide_element(system: &mut BlockSystem, e: usize, m: &ElementMatrix, factor: f64) {
+    add_element(system, e, 6, 6, m, factor);
 }
 
 /// Adds an element between local node `first` of station e and local node `second` of station e + 1; the pipe's couplings are the
 /// first six rows and columns of the coupling blocks, the guide's the last six.
-fn add_element(system: &mut BlockSystem, e: usize, first: usize, second: usize, m: &ElementMatrix) {
-    system.add_block(e, first, first, &m.fixed_view::<6, 6>(0, 0).into_owned());
-    system.add_block(e + 1, second, second, &m.fixed_view::<6, 6>(6, 6).into_owned());
-    let mut upper = system.upper[e].fixed_view_mut::<6, 6>(second, second);
-    upper += m.fixed_view::<6, 6>(0, 6);
-    let mut lower = system.lower[e].fixed_view_mut::<6, 6>(second, second);
-    lower += m.fixed_view::<6, 6>(6, 0);
+fn add_element(system: &mut BlockSystem, e: usize, first: usize, second: usize, m: &ElementMatrix, factor: f64) {
+    let m = &m.data.0;
+    system.add_scaled(e, first, &part(m, 0, 0), factor);
+    system.add_scaled(e + 1, second, &part(m, 6, 6), factor);
+    add_columns(&mut system.upper[e].data.0, second, &part(m, 0, 6), factor);
+    add_columns(&mut system.lower[e].data.0, second, &part(m, 6, 0), factor);
+}
+
+/// Six columns of six from (`row`, `column`).
+#[inline(always)]
+fn part(m: &[[f64; 12]; 12], row: usize, column: usize) -> [[f64; 6]; 6] {
+    let mut out = [[0.0; 6]; 6];
+    for (j, out) in out.iter_mut().enumerate() {
+        out.copy_from_slice(&m[column + j][row..row + 6]);
+    }
+    out
 }

@@ -10,6 +10,7 @@ use super::assembly::{Assembler, inner_forces, outer_force};
 use super::beam::ElementVector;
 use super::conditions::Conditions;
 use super::description::Direction;
+use super::element_force::{ElementForce, Ends, plus};
 use super::model::Model;
 use super::outcome::EnergyAudit;
 use super::state::{State, guide_element, joint_rotations, pipe_element};
@@ -82,19 +83,20 @@ impl EnergyPoint {
         let mut stored = 0.0;
         let mut geometric_energy = 0.0;
         let (pipes, guides) = self.geometric.split_at_mut(model.pipe.len());
+        let mut add = |force: &ElementForce, q: &Ends, v: &Ends, tension: f64, out: &mut ElementVector| {
+            let g = force.total(&[0.0; 12], &[0.0; 12], q, tension);
+            geometric_energy += 0.5 * dot(q, &g);
+            stored += 0.5 * (force.stiffness_between(q, q) + force.mass_between(v, v));
+            out.data.0[0] = g;
+        };
         for (e, element) in model.pipe.iter().enumerate() {
-            let q = pipe_element(model, e, &state.q);
-            let v = pipe_element(model, e, &state.v);
-            pipes[e] = element.beam.geometric_times(&q) * state.pipe_axial[e];
-            geometric_energy += 0.5 * q.dot(&pipes[e]);
-            stored += 0.5 * (q.dot(&element.beam.stiffness_times(&q)) + v.dot(&element.beam.mass_times(&v)));
+            let (q, v) = (pipe_element(model, e, &state.q), pipe_element(model, e, &state.v));
+            add(&element.force, &q, &v, state.pipe_axial[e], &mut pipes[e]);
         }
         for (e, element) in model.guide.iter().enumerate() {
-            let q = element.to_chord(&guide_element(model, e, &state.q));
-            let v = element.to_chord(&guide_element(model, e, &state.v));
-            guides[e] = element.beam.geometric_times(&q) * state.guide_axial[e];
-            geometric_energy += 0.5 * q.dot(&guides[e]);
-            stored += 0.5 * (q.dot(&element.beam.stiffness_times(&q)) + v.dot(&element.beam.mass_times(&v)));
+            let q = element.turn.to_chord(&guide_element(model, e, &state.q));
+            let v = element.turn.to_chord(&guide_element(model, e, &state.v));
+            add(&element.force, &q, &v, state.guide_axial[e], &mut guides[e]);
         }
         for point in &model.masses {
             let speed: f64 = (0..3).map(|k| state.v[point.unknown + k].powi(2)).sum();
@@ -163,25 +165,23 @@ impl EnergyAudit {
         let mut geometric_work = 0.0;
         let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
         for (e, element) in model.pipe.iter().enumerate() {
-            let of = |a: &[f64], b: &[f64]| (pipe_element(model, e, a), pipe_element(model, e, b));
-            let dq = pipe_element(model, e, &s1.q) - pipe_element(model, e, &s0.q);
-            self.gravity += dq.dot(&element.weight);
-            geometric_work += 0.5 * dq.dot(&(e0.geometric[e] + e1.geometric[e]));
-            self.beam_losses(&element.beam, &dq, of(&s0.v, &s1.v), of(&s0.a, &s1.a), alpha, beta);
+            let at = |values: &[f64]| pipe_element(model, e, values);
+            let dq = plus(&at(&s1.q), -1.0, &at(&s0.q));
+            self.gravity += dot(&dq, &element.weight.data.0[0]);
+            geometric_work += mean_work(&dq, &e0.geometric[e], &e1.geometric[e]);
+            let rates = [at(&s0.v), at(&s1.v), at(&s0.a), at(&s1.a)];
+            self.beam_losses(&element.force, &dq, &rates, alpha, beta);
         }
         for (e, element) in model.guide.iter().enumerate() {
-            let of = |a: &[f64], b: &[f64]| {
-                (
-                    element.to_chord(&guide_element(model, e, a)),
-                    element.to_chord(&guide_element(model, e, b)),
-                )
-            };
-            let dq = guide_element(model, e, &s1.q) - guide_element(model, e, &s0.q);
-            self.gravity += dq.dot(&element.weight);
-            let dq = element.to_chord(&dq);
-            let at = model.pipe.len() + e;
-            geometric_work += 0.5 * dq.dot(&(e0.geometric[at] + e1.geometric[at]));
-            self.beam_losses(&element.beam, &dq, of(&s0.v, &s1.v), of(&s0.a, &s1.a), alpha, beta);
+            let at = |values: &[f64]| guide_element(model, e, values);
+            let dq = plus(&at(&s1.q), -1.0, &at(&s0.q));
+            self.gravity += dot(&dq, &element.weight.data.0[0]);
+            let dq = element.turn.to_chord(&dq);
+            let g = model.pipe.len() + e;
+            geometric_work += mean_work(&dq, &e0.geometric[g], &e1.geometric[g]);
+            let chord = |values: &[f64]| element.turn.to_chord(&at(values));
+            let rates = [chord(&s0.v), chord(&s1.v), chord(&s0.a), chord(&s1.a)];
+            self.beam_losses(&element.force, &dq, &rates, alpha, beta);
         }
         for point in &model.masses {
             for k in 0..3 {
@@ -200,23 +200,39 @@ impl EnergyAudit {
         self.error = worked_in - taken - self.stored;
     }
 
-    /// Rayleigh damping and the scheme's own loss of one element.
-    fn beam_losses(
-        &mut self,
-        beam: &super::beam::Beam,
-        dq: &ElementVector,
-        (v0, v1): (ElementVector, ElementVector),
-        (a0, a1): (ElementVector, ElementVector),
-        alpha: f64,
-        beta: f64,
-    ) {
-        let momentum = beam.mass_times(dq);
-        let v = (v0 + v1) * 0.5;
-        self.rayleigh_damping += alpha * momentum.dot(&v) + beta * beam.stiffness_times(dq).dot(&v);
+    /// Rayleigh damping and the scheme's own loss of one element that moves by `dq`; `v0`, `v1`, `a0`, `a1` are its rates at both ends
+    /// of the step.
+    fn beam_losses(&mut self, force: &ElementForce, dq: &Ends, [v0, v1, a0, a1]: &[Ends; 4], alpha: f64, beta: f64) {
+        let v = mean(v0, v1);
+        self.rayleigh_damping += alpha * force.mass_between(dq, &v) + beta * force.stiffness_between(dq, &v);
         // T_1 - T_0 = M (v_1 - v_0) . v.
-        let kinetic = beam.mass_times(&(v1 - v0)).dot(&v);
-        self.numerical_damping += 0.5 * momentum.dot(&(a0 + a1)) - kinetic;
+        let kinetic = force.mass_between(&plus(v1, -1.0, v0), &v);
+        self.numerical_damping += 0.5 * force.mass_between(dq, &plus(a0, 1.0, a1)) - kinetic;
     }
+}
+
+#[inline(always)]
+fn dot(x: &Ends, y: &Ends) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..12 {
+        sum += x[i] * y[i];
+    }
+    sum
+}
+
+#[inline(always)]
+fn mean(x: &Ends, y: &Ends) -> Ends {
+    let mut sum = plus(x, 1.0, y);
+    for x in &mut sum {
+        *x *= 0.5;
+    }
+    sum
+}
+
+/// dq . (f0 + f1) / 2.
+#[inline(always)]
+fn mean_work(dq: &Ends, f0: &ElementVector, f1: &ElementVector) -> f64 {
+    dot(dq, &mean(&f0.data.0[0], &f1.data.0[0]))
 }
 
 /// Largest violation of the joint rows: translations (m) and rotations (-).

@@ -6,7 +6,8 @@
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 use super::description::{JointDescription, JointKind};
-use super::rotation::{DirectionJet, shaft_axis, transverse_axis, value};
+use super::jet::Jet;
+use super::rotation::{DirectionJet, shaft_axis, shaft_direction, transverse_axis};
 
 /// Values of the six rotational coordinates of a joint, or forces on them.
 pub type JointVector = SVector<f64, 6>;
@@ -117,15 +118,15 @@ impl Joint {
 
     /// Angle between the two links' axes at the joint (rad, >= 0).
     pub fn bend_angle(&self, q: &JointVector) -> f64 {
-        let upper = value(&shaft_axis(q[1], q[2]));
-        let lower = self.relative * value(&shaft_axis(q[4], q[5]));
+        let upper = shaft_direction(q[1], q[2]);
+        let lower = self.relative * shaft_direction(q[4], q[5]);
         upper.cross(&lower).norm().atan2(upper.dot(&lower))
     }
 
     /// Toolface of the bend (rad, -pi to pi): direction in which the lower link turns away from the upper one, from the
     /// high side clockwise looking down the hole.
     pub fn bend_toolface(&self, q: &JointVector) -> f64 {
-        let away = self.relative * value(&shaft_axis(q[4], q[5])) - value(&shaft_axis(q[1], q[2]));
+        let away = self.relative * shaft_direction(q[4], q[5]) - shaft_direction(q[1], q[2]);
         away.y.atan2(-away.z)
     }
 
@@ -192,23 +193,24 @@ impl Row {
     fn bilinear(above: &DirectionJet, relative: &Matrix3<f64>, below: &DirectionJet) -> Self {
         let mut row = Self::zero();
         for (i, a) in above.iter().enumerate() {
-            for (j, b) in below.iter().enumerate() {
-                let r = relative[(i, j)];
-                if r == 0.0 {
-                    continue;
+            let mut b = Jet::zero();
+            for (j, part) in below.iter().enumerate() {
+                b.add(relative[(i, j)], part);
+            }
+            row.value += a.value * b.value;
+            for k in 0..3 {
+                row.gradient[k] += a.gradient[k] * b.value;
+                row.gradient[3 + k] += a.value * b.gradient[k];
+                for l in 0..3 {
+                    row.hessian[(l, k)] += a.hessian[(l, k)] * b.value;
+                    row.hessian[(3 + l, 3 + k)] += a.value * b.hessian[(l, k)];
+                    row.hessian[(3 + l, k)] += a.gradient[k] * b.gradient[l];
                 }
-                row.value += r * a.value * b.value;
-                for k in 0..3 {
-                    row.gradient[k] += r * a.gradient[k] * b.value;
-                    row.gradient[3 + k] += r * a.value * b.gradient[k];
-                    for l in 0..3 {
-                        row.hessian[(k, l)] += r * a.hessian[(k, l)] * b.value;
-                        row.hessian[(3 + k, 3 + l)] += r * a.value * b.hessian[(k, l)];
-                        let cross = r * a.gradient[k] * b.gradient[l];
-                        row.hessian[(k, 3 + l)] += cross;
-                        row.hessian[(3 + l, k)] += cross;
-                    }
-                }
+            }
+        }
+        for k in 0..3 {
+            for l in 0..3 {
+                row.hessian[(k, 3 + l)] = row.hessian[(3 + l, k)];
             }
         }
         row

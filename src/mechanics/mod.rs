@@ -17,6 +17,7 @@ pub mod assembly;
 pub mod beam;
 pub mod conditions;
 pub mod description;
+pub mod element_force;
 pub mod energy;
 pub mod gap;
 pub mod jet;

@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::beam::{Beam, ElementMatrix, ElementVector};
 use super::description::{Body, Direction, JointKind, Place, PointLoad, ToolDescription, WobPath};
+use super::element_force::{ElementForce, PlanarTurn};
 use super::joint::Joint;
 use super::linear::Layout;
 use super::section::SectionProperties;
@@ -46,6 +47,10 @@ pub struct Station {
 pub struct PipeElement {
     /// Beam.
     pub beam: Beam,
+    /// Its forces.
+    pub force: ElementForce,
+    /// G.
+    pub geometric: ElementMatrix,
     /// Consistent forces of gravity (N).
     pub weight: ElementVector,
 }
@@ -55,6 +60,10 @@ pub struct PipeElement {
 pub struct GuideElement {
     /// Beam in its chord's frame.
     pub beam: Beam,
+    /// Its forces, in its chord's frame.
+    pub force: ElementForce,
+    /// Node frames to the chord frame once more, as plane rotations: wells lie in a plane.
+    pub turn: PlanarTurn,
     /// Node frames to the chord frame, Eq. 8.
     pub rotation: [Matrix3<f64>; 2],
     /// Consistent forces of gravity on the nodes, in their frames (N).
@@ -232,7 +241,14 @@ impl Model {
                 length: chord / per_link as f64,
             };
             let weight = beam.weight((link_frames[link].transpose() * down).into());
-            pipe.push(PipeElement { beam, weight });
+            let force = ElementForce::of(&beam);
+            let geometric = beam.geometric();
+            pipe.push(PipeElement {
+                beam,
+                force,
+                geometric,
+                weight,
+            });
 
             let (above, below) = (&stations[e], &stations[e + 1]);
             let span = below.position - above.position;
@@ -410,6 +426,8 @@ impl GuideElement {
         }
         let turned = |m: ElementMatrix| gamma.transpose() * m * gamma;
         Self {
+            force: ElementForce::of(&beam),
+            turn: PlanarTurn::of(&rotation),
             rotation,
             weight: gamma.transpose() * beam.weight((frame.transpose() * down).into()),
             stiffness: turned(beam.stiffness()),
@@ -417,26 +435,6 @@ impl GuideElement {
             geometric: turned(beam.geometric()),
             beam,
         }
-    }
-
-    /// Nodal values to the chord frame, Eq. 8.
-    pub fn to_chord(&self, q: &ElementVector) -> ElementVector {
-        self.turn(q, |r, x| r * x)
-    }
-
-    /// Chord-frame forces to the nodes' frames.
-    pub fn from_chord(&self, f: &ElementVector) -> ElementVector {
-        self.turn(f, |r, x| r.tr_mul(&x))
-    }
-
-    fn turn(&self, x: &ElementVector, product: impl Fn(&Matrix3<f64>, Vector3<f64>) -> Vector3<f64>) -> ElementVector {
-        let mut out = ElementVector::zeros();
-        for k in 0..4 {
-            let part = x.fixed_rows::<3>(3 * k).into_owned();
-            out.fixed_rows_mut::<3>(3 * k)
-                .copy_from(&product(&self.rotation[k / 2], part));
-        }
-        out
     }
 }
 

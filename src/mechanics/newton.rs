@@ -177,7 +177,7 @@ impl Newton {
         for (c, r) in self.correction.iter_mut().zip(&self.assembler.residual) {
             *c = -r;
         }
-        self.solver.solve(&mut self.assembler.system, &mut self.correction)?;
+        self.solver.solve(&self.assembler.system, &mut self.correction)?;
         for (i, dq) in self.correction.iter().enumerate() {
             to.q[i] += dq;
             if !self.multiplier[i] {
@@ -215,7 +215,7 @@ impl Newton {
                 -self.assembler.residual[i]
             };
         }
-        self.solver.solve(&mut self.assembler.system, &mut self.correction)?;
+        self.solver.solve(&self.assembler.system, &mut self.correction)?;
         for (i, &x) in self.correction.iter().enumerate() {
             if self.multiplier[i] {
                 state.q[i] += x;

@@ -3,7 +3,7 @@
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::beam::ElementVector;
+use super::element_force::{Ends, ends};
 use super::joint::JointVector;
 use super::model::Model;
 
@@ -59,12 +59,11 @@ impl State {
     /// Sets the lagged axial forces from the displacements.
     pub fn update_axial(&mut self, model: &Model) {
         for (e, element) in model.pipe.iter().enumerate() {
-            let q = pipe_element(model, e, &self.q);
-            self.pipe_axial[e] = element.beam.axial_force(&q);
+            self.pipe_axial[e] = element.force.tension(&pipe_element(model, e, &self.q));
         }
         for (e, element) in model.guide.iter().enumerate() {
-            let q = guide_element(model, e, &self.q);
-            self.guide_axial[e] = element.beam.axial_force(&element.to_chord(&q));
+            let q = element.turn.to_chord(&guide_element(model, e, &self.q));
+            self.guide_axial[e] = element.force.tension(&q);
         }
     }
 }
@@ -83,22 +82,14 @@ pub fn translation(values: &[f64], first: usize) -> Vector3<f64> {
 
 /// Nodal values of pipe element `e`.
 #[inline]
-pub fn pipe_element(model: &Model, e: usize, values: &[f64]) -> ElementVector {
-    two_nodes(values, model.stations[e].pipe_below, model.stations[e + 1].pipe_above)
+pub fn pipe_element(model: &Model, e: usize, values: &[f64]) -> Ends {
+    ends(values, model.stations[e].pipe_below, model.stations[e + 1].pipe_above)
 }
 
 /// Nodal values of guide element `e`, in the nodes' frames.
 #[inline]
-pub fn guide_element(model: &Model, e: usize, values: &[f64]) -> ElementVector {
-    two_nodes(values, model.stations[e].guide, model.stations[e + 1].guide)
-}
-
-#[inline]
-fn two_nodes(values: &[f64], first: usize, second: usize) -> ElementVector {
-    let mut x = ElementVector::zeros();
-    x.as_mut_slice()[..6].copy_from_slice(&values[first..first + 6]);
-    x.as_mut_slice()[6..].copy_from_slice(&values[second..second + 6]);
-    x
+pub fn guide_element(model: &Model, e: usize, values: &[f64]) -> Ends {
+    ends(values, model.stations[e].guide, model.stations[e + 1].guide)
 }
 
 /// The six rotational values of joint `joint`.

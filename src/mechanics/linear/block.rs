@@ -1,10 +1,15 @@
-//! Gaussian elimination of one small dense block against several right-hand sides, with partial pivoting.
+//! Gauss-Jordan elimination of one small dense block against several right-hand sides, with threshold pivoting.
 //!
 //! Every inner loop runs over a whole column of fixed length (entries that must not change get a zero multiplier), so that it becomes a
-//! few vector instructions.
+//! few vector instructions. Eliminating above and below the pivot at once needs no second sweep over the right-hand sides.
+
+/// The diagonal entry is the pivot unless a candidate is larger by more than this. Stiffness and inertia dominate their own equations, so
+/// exchanges are rare; the factor leaves room for the different units of displacements and rotations (forces against couples over an
+/// element's length of centimetres).
+const PIVOT_RATIO: f64 = 1e-3;
 
 /// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. `FUSED` uses fused multiply-add, which is fast only where the
-/// processor has it.
+/// processor has it. The last column of `b` is full; of the others, only the first `active(k)` have entries in rows 0 to k.
 ///
 /// # Errors
 /// The size of the largest available pivot when it is zero or not a number.
@@ -12,48 +17,62 @@
 pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
     a: &mut [[f64; N]; N],
     b: &mut [[f64; N]; C],
+    active: impl Fn(usize) -> usize,
 ) -> Result<(), f64> {
     let mut reciprocals = [0.0; N];
+    let mut exchanged = false;
     for k in 0..N {
-        let mut p = k;
-        let mut size = a[k][k].abs();
-        for (r, x) in a[k].iter().enumerate().skip(k + 1) {
-            if x.abs() > size {
-                size = x.abs();
-                p = r;
-            }
+        let size = a[k][k].abs();
+        let mut small = size.is_nan() | (size == 0.0);
+        for (r, x) in a[k].iter().enumerate() {
+            small |= (r > k) & (x.abs() * PIVOT_RATIO > size);
         }
-        // A block that is singular but for rounding passes here; Newton's residual then tells.
-        if size.is_nan() || size == 0.0 {
-            return Err(size);
-        }
-        if p != k {
-            a[k..]
-                .iter_mut()
-                .chain(b.iter_mut())
-                .for_each(|column| column.swap(k, p));
+        if small {
+            exchange(k, a, b)?;
+            exchanged = true;
         }
         let reciprocal = 1.0 / a[k][k];
         reciprocals[k] = reciprocal;
         let mut multipliers = [0.0; N];
-        for r in k + 1..N {
-            multipliers[r] = a[k][r] * reciprocal;
+        for r in 0..N {
+            multipliers[r] = if r == k { 0.0 } else { a[k][r] * reciprocal };
         }
         for column in a[k + 1..].iter_mut() {
             subtract::<N, FUSED>(column, &multipliers, column[k]);
         }
-        for column in b.iter_mut() {
+        let active = if exchanged { C - 1 } else { active(k).min(C - 1) };
+        for column in b[..active].iter_mut() {
             subtract::<N, FUSED>(column, &multipliers, column[k]);
         }
+        let column = &mut b[C - 1];
+        subtract::<N, FUSED>(column, &multipliers, column[k]);
     }
-    for k in (0..N).rev() {
-        let mut above = [0.0; N];
-        above[..k].copy_from_slice(&a[k][..k]);
-        for column in b.iter_mut() {
-            let x = column[k] * reciprocals[k];
-            subtract::<N, FUSED>(column, &above, x);
-            column[k] = x;
+    for column in b.iter_mut() {
+        for r in 0..N {
+            column[r] *= reciprocals[r];
         }
+    }
+    Ok(())
+}
+
+/// Brings the largest candidate to the diagonal.
+#[cold]
+#[inline(never)]
+fn exchange<const N: usize, const C: usize>(k: usize, a: &mut [[f64; N]; N], b: &mut [[f64; N]; C]) -> Result<(), f64> {
+    let mut p = k;
+    for r in k + 1..N {
+        if a[k][r].abs() > a[k][p].abs() {
+            p = r;
+        }
+    }
+    let size = a[k][p].abs();
+    // A block that is singular but for rounding passes here; Newton's residual then tells.
+    if size.is_nan() || size == 0.0 {
+        return Err(size);
+    }
+    if p != k {
+        let columns = a[k..].iter_mut().chain(b.iter_mut());
+        columns.for_each(|column| column.swap(k, p));
     }
     Ok(())
 }
@@ -70,8 +89,9 @@ pub fn subtract_product<const N: usize, const C: usize, const FUSED: bool>(
     }
 }
 
+/// column -= other scale.
 #[inline(always)]
-fn subtract<const N: usize, const FUSED: bool>(column: &mut [f64; N], other: &[f64; N], scale: f64) {
+pub fn subtract<const N: usize, const FUSED: bool>(column: &mut [f64; N], other: &[f64; N], scale: f64) {
     for r in 0..N {
         column[r] = if FUSED {
             other[r].mul_add(-scale, column[r])
@@ -90,9 +110,20 @@ mod tests {
         // Zero diagonal: fails without pivoting. x = (3, 1, 2) by hand.
         let mut a = [[0.0, 1.0, 2.0], [2.0, 0.0, 1.0], [1.0, 4.0, 0.0]];
         let mut b = [[4.0, 11.0, 7.0]];
-        solve_columns::<3, 1, false>(&mut a, &mut b).unwrap();
+        solve_columns::<3, 1, false>(&mut a, &mut b, |_| 0).unwrap();
         for (x, expected) in b[0].iter().zip([3.0, 1.0, 2.0]) {
             assert!((x - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn leading_zeros_of_a_column_survive_an_exchange() {
+        // The first column of b has no entry in its first row until the exchange brings one there. x = (5, 0) and (1, 2) by hand.
+        let mut a = [[0.0, 2.0], [-1.0, 4.0]];
+        let mut b = [[0.0, 10.0], [-2.0, 10.0]];
+        solve_columns::<2, 2, false>(&mut a, &mut b, |k| k).unwrap();
+        for (column, expected) in b.iter().zip([[5.0, 0.0], [1.0, 2.0]]) {
+            assert!((column[0] - expected[0]).abs() < 1e-14 && (column[1] - expected[1]).abs() < 1e-14);
         }
     }
 
@@ -100,6 +131,13 @@ mod tests {
     fn a_singular_block_is_an_error() {
         let mut a = [[1.0, 2.0], [2.0, 4.0]];
         let mut b = [[1.0, 1.0]];
-        assert!(solve_columns::<2, 1, false>(&mut a, &mut b).is_err());
+        assert!(solve_columns::<2, 1, false>(&mut a, &mut b, |_| 0).is_err());
+    }
+
+    #[test]
+    fn a_block_that_is_not_a_number_is_an_error() {
+        let mut a = [[f64::NAN, 2.0], [2.0, 4.0]];
+        let mut b = [[1.0, 1.0]];
+        assert!(solve_columns::<2, 1, false>(&mut a, &mut b, |_| 0).is_err());
     }
 }

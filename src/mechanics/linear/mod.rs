@@ -6,12 +6,14 @@
 
 mod block;
 mod elimination;
+mod reduction;
 mod sparse;
 mod system;
 
 pub use elimination::StationElimination;
 pub use sparse::SparseReference;
-pub use system::{BlockSystem, Coupling, JOINT_BLOCK, Layout, PLAIN_BLOCK};
+pub(super) use system::add_columns;
+pub use system::{BlockSystem, Coupling, Diagonal, JOINT_BLOCK, Layout, PLAIN_BLOCK};
 
 /// A pivot vanished: the system has no unique solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,9 +26,9 @@ pub struct Singular {
 
 /// Solves the block system of one Newton iteration.
 pub trait LinearSolver: Send {
-    /// Solves `system x = rhs`; `rhs` becomes x. The system's entries may be used up on the way.
+    /// Solves `system x = rhs`; `rhs` becomes x.
     ///
     /// # Errors
     /// When a block cannot be factorised.
-    fn solve(&mut self, system: &mut BlockSystem, rhs: &mut [f64]) -> Result<(), Singular>;
+    fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular>;
 }

@@ -15,7 +15,7 @@ pub struct SparseReference {
 }
 
 impl LinearSolver for SparseReference {
-    fn solve(&mut self, system: &mut BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
+    fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
         let n = system.layout().unknowns();
         let mut triplets = Vec::new();
         system.for_each_entry(|row, column, value| triplets.push(Triplet::new(row, column, value)));

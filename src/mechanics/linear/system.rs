@@ -78,27 +78,33 @@ impl Layout {
     }
 }
 
+/// Diagonal blocks.
+#[derive(Debug, Clone)]
+pub struct Diagonal {
+    /// Of plain stations, by slot.
+    pub plain: Vec<SMatrix<f64, 12, 12>>,
+    /// Of joint stations, by slot.
+    pub joint: Vec<SMatrix<f64, 24, 24>>,
+}
+
+impl Diagonal {
+    /// Takes another diagonal's entries; the layouts must be the same.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.plain.copy_from_slice(&other.plain);
+        self.joint.copy_from_slice(&other.joint);
+    }
+}
+
 /// Diagonal blocks and couplings.
 #[derive(Debug, Clone)]
 pub struct BlockSystem {
     layout: Layout,
-    /// Diagonal blocks of plain stations, by slot.
-    pub plain: Vec<SMatrix<f64, 12, 12>>,
-    /// Diagonal blocks of joint stations, by slot.
-    pub joint: Vec<SMatrix<f64, 24, 24>>,
+    /// Diagonal blocks.
+    pub diagonal: Diagonal,
     /// Rows of station i (outgoing), columns of station i + 1.
     pub upper: Vec<Coupling>,
     /// Rows of station i + 1, columns of station i (outgoing).
     pub lower: Vec<Coupling>,
-}
-
-/// The parts of a system, borrowed.
-pub(super) struct BlockParts<'a> {
-    pub layout: &'a Layout,
-    pub plain: &'a mut [SMatrix<f64, 12, 12>],
-    pub joint: &'a mut [SMatrix<f64, 24, 24>],
-    pub upper: &'a [Coupling],
-    pub lower: &'a [Coupling],
 }
 
 impl BlockSystem {
@@ -107,22 +113,13 @@ impl BlockSystem {
         let joint = layout.large.iter().filter(|&&large| large).count();
         let couplings = layout.stations().saturating_sub(1);
         Self {
-            plain: vec![SMatrix::zeros(); layout.stations() - joint],
-            joint: vec![SMatrix::zeros(); joint],
+            diagonal: Diagonal {
+                plain: vec![SMatrix::zeros(); layout.stations() - joint],
+                joint: vec![SMatrix::zeros(); joint],
+            },
             upper: vec![Coupling::zeros(); couplings],
             lower: vec![Coupling::zeros(); couplings],
             layout,
-        }
-    }
-
-    /// All parts at once, for a solver that works in place.
-    pub(super) fn parts(&mut self) -> BlockParts<'_> {
-        BlockParts {
-            layout: &self.layout,
-            plain: &mut self.plain,
-            joint: &mut self.joint,
-            upper: &self.upper,
-            lower: &self.lower,
         }
     }
 
@@ -133,16 +130,15 @@ impl BlockSystem {
 
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
-        self.plain.iter_mut().for_each(|block| block.fill(0.0));
-        self.joint.iter_mut().for_each(|block| block.fill(0.0));
+        self.diagonal.plain.iter_mut().for_each(|block| block.fill(0.0));
+        self.diagonal.joint.iter_mut().for_each(|block| block.fill(0.0));
         self.upper.iter_mut().for_each(|block| block.fill(0.0));
         self.lower.iter_mut().for_each(|block| block.fill(0.0));
     }
 
     /// Takes another system's entries; the layouts must be the same.
     pub fn copy_from(&mut self, other: &Self) {
-        self.plain.copy_from_slice(&other.plain);
-        self.joint.copy_from_slice(&other.joint);
+        self.diagonal.copy_from(&other.diagonal);
         self.upper.copy_from_slice(&other.upper);
         self.lower.copy_from_slice(&other.lower);
     }
@@ -158,9 +154,31 @@ impl BlockSystem {
     pub fn entry(&mut self, station: usize, row: usize, column: usize) -> &mut f64 {
         let slot = self.layout.slots[station];
         if self.layout.large[station] {
-            &mut self.joint[slot][(row, column)]
+            &mut self.diagonal.joint[slot][(row, column)]
         } else {
-            &mut self.plain[slot][(row, column)]
+            &mut self.diagonal.plain[slot][(row, column)]
+        }
+    }
+
+    /// Takes a station's diagonal block from `diagonal`.
+    #[inline]
+    pub fn restore(&mut self, station: usize, diagonal: &Diagonal) {
+        let slot = self.layout.slots[station];
+        if self.layout.large[station] {
+            self.diagonal.joint[slot] = diagonal.joint[slot];
+        } else {
+            self.diagonal.plain[slot] = diagonal.plain[slot];
+        }
+    }
+
+    /// Adds a matrix, given by columns, times `factor` at (`first`, `first`) of a station's diagonal block.
+    #[inline]
+    pub fn add_scaled<const N: usize>(&mut self, station: usize, first: usize, matrix: &[[f64; N]; N], factor: f64) {
+        let slot = self.layout.slots[station];
+        if self.layout.large[station] {
+            add_columns(&mut self.diagonal.joint[slot].data.0, first, matrix, factor);
+        } else {
+            add_columns(&mut self.diagonal.plain[slot].data.0, first, matrix, factor);
         }
     }
 
@@ -175,10 +193,10 @@ impl BlockSystem {
     ) {
         let slot = self.layout.slots[station];
         if self.layout.large[station] {
-            let mut view = self.joint[slot].fixed_view_mut::<N, N>(row, column);
+            let mut view = self.diagonal.joint[slot].fixed_view_mut::<N, N>(row, column);
             view += matrix;
         } else {
-            let mut view = self.plain[slot].fixed_view_mut::<N, N>(row, column);
+            let mut view = self.diagonal.plain[slot].fixed_view_mut::<N, N>(row, column);
             view += matrix;
         }
     }
@@ -189,13 +207,13 @@ impl BlockSystem {
         let local = unknown - self.layout.offsets[station];
         let slot = self.layout.slots[station];
         if self.layout.large[station] {
-            self.joint[slot].row_mut(local).fill(0.0);
-            self.joint[slot].column_mut(local).fill(0.0);
-            self.joint[slot][(local, local)] = 1.0;
+            self.diagonal.joint[slot].row_mut(local).fill(0.0);
+            self.diagonal.joint[slot].column_mut(local).fill(0.0);
+            self.diagonal.joint[slot][(local, local)] = 1.0;
         } else {
-            self.plain[slot].row_mut(local).fill(0.0);
-            self.plain[slot].column_mut(local).fill(0.0);
-            self.plain[slot][(local, local)] = 1.0;
+            self.diagonal.plain[slot].row_mut(local).fill(0.0);
+            self.diagonal.plain[slot].column_mut(local).fill(0.0);
+            self.diagonal.plain[slot][(local, local)] = 1.0;
         }
         if station > 0 && local < 12 {
             self.upper[station - 1].column_mut(local).fill(0.0);
@@ -224,9 +242,9 @@ impl BlockSystem {
             for column in 0..size {
                 for row in 0..size {
                     let value = if layout.large[station] {
-                        self.joint[slot][(row, column)]
+                        self.diagonal.joint[slot][(row, column)]
                     } else {
-                        self.plain[slot][(row, column)]
+                        self.diagonal.plain[slot][(row, column)]
                     };
                     visit(offset + row, offset + column, value);
                 }
@@ -248,5 +266,20 @@ impl BlockSystem {
     pub fn residual(&self, x: &[f64], rhs: &[f64], r: &mut [f64]) {
         r.copy_from_slice(rhs);
         self.for_each_entry(|row, column, value| r[row] -= value * x[column]);
+    }
+}
+
+/// Adds a matrix times `factor` at (`first`, `first`) of a larger one, both given by columns.
+#[inline(always)]
+pub fn add_columns<const N: usize, const M: usize>(
+    to: &mut [[f64; M]; M],
+    first: usize,
+    matrix: &[[f64; N]; N],
+    factor: f64,
+) {
+    for (to, column) in to[first..first + N].iter_mut().zip(matrix) {
+        for (x, y) in to[first..first + N].iter_mut().zip(column) {
+            *x += factor * y;
+        }
     }
 }

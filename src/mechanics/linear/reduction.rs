@@ -1,0 +1,197 @@
+//! Joint stations with one rotational row (universal, ball cage): 24 unknowns reduced to 16 before they are eliminated.
+//!
+//! Rows 18 to 20 of the block say s E_a du_a - s E_b du_b = r, so du_b = P du_a + c with P = E_b^T E_a. Adding P^T times the rows of u_b
+//! to those of u_a cancels the three translational multipliers. Order of the 16: rotations of a, u_a, rotations of b, guide,
+//! rotational multiplier; what couples to the next station comes late, so that its columns enter the elimination late.
+
+use super::block::subtract;
+
+/// Unknowns left.
+pub const REDUCED: usize = 16;
+/// Columns of the coupling to the next station with entries in rows 0 to k of the reduced block: the pipe's begin at u_a, the guide's at
+/// the guide.
+#[inline(always)]
+pub fn active(k: usize) -> usize {
+    6 * (usize::from(k >= 3) + usize::from(k >= 9))
+}
+/// Place in the block of 24 of each reduced unknown.
+const PLACES: [usize; REDUCED] = [3, 4, 5, 0, 1, 2, 15, 16, 17, 6, 7, 8, 9, 10, 11, 21];
+/// First of u_a among the reduced unknowns.
+const U: usize = 3;
+/// First of the rotations of b.
+const ROTATIONS: usize = 6;
+/// First of the guide.
+const GUIDE: usize = 9;
+/// Relative tolerance on the orthogonality of the frames; a held translation fails by 1.
+const ORTHOGONAL: f64 = 1e-9;
+
+type Block = [[f64; 24]; 24];
+
+/// What it takes to reduce a station and to recover what was taken out.
+#[derive(Debug, Clone, Copy)]
+pub struct Reduction {
+    /// P by columns.
+    turn: [[f64; 3]; 3],
+    /// c.
+    offset: [f64; 3],
+    /// E_b / s, by columns, with the sign of its entries: gives the multipliers from the rows of u_b.
+    recover: [[f64; 3]; 3],
+}
+
+impl Reduction {
+    /// The reduction of a joint station with the right-hand side `rhs` (24 values), or `None` if the block does not have the form.
+    #[inline(always)]
+    pub fn of(block: &Block, rhs: &[f64]) -> Option<Self> {
+        if block[22][22] != 1.0 || block[23][23] != 1.0 {
+            return None;
+        }
+        let (mut above, mut below) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+        for j in 0..3 {
+            above[j].copy_from_slice(&block[j][18..21]);
+            below[j].copy_from_slice(&block[12 + j][18..21]);
+        }
+        let square = dot(&below[0], &below[0]);
+        let small = ORTHOGONAL * square;
+        let mut right = square > 0.0;
+        for j in 0..3 {
+            right &= (dot(&below[j], &below[j]) - square).abs() <= small;
+            right &= dot(&below[j], &below[(j + 1) % 3]).abs() <= small;
+            for i in 0..3 {
+                right &= block[18 + i][j] == above[j][i] && block[18 + i][12 + j] == below[j][i];
+            }
+        }
+        if !right {
+            return None;
+        }
+        let scale = 1.0 / square;
+        let r = [rhs[18], rhs[19], rhs[20]];
+        let mut reduction = Self {
+            turn: [[0.0; 3]; 3],
+            offset: [0.0; 3],
+            recover: below,
+        };
+        for i in 0..3 {
+            for j in 0..3 {
+                reduction.turn[j][i] = -scale * dot(&below[i], &above[j]);
+                reduction.recover[j][i] *= scale;
+            }
+            reduction.offset[i] = scale * dot(&below[i], &r);
+        }
+        Some(reduction)
+    }
+
+    /// P^T x.
+    #[inline(always)]
+    fn turned_back(&self, x: [f64; 3]) -> [f64; 3] {
+        [dot(&self.turn[0], &x), dot(&self.turn[1], &x), dot(&self.turn[2], &x)]
+    }
+
+    /// P x.
+    #[inline(always)]
+    fn turned(&self, x: [f64; 3]) -> [f64; 3] {
+        let mut out = [0.0; 3];
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = self.turn[0][i] * x[0] + self.turn[1][i] * x[1] + self.turn[2][i] * x[2];
+        }
+        out
+    }
+
+    /// The 16 rows of a column of 24.
+    #[inline(always)]
+    fn rows(&self, column: &[f64; 24]) -> [f64; REDUCED] {
+        let mut out = [0.0; REDUCED];
+        out[..U].copy_from_slice(&column[3..6]);
+        out[ROTATIONS..GUIDE].copy_from_slice(&column[15..18]);
+        out[GUIDE..GUIDE + 6].copy_from_slice(&column[6..12]);
+        out[REDUCED - 1] = column[21];
+        let added = self.turned_back([column[12], column[13], column[14]]);
+        for i in 0..3 {
+            out[U + i] = column[i] + added[i];
+        }
+        out
+    }
+
+    /// Reduced block and right-hand side.
+    #[inline(always)]
+    pub fn reduce<const FUSED: bool>(
+        &self,
+        block: &Block,
+        rhs: &[f64; 24],
+        reduced: &mut [[f64; REDUCED]; REDUCED],
+        reduced_rhs: &mut [f64; REDUCED],
+    ) {
+        for (out, place) in reduced.iter_mut().zip(PLACES) {
+            *out = self.rows(&block[place]);
+        }
+        *reduced_rhs = self.rows(rhs);
+        for k in 0..3 {
+            let column = self.rows(&block[12 + k]);
+            for j in 0..3 {
+                subtract::<REDUCED, FUSED>(&mut reduced[U + j], &column, -self.turn[j][k]);
+            }
+            subtract::<REDUCED, FUSED>(reduced_rhs, &column, self.offset[k]);
+        }
+    }
+
+    /// Reduced rows of a column of the coupling to the next station.
+    #[inline(always)]
+    pub fn coupling(&self, column: &[f64; 12]) -> [f64; REDUCED] {
+        let mut out = [0.0; REDUCED];
+        out[U..ROTATIONS].copy_from_slice(&self.turned_back([column[0], column[1], column[2]]));
+        out[ROTATIONS..GUIDE].copy_from_slice(&column[3..6]);
+        out[GUIDE..GUIDE + 6].copy_from_slice(&column[6..]);
+        out
+    }
+
+    /// Outgoing unknowns (node b, guide) of a reduced solution column, without c.
+    #[inline(always)]
+    pub fn outgoing(&self, x: &[f64; REDUCED]) -> [f64; 12] {
+        let mut out = [0.0; 12];
+        out[..3].copy_from_slice(&self.turned([x[U], x[U + 1], x[U + 2]]));
+        out[3..].copy_from_slice(&x[ROTATIONS..GUIDE + 6]);
+        out
+    }
+
+    /// Adds c to the outgoing unknowns.
+    #[inline(always)]
+    pub fn add_offset(&self, outgoing: &mut [f64; 12]) {
+        for i in 0..3 {
+            outgoing[i] += self.offset[i];
+        }
+    }
+
+    /// All 24 unknowns from the reduced ones, `x`, with the right-hand side `rhs` of the full station in the same place. `upper`
+    /// couples to the next station, whose unknowns are `below`.
+    #[inline(always)]
+    pub fn expand<const FUSED: bool>(
+        &self,
+        block: &Block,
+        x: &[f64; REDUCED],
+        upper: &[[f64; 12]; 12],
+        below: &[f64; 12],
+        rhs: &mut [f64],
+    ) {
+        let mut rest = [rhs[12], rhs[13], rhs[14]];
+        for (place, &x) in PLACES.into_iter().zip(x) {
+            rhs[place] = x;
+        }
+        let mut outgoing = self.outgoing(x);
+        self.add_offset(&mut outgoing);
+        rhs[12..15].copy_from_slice(&outgoing[..3]);
+        // The rows of u_b: what the other unknowns leave is the multipliers' part.
+        for (j, column) in block.iter().enumerate().take(18).chain([(21, &block[21])]) {
+            subtract::<3, FUSED>(&mut rest, &[column[12], column[13], column[14]], rhs[j]);
+        }
+        for (column, &x) in upper.iter().zip(below) {
+            subtract::<3, FUSED>(&mut rest, &[column[0], column[1], column[2]], x);
+        }
+        for i in 0..3 {
+            rhs[18 + i] = self.recover[0][i] * rest[0] + self.recover[1][i] * rest[1] + self.recover[2][i] * rest[2];
+        }
+    }
+}
+
+#[inline(always)]
+fn dot(x: &[f64; 3], y: &[f64; 3]) -> f64 {
+    x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+}

@@ -1,0 +1,173 @@
+//! Every path of the station elimination gives what the sparse reference gives, on random systems with joints of every kind.
+
+use flexdrill::mechanics::linear::{BlockSystem, Layout, LinearSolver, SparseReference, StationElimination};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+/// Deterministic values in -1..1.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 33) as f64 / f64::from(1_u32 << 31) * 2.0 - 1.0
+    }
+
+    fn frame(&mut self) -> Matrix3<f64> {
+        *Rotation3::new(Vector3::new(self.next(), self.next(), self.next())).matrix()
+    }
+}
+
+/// What stands at a large station.
+#[derive(Clone, Copy, PartialEq)]
+enum Joint {
+    /// One rotational row: universal and ball-cage joints.
+    OneRow,
+    /// Two rotational rows: hinges.
+    TwoRows,
+    /// The axial tie of pipe and guide.
+    Tie,
+}
+
+/// Rows whose diagonal outweighs the rest, so that the condition is mild; constraint rows as the assembly makes them.
+fn system(joints: &[Option<Joint>], seed: u64) -> BlockSystem {
+    let mut random = Random(seed);
+    let layout = Layout::new(joints.iter().map(Option::is_some).collect());
+    let mut system = BlockSystem::new(layout);
+    for (station, &joint) in joints.iter().enumerate() {
+        let nodes = if matches!(joint, Some(Joint::OneRow | Joint::TwoRows)) {
+            18
+        } else {
+            12
+        };
+        for column in 0..nodes {
+            for row in 0..nodes {
+                let dominant = if row == column { 20.0 } else { 0.0 };
+                system.add(station, row, column, random.next() + dominant);
+            }
+        }
+        let mut both = |row, column, value| {
+            system.add(station, row, column, value);
+            system.add(station, column, row, value);
+        };
+        if joint == Some(Joint::Tie) {
+            both(18, 0, 7.0);
+            both(18, 6, -7.0);
+        } else if joint.is_some() {
+            let (a, b) = (random.frame() * 7.0, random.frame() * -7.0);
+            for i in 0..3 {
+                for j in 0..3 {
+                    both(18 + i, j, a[(i, j)]);
+                    both(18 + i, 12 + j, b[(i, j)]);
+                }
+            }
+            let rows = if joint == Some(Joint::OneRow) { 1 } else { 2 };
+            for row in 0..rows {
+                for k in 0..3 {
+                    // The second row leans on another rotation than the first.
+                    let lean = |at: usize| if at == row { 3.0 } else { 0.0 };
+                    both(21 + row, 3 + k, lean(k) + random.next());
+                    both(21 + row, 15 + k, random.next());
+                }
+            }
+        }
+        if let Some(joint) = joint {
+            let offset = system.layout().offset(station);
+            let padding = match joint {
+                Joint::OneRow => vec![22, 23],
+                Joint::TwoRows => vec![23],
+                Joint::Tie => (12..24).filter(|&k| k != 18).collect(),
+            };
+            padding.into_iter().for_each(|k| system.hold(offset + k));
+        }
+        if station + 1 < joints.len() {
+            for half in [0, 6] {
+                for i in 0..6 {
+                    for j in 0..6 {
+                        system.upper[station][(half + i, half + j)] = random.next();
+                        system.lower[station][(half + i, half + j)] = random.next();
+                    }
+                }
+            }
+        }
+    }
+    system
+}
+
+/// Compares all paths with the reference and returns how many stations were reduced.
+fn compare(system: &BlockSystem, seed: u64) -> usize {
+    let mut random = Random(seed);
+    let rhs: Vec<f64> = (0..system.layout().unknowns()).map(|_| random.next()).collect();
+    let mut expected = rhs.clone();
+    SparseReference::default().solve(system, &mut expected).unwrap();
+    let scale = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let mut reduced = 0;
+    for (name, mut solver) in StationElimination::all_paths(system.layout()) {
+        let mut x = rhs.clone();
+        solver.solve(system, &mut x).unwrap();
+        for (i, (x, expected)) in x.iter().zip(&expected).enumerate() {
+            // 1e-9 relative is what a step is promised; condition numbers of 1e3 leave 1e-12.
+            assert!(
+                (x - expected).abs() < 1e-9 * scale,
+                "{name}: x[{i}] = {x} against {expected}"
+            );
+        }
+        // Determinism: the same bits again, with the room used before.
+        let mut again = rhs.clone();
+        solver.solve(system, &mut again).unwrap();
+        assert!(x == again, "{name} gave different bits");
+        reduced = reduced.max(solver.reduced_stations());
+    }
+    reduced
+}
+
+#[test]
+fn joints_of_every_kind() {
+    use Joint::{OneRow, Tie, TwoRows};
+    for (joints, reduced) in [
+        (vec![None; 6], 0),
+        (vec![None, Some(OneRow), None, None, Some(OneRow), None], 2),
+        (vec![None, Some(OneRow), Some(OneRow), Some(OneRow), None, Some(Tie)], 3),
+        (
+            vec![None, Some(TwoRows), None, Some(OneRow), Some(TwoRows), None, None],
+            1,
+        ),
+        (vec![Some(Tie)], 0),
+    ] {
+        for seed in 0..20 {
+            assert_eq!(compare(&system(&joints, seed), seed + 100), reduced);
+        }
+    }
+}
+
+#[test]
+fn supports_at_joints() {
+    use Joint::OneRow;
+    let joints = [None, Some(OneRow), None, Some(OneRow), None];
+    // A held translation of the end above is no obstacle to the reduction; one of the start below is.
+    for (local, reduced) in [(1, 2), (4, 2), (7, 2), (16, 2), (13, 1)] {
+        for seed in 0..5 {
+            let mut system = system(&joints, seed);
+            let unknown = system.layout().offset(1) + local;
+            system.hold(unknown);
+            assert_eq!(compare(&system, seed + 200), reduced, "unknown {local} held");
+        }
+    }
+}
+
+#[test]
+fn blocks_without_a_diagonal() {
+    // Stations whose diagonal blocks are cyclic: every pivot needs an exchange.
+    for seed in 0..10 {
+        let mut system = system(&[None; 5], seed);
+        for block in &mut system.diagonal.plain {
+            let turned = *block;
+            for column in 0..12 {
+                block.set_column((column + 5) % 12, &turned.column(column));
+            }
+        }
+        compare(&system, seed + 300);
+    }
+}
