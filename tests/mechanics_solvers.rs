@@ -83,12 +83,9 @@ fn system(joints: &[Option<Joint>], seed: u64) -> BlockSystem {
             padding.into_iter().for_each(|k| system.hold(offset + k));
         }
         if station + 1 < joints.len() {
-            for half in [0, 6] {
-                for i in 0..6 {
-                    for j in 0..6 {
-                        system.upper[station][(half + i, half + j)] = random.next();
-                        system.lower[station][(half + i, half + j)] = random.next();
-                    }
+            for coupling in [&mut system.upper[station], &mut system.lower[station]] {
+                for part in [&mut coupling.pipe, &mut coupling.guide] {
+                    part.iter_mut().for_each(|x| *x = random.next());
                 }
             }
         }

@@ -462,21 +462,19 @@ fn turn_columns(m: &Matrix6<f64>, p: &Matrix3<f64>) -> Matrix6<f64> {
 
 fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize, m: &ElementMatrix, factor: f64) {
     let first = if model.stations[e].joint.is_some() { 12 } else { 0 };
-    add_element(system, e, first, 0, m, factor);
+    let m = &m.data.0;
+    system.add_scaled(e, first, &part(m, 0, 0), factor);
+    system.add_scaled(e + 1, 0, &part(m, 6, 6), factor);
+    add_columns(&mut system.upper[e].pipe.data.0, 0, &part(m, 0, 6), factor);
+    add_columns(&mut system.lower[e].pipe.data.0, 0, &part(m, 6, 0), factor);
 }
 
 fn add_guide_element(system: &mut BlockSystem, e: usize, m: &ElementMatrix, factor: f64) {
-    add_element(system, e, 6, 6, m, factor);
-}
-
-/// Adds an element between local node `first` of station e and local node `second` of station e + 1; the pipe's couplings are the
-/// first six rows and columns of the coupling blocks, the guide's the last six.
-fn add_element(system: &mut BlockSystem, e: usize, first: usize, second: usize, m: &ElementMatrix, factor: f64) {
     let m = &m.data.0;
-    system.add_scaled(e, first, &part(m, 0, 0), factor);
-    system.add_scaled(e + 1, second, &part(m, 6, 6), factor);
-    add_columns(&mut system.upper[e].data.0, second, &part(m, 0, 6), factor);
-    add_columns(&mut system.lower[e].data.0, second, &part(m, 6, 0), factor);
+    system.add_scaled(e, 6, &part(m, 0, 0), factor);
+    system.add_scaled(e + 1, 6, &part(m, 6, 6), factor);
+    add_columns(&mut system.upper[e].guide.data.0, 0, &part(m, 0, 6), factor);
+    add_columns(&mut system.lower[e].guide.data.0, 0, &part(m, 6, 0), factor);
 }
 
 /// Six columns of six from (`row`, `column`).

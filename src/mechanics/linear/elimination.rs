@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 use super::block::{solve_columns, subtract, subtract_product};
 use super::reduction::{REDUCED, Reduction, active};
-use super::system::{BlockSystem, Layout};
+use super::system::{BlockSystem, Coupling, Layout};
 use super::{LinearSolver, Singular};
 
 /// Columns solved per station: twelve of the coupling and the right-hand side.
@@ -110,14 +110,12 @@ impl StationElimination {
     fn run<const FUSED: bool>(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
         let layout = system.layout();
         let last = layout.stations() - 1;
+        let nothing = Coupling::zeros();
         // What the station above adds: columns of L S^-1 (U, r).
         let mut carry = [[0.0; 12]; COLUMNS];
         for station in 0..=last {
             let (slot, offset) = (layout.slot(station), layout.offset(station));
-            let upper = system
-                .upper
-                .get(station)
-                .map_or(&[[0.0; 12]; 12], |upper| &upper.data.0);
+            let upper = system.upper.get(station).unwrap_or(&nothing);
             let singular = |pivot| Singular { station, pivot };
             let mut outgoing = [[0.0; 12]; COLUMNS];
             if layout.is_large(station) {
@@ -138,8 +136,9 @@ impl StationElimination {
                     let mut reduced = [[0.0; REDUCED]; REDUCED];
                     let solution = &mut self.reduced[slot];
                     reduction.reduce::<FUSED>(&block, &right, &mut reduced, &mut solution[12]);
-                    for (column, coupling) in solution.iter_mut().zip(upper) {
-                        *column = reduction.coupling(coupling);
+                    for j in 0..6 {
+                        solution[j] = reduction.pipe_coupling(&upper.pipe.data.0[j]);
+                        solution[6 + j] = reduction.guide_coupling(&upper.guide.data.0[j]);
                     }
                     solve_columns::<REDUCED, COLUMNS, FUSED>(&mut reduced, solution, active).map_err(singular)?;
                     for (out, column) in outgoing.iter_mut().zip(solution.iter()) {
@@ -149,9 +148,9 @@ impl StationElimination {
                 } else {
                     let solution = &mut self.joint[slot];
                     solution.iter_mut().for_each(|column| column.fill(0.0));
-                    for (column, coupling) in solution.iter_mut().zip(upper) {
-                        column[12..18].copy_from_slice(&coupling[..6]);
-                        column[6..12].copy_from_slice(&coupling[6..]);
+                    for j in 0..6 {
+                        solution[j][12..18].copy_from_slice(&upper.pipe.data.0[j]);
+                        solution[6 + j][6..12].copy_from_slice(&upper.guide.data.0[j]);
                     }
                     solution[12] = right;
                     solve_columns::<24, COLUMNS, FUSED>(&mut block, solution, |_| 12).map_err(singular)?;
@@ -166,7 +165,12 @@ impl StationElimination {
                     subtract_first(column, carry);
                 }
                 let solution = &mut self.plain[slot];
-                solution[..12].copy_from_slice(upper);
+                for j in 0..6 {
+                    solution[j][..6].copy_from_slice(&upper.pipe.data.0[j]);
+                    solution[j][6..].fill(0.0);
+                    solution[6 + j][..6].fill(0.0);
+                    solution[6 + j][6..].copy_from_slice(&upper.guide.data.0[j]);
+                }
                 solution[12].copy_from_slice(&rhs[offset..offset + 12]);
                 subtract_first(&mut solution[12], &carry[12]);
                 solve_columns::<12, COLUMNS, FUSED>(&mut block, solution, |k| if k < 6 { 6 } else { 12 })
@@ -174,7 +178,7 @@ impl StationElimination {
                 outgoing = *solution;
             }
             if station < last {
-                couple::<FUSED>(&system.lower[station].data.0, &outgoing, &mut carry);
+                couple::<FUSED>(&system.lower[station], &outgoing, &mut carry);
             }
         }
         // Back from the bit: x_i = S_i^-1 r_i - S_i^-1 U_i x_{i+1}.
@@ -194,7 +198,7 @@ impl StationElimination {
                 let [gain @ .., x] = &self.reduced[slot];
                 let mut x = *x;
                 subtract_product::<REDUCED, 12, FUSED>(&mut x, gain, &below);
-                let upper = &system.upper[station].data.0;
+                let upper = &system.upper[station].pipe.data.0;
                 reduction.expand::<FUSED>(&system.diagonal.joint[slot].data.0, &x, upper, &below, rhs);
             } else {
                 let [gain @ .., x] = &self.joint[slot];
@@ -222,17 +226,13 @@ impl StationElimination {
 
 /// carry = lower * outgoing. Couplings do not mix pipe and guide.
 #[inline(always)]
-fn couple<const FUSED: bool>(
-    lower: &[[f64; 12]; 12],
-    outgoing: &[[f64; 12]; COLUMNS],
-    carry: &mut [[f64; 12]; COLUMNS],
-) {
+fn couple<const FUSED: bool>(lower: &Coupling, outgoing: &[[f64; 12]; COLUMNS], carry: &mut [[f64; 12]; COLUMNS]) {
     // Six rows fill up to a vector of eight; the minus sign makes the product a subtraction.
     let (mut pipe, mut guide) = ([[0.0; 8]; 6], [[0.0; 8]; 6]);
     for j in 0..6 {
         for i in 0..6 {
-            pipe[j][i] = -lower[j][i];
-            guide[j][i] = -lower[6 + j][6 + i];
+            pipe[j][i] = -lower.pipe.data.0[j][i];
+            guide[j][i] = -lower.guide.data.0[j][i];
         }
     }
     for c in 0..COLUMNS {

@@ -133,13 +133,20 @@ impl Reduction {
         }
     }
 
-    /// Reduced rows of a column of the coupling to the next station.
+    /// Reduced rows of a column of the pipe's coupling to the next station.
     #[inline(always)]
-    pub fn coupling(&self, column: &[f64; 12]) -> [f64; REDUCED] {
+    pub fn pipe_coupling(&self, column: &[f64; 6]) -> [f64; REDUCED] {
         let mut out = [0.0; REDUCED];
         out[U..ROTATIONS].copy_from_slice(&self.turned_back([column[0], column[1], column[2]]));
-        out[ROTATIONS..GUIDE].copy_from_slice(&column[3..6]);
-        out[GUIDE..GUIDE + 6].copy_from_slice(&column[6..]);
+        out[ROTATIONS..GUIDE].copy_from_slice(&column[3..]);
+        out
+    }
+
+    /// Reduced rows of a column of the guide's coupling.
+    #[inline(always)]
+    pub fn guide_coupling(&self, column: &[f64; 6]) -> [f64; REDUCED] {
+        let mut out = [0.0; REDUCED];
+        out[GUIDE..GUIDE + 6].copy_from_slice(column);
         out
     }
 
@@ -160,14 +167,14 @@ impl Reduction {
         }
     }
 
-    /// All 24 unknowns from the reduced ones, `x`, with the right-hand side `rhs` of the full station in the same place. `upper`
-    /// couples to the next station, whose unknowns are `below`.
+    /// All 24 unknowns from the reduced ones, `x`, with the right-hand side `rhs` of the full station in the same place. `upper` is
+    /// the pipe's coupling to the next station, whose unknowns are `below`.
     #[inline(always)]
     pub fn expand<const FUSED: bool>(
         &self,
         block: &Block,
         x: &[f64; REDUCED],
-        upper: &[[f64; 12]; 12],
+        upper: &[[f64; 6]; 6],
         below: &[f64; 12],
         rhs: &mut [f64],
     ) {

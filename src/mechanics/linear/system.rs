@@ -8,9 +8,52 @@ pub const PLAIN_BLOCK: usize = 12;
 /// (18..23), padding.
 pub const JOINT_BLOCK: usize = 24;
 
-/// Coupling of a station's outgoing nodes (rows or columns: pipe node towards the bit, guide) with the next station's first
-/// twelve.
-pub type Coupling = SMatrix<f64, 12, 12>;
+/// Coupling of a station's outgoing nodes with the same nodes of the next station. Pipe and guide meet inside stations only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coupling {
+    /// Pipe node towards the bit with the next pipe node.
+    pub pipe: SMatrix<f64, 6, 6>,
+    /// Guide nodes.
+    pub guide: SMatrix<f64, 6, 6>,
+}
+
+impl Coupling {
+    /// None.
+    pub fn zeros() -> Self {
+        Self {
+            pipe: SMatrix::zeros(),
+            guide: SMatrix::zeros(),
+        }
+    }
+
+    /// An entry of the 12 x 12 matrix over pipe and guide.
+    pub fn entry(&self, row: usize, column: usize) -> f64 {
+        match (row < 6, column < 6) {
+            (true, true) => self.pipe[(row, column)],
+            (false, false) => self.guide[(row - 6, column - 6)],
+            _ => 0.0,
+        }
+    }
+
+    /// The pipe's or the guide's part with the index in it, for index `k` of the twelve.
+    fn part(&mut self, k: usize) -> (&mut SMatrix<f64, 6, 6>, usize) {
+        if k < 6 {
+            (&mut self.pipe, k)
+        } else {
+            (&mut self.guide, k - 6)
+        }
+    }
+
+    fn clear_row(&mut self, row: usize) {
+        let (part, row) = self.part(row);
+        part.row_mut(row).fill(0.0);
+    }
+
+    fn clear_column(&mut self, column: usize) {
+        let (part, column) = self.part(column);
+        part.column_mut(column).fill(0.0);
+    }
+}
 
 /// Which stations are joints, and where each station's unknowns begin.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,8 +175,8 @@ impl BlockSystem {
     pub fn clear(&mut self) {
         self.diagonal.plain.iter_mut().for_each(|block| block.fill(0.0));
         self.diagonal.joint.iter_mut().for_each(|block| block.fill(0.0));
-        self.upper.iter_mut().for_each(|block| block.fill(0.0));
-        self.lower.iter_mut().for_each(|block| block.fill(0.0));
+        self.upper.fill(Coupling::zeros());
+        self.lower.fill(Coupling::zeros());
     }
 
     /// Takes another system's entries; the layouts must be the same.
@@ -216,14 +259,14 @@ impl BlockSystem {
             self.diagonal.plain[slot][(local, local)] = 1.0;
         }
         if station > 0 && local < 12 {
-            self.upper[station - 1].column_mut(local).fill(0.0);
-            self.lower[station - 1].row_mut(local).fill(0.0);
+            self.upper[station - 1].clear_column(local);
+            self.lower[station - 1].clear_row(local);
         }
         if station + 1 < self.layout.stations()
             && let Some(k) = (0..12).find(|&k| self.layout.outgoing(station, k) == local)
         {
-            self.upper[station].row_mut(k).fill(0.0);
-            self.lower[station].column_mut(k).fill(0.0);
+            self.upper[station].clear_row(k);
+            self.lower[station].clear_column(k);
         }
     }
 
@@ -254,8 +297,8 @@ impl BlockSystem {
                 for i in 0..12 {
                     let out = offset + layout.outgoing(station, i);
                     for j in 0..12 {
-                        visit(out, next + j, self.upper[station][(i, j)]);
-                        visit(next + j, out, self.lower[station][(j, i)]);
+                        visit(out, next + j, self.upper[station].entry(i, j));
+                        visit(next + j, out, self.lower[station].entry(j, i));
                     }
                 }
             }
@@ -269,7 +312,7 @@ impl BlockSystem {
     }
 }
 
-/// Adds a matrix times `factor` at (`first`, `first`) of a larger one, both given by columns.
+/// Adds a matrix times `factor` at (`first`, `first`) of one as large or larger, both given by columns.
 #[inline(always)]
 pub fn add_columns<const N: usize, const M: usize>(
     to: &mut [[f64; M]; M],
