@@ -226,7 +226,7 @@ pub struct Support {
     pub directions: Vec<Direction>,
 }
 
-/// How the weight on bit reaches the tool, `model.md` section 7.
+/// How the weight on bit reaches the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WobPath {

@@ -135,7 +135,7 @@ pub struct Case {
     pub run: fn() -> Result<Vec<Row>, VerifyError>,
 }
 
-/// All cases, in the order of `model.md` section 10's physics: statics, dynamics, joints, contact, integration.
+/// All cases, in the order of their physics: statics, dynamics, joints, contact, integration.
 pub const CASES: &[Case] = &[
     Case {
         name: "cantilever",
