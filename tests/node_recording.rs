@@ -1,6 +1,7 @@
-//! A live recording is finished on SIGTERM, and its replay gives the same bytes.
+//! A live recording is finished on SIGTERM, foreign programs read it, and its replay gives the same bytes.
 
 mod common;
+mod python_support;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,6 +29,22 @@ fn messages(path: &Path) -> BTreeMap<String, Vec<Vec<u8>>> {
         }
     }
     found
+}
+
+/// rosbags and mcap-ros2-support read all of it, with the hashes of our types, and find the same values.
+fn foreign_programs_read(recording: &Path) {
+    let folder = recording.parent().unwrap();
+    if let Some(printed) = python_support::run("bags.py", &["live", folder.to_str().unwrap()], "") {
+        let found: BTreeMap<String, usize> =
+            bag::open(recording)
+                .unwrap()
+                .fold(BTreeMap::new(), |mut found, message| {
+                    *found.entry(message.unwrap().topic.name.clone()).or_default() += 1;
+                    found
+                });
+        let total: usize = found.values().sum();
+        assert_eq!(printed.trim(), format!("topics {} messages {total}", found.len()));
+    }
 }
 
 #[test]
@@ -78,6 +95,7 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
     twin.signal("TERM");
     assert_eq!(twin.end(), Some(0));
     assert!(twin.said().contains("recorded"), "{}", twin.said());
+    foreign_programs_read(&live);
 
     let replay = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
         .args(["replay", live_text, "--out", again.to_str().unwrap()])

@@ -266,6 +266,15 @@ impl Peer {
         answer["messages"].as_array().unwrap().clone()
     }
 
+    /// Receives on these topics for some seconds; per topic `[stamp, written, received]` of each message (ns since 1970).
+    pub fn listen(&mut self, topics: &[&str], seconds: f64) -> Vec<Vec<[i64; 3]>> {
+        let answer = self.tell(json!({"do": "listen", "topics": topics, "seconds": seconds}));
+        topics
+            .iter()
+            .map(|topic| serde_json::from_value(answer["received"][topic].clone()).unwrap())
+            .collect()
+    }
+
     /// Publishes a Float64; a value that is not finite is written as text.
     pub fn send(&mut self, topic: &str, value: Value) {
         let value = json!({"data": value});

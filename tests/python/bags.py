@@ -1,12 +1,16 @@
 """Bags of flexdrill held against foreign programs: rosbags and mcap-ros2-support.
 
 bags.py check BAG    reads the recording that the Rust test has made, with both, and checks types, hashes and values
+bags.py live BAG     reads a recording that the node has made while it ran, with both, and holds one against the other
 bags.py write DIR    writes DIR/mcap and DIR/sqlite with rosbags, for the Rust test to read
 
 Ends with 77 when the packages are missing.
 """
 
+import dataclasses
+import math
 import sys
+from collections import defaultdict
 from pathlib import Path
 
 try:
@@ -84,6 +88,44 @@ def check(bag):
     print(f"messages {count}")
 
 
+def same(one, other):
+    """Whether the messages of both programs have the same values; `one` is of rosbags."""
+    if dataclasses.is_dataclass(one):
+        # rosbags lists constants too, which ROS writes in capitals.
+        names = [field.name for field in dataclasses.fields(one) if field.name.islower() and not field.name.startswith("__")]
+        return all(same(getattr(one, name), getattr(other, name)) for name in names)
+    if isinstance(one, str):
+        return one == other
+    if hasattr(one, "__len__"):
+        return len(one) == len(other) and all(same(a, b) for a, b in zip(one, other))
+    return one == other or (math.isnan(one) and math.isnan(other))
+
+
+def live(bag):
+    store = own_types()
+    by_topic, count = defaultdict(list), 0
+    with AnyReader([bag]) as reader:
+        for connection in reader.connections:
+            assert connection.digest == store.hash_rihs01(connection.msgtype), (connection.topic, connection.digest)
+        for connection, stamp, data in reader.messages():
+            message = reader.deserialize(data, connection.msgtype)
+            by_topic[connection.topic].append((stamp, connection.msgtype, message))
+            count += 1
+        assert count == reader.message_count
+    waiting = {topic: iter(messages) for topic, messages in by_topic.items()}
+    [file] = bag.glob("*.mcap")
+    again = 0
+    with file.open("rb") as stream:
+        reader = make_reader(stream, validate_crcs=True, decoder_factories=[DecoderFactory()])
+        for schema, channel, message, decoded in reader.iter_decoded_messages():
+            stamp, msgtype, expected = next(waiting[channel.topic])
+            assert (stamp, msgtype) == (message.log_time, schema.name), channel.topic
+            assert same(expected, decoded), (channel.topic, expected, decoded)
+            again += 1
+    assert again == count
+    print(f"topics {len(by_topic)} messages {count}")
+
+
 def write(folder):
     store = own_types()
     float64 = store.types["std_msgs/msg/Float64"]
@@ -106,7 +148,7 @@ def write(folder):
 
 def main():
     action, path = sys.argv[1:]
-    {"check": check, "write": write}[action](Path(path))
+    {"check": check, "live": live, "write": write}[action](Path(path))
 
 
 main()

@@ -1,6 +1,6 @@
 """A DDS program from another vendor (Cyclone DDS), told what to do by one JSON object per line on standard input.
 
-Answers one JSON object per line. Commands: subscribe, take, publish, call, matched, quit.
+Answers one JSON object per line. Commands: subscribe, take, listen, publish, call, matched, quit.
 """
 
 import json
@@ -8,7 +8,7 @@ import math
 import sys
 import time
 
-from cyclonedds.core import Policy, Qos
+from cyclonedds.core import InstanceState, Policy, Qos, ReadCondition, SampleState, ViewState, WaitSet
 from cyclonedds.domain import DomainParticipant
 from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
@@ -54,6 +54,30 @@ class Peer:
             if len(found) >= count or time.monotonic() >= deadline:
                 return {"messages": found}
             time.sleep(0.005)
+
+    def listen(self, topics, seconds):
+        """Per topic [stamp, written, received] of each message, in ns since 1970, as it arrives; takes what is old first.
+
+        `stamp` is the header's, `written` the sender's own time in DDS (0 when it does not tell), `received` is taken
+        when this program has the message decoded.
+        """
+        waitset, found = WaitSet(self.participant), {topic: [] for topic in topics}
+        conditions = {}
+        for topic in topics:
+            self.readers[topic].take(N=1000)
+            mask = ViewState.Any | InstanceState.Alive | SampleState.NotRead
+            conditions[topic] = ReadCondition(self.readers[topic], mask)
+            waitset.attach(conditions[topic])
+        deadline = time.monotonic() + seconds
+        while (left := deadline - time.monotonic()) > 0:
+            waitset.wait(duration(seconds=left))
+            for topic, condition in conditions.items():
+                while samples := self.readers[topic].take(condition=condition):
+                    received = time.time_ns()
+                    stamp = samples[0].header.stamp
+                    written = max(samples[0].sample_info.source_timestamp, 0)
+                    found[topic].append([stamp.sec * 10**9 + stamp.nanosec, written, received])
+        return {"received": found}
 
     def publish(self, topic, type, value, kind="reliable", wait=5.0):
         made = ros_types.make(type)
