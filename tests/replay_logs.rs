@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use flexdrill::messages::generated::{BitState, ContactForces, JointDeflections};
+use flexdrill::messages::{BitState, ContactForces, JointDeflections};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
