@@ -170,10 +170,10 @@ fn with_bit_torque_statistics_agree_and_energy_adds_up() {
     let (low, high) = ripples
         .iter()
         .fold((f64::MAX, f64::MIN), |(l, h), &r| (l.min(r), h.max(r)));
-    println!("ripple of the bit speed: {got:.4} rad/s against {ripples:.4?}");
     // Three draws are expected to span 1.7 standard deviations; the fourth is allowed three beyond.
     let margin = 2.0 * (high - low);
     let got = ripple(&fine);
+    println!("ripple of the bit speed: {got:.4} rad/s against {ripples:.4?}");
     assert!(
         got > low - margin && got < high + margin,
         "ripple {got} against {ripples:?}"

@@ -8,9 +8,9 @@ use super::checker::{Bound, Checker};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
-    /// s. Default 0.0005.
+    /// s. Default 0.00025.
     pub time_step: f64,
-    /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Default 0.6.
+    /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Default 0.55.
     pub gamma: f64,
     /// Most Newton iterations per sub-step. Default 15.
     pub max_iterations: u32,
@@ -21,8 +21,8 @@ pub struct Solver {
 impl Default for Solver {
     fn default() -> Self {
         Self {
-            time_step: 0.0005,
-            gamma: 0.6,
+            time_step: 0.00025,
+            gamma: 0.55,
             max_iterations: 15,
             max_halvings: 6,
         }
