@@ -70,13 +70,13 @@ impl Reduction {
             offset: [0.0; 3],
             recover: below,
         };
-        for i in 0..3 {
-            for j in 0..3 {
-                reduction.turn[j][i] = -scale * dot(&below[i], &above[j]);
-                reduction.recover[j][i] *= scale;
+        for (i, below) in below.iter().enumerate() {
+            for (turn, above) in reduction.turn.iter_mut().zip(&above) {
+                turn[i] = -scale * dot(below, above);
             }
-            reduction.offset[i] = scale * dot(&below[i], &r);
+            reduction.offset[i] = scale * dot(below, &r);
         }
+        reduction.recover.iter_mut().flatten().for_each(|x| *x *= scale);
         Some(reduction)
     }
 
@@ -162,9 +162,7 @@ impl Reduction {
     /// Adds c to the outgoing unknowns.
     #[inline(always)]
     pub fn add_offset(&self, outgoing: &mut [f64; 12]) {
-        for i in 0..3 {
-            outgoing[i] += self.offset[i];
-        }
+        outgoing.iter_mut().zip(&self.offset).for_each(|(x, c)| *x += c);
     }
 
     /// All 24 unknowns from the reduced ones, `x`, with the right-hand side `rhs` of the full station in the same place. `upper` is
