@@ -143,7 +143,10 @@ fn values_change_by_key_and_are_checked() {
         .into_iter()
         .find(|number| number.key == "solver.gamma")
         .unwrap();
-    assert_eq!((key.value, key.low, key.high, key.unit), (0.6, 0.5, 1.0, ""));
+    assert_eq!(
+        (key.value, key.low, key.high, key.unit),
+        (config.solver.gamma, 0.5, 1.0, "")
+    );
 }
 
 proptest! {
