@@ -2,6 +2,7 @@
 
 use flexdrill::config::Config;
 use flexdrill::mechanics::StepOutcome;
+use flexdrill::mechanics::phases::Phase;
 use flexdrill::twin::{BuildError, Inputs, Simulation, Snapshot};
 
 fn config() -> Config {
@@ -37,6 +38,21 @@ fn two_runs_are_equal_to_the_bit() {
     let (mut a, mut b) = (simulation(&config), simulation(&config));
     assert_eq!(run(&mut a, 2000), run(&mut b, 2000));
     assert_eq!(a.stepper().state(), b.stepper().state());
+}
+
+#[test]
+fn measuring_time_changes_nothing() {
+    let config = config();
+    let (mut timed, mut plain) = (simulation(&config), simulation(&config));
+    timed.set_clock(flexdrill::pacing::clock::now);
+    assert_eq!(run(&mut timed, 500), run(&mut plain, 500));
+    assert_eq!(timed.stepper().state(), plain.stepper().state());
+    assert_eq!(timed.checkpoint().unwrap(), plain.checkpoint().unwrap());
+    // And time was measured, in every phase.
+    for phase in Phase::ALL {
+        assert!(timed.phase_times().of(phase) > 0, "{}", phase.name());
+        assert_eq!(plain.phase_times().of(phase), 0);
+    }
 }
 
 #[test]

@@ -57,3 +57,25 @@ fn advance_and_snapshot_allocate_nothing() {
     drop(std::hint::black_box(vec![1_u8; 100]));
     assert_eq!(ALLOCATIONS.get() - before, 1);
 }
+
+#[test]
+fn steps_that_are_halved_or_fail_allocate_nothing() {
+    // Large steps and two corrections per sub-step: too few for a collision, so that steps are halved, and fail in the end.
+    let config = Config::load("config/coarse.yaml")
+        .and_then(|config| config.with_value("solver.time_step", 0.002))
+        .and_then(|config| config.with_value("solver.max_iterations", 2))
+        .and_then(|config| config.with_value("solver.max_halvings", 3))
+        .unwrap();
+    let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    simulation.set_clock(flexdrill::pacing::clock::now);
+    let inputs = Inputs {
+        rotary_speed: 4.19,
+        weight_on_bit: 10e3,
+    };
+    let before = ALLOCATIONS.get();
+    let failed = (0..500)
+        .filter(|_| matches!(simulation.advance(&inputs), StepOutcome::Failed(_)))
+        .count();
+    assert_eq!(ALLOCATIONS.get() - before, 0);
+    assert!(failed > 0 && simulation.stepper().counters().halved_steps > 0);
+}

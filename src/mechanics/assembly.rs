@@ -13,6 +13,7 @@ use super::gap::{GapMatrix, GapVector, Touch, regularised_sign};
 use super::joint::{Joint, JointMatrix, JointVector, Row, Stop};
 use super::linear::{BlockSystem, Diagonal, add_columns};
 use super::model::{Model, Station};
+use super::phases::{Phase, Stopwatch};
 use super::state::{State, joint_rotations, node, translation};
 
 /// Factors of the tangent k K + d C + m M: (1, gamma/(beta h), 1/(beta h^2)) in a Newmark step, Eq. 41; (0, 0, 1) to find
@@ -50,6 +51,8 @@ pub struct Assembler {
     pub joints: Vec<JointLinearisation>,
     /// Torque of the rock on the bit at the last residual (N m), against the rotation.
     pub bit_torque: f64,
+    /// Times what is done here and in the steps around it.
+    pub stopwatch: Stopwatch,
     /// d bit torque / d bit speed.
     bit_torque_slope: f64,
     /// Elastic, damping and inertia part of the tangent for `base_for`.
@@ -92,12 +95,14 @@ impl Assembler {
             outer: vec![None; model.stations.len()],
             joints,
             bit_torque: 0.0,
+            stopwatch: Stopwatch::default(),
             bit_torque_slope: 0.0,
         }
     }
 
     /// Evaluates the residual at `state`; entries of held, driven and padding unknowns are zero.
     pub fn residual(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        self.stopwatch.lap(Phase::Other);
         self.residual.fill(0.0);
         self.elements(model, state, conditions);
         for point in &model.masses {
@@ -107,7 +112,9 @@ impl Assembler {
                 self.residual[u] += point.mass * acceleration;
             }
         }
+        self.stopwatch.lap(Phase::Assembly);
         self.gaps(model, state, conditions);
+        self.stopwatch.lap(Phase::Contact);
         self.joint_forces(model, state);
         let bottom = &model.stations[model.last()];
         if let Some(tie) = model.tie {
@@ -252,7 +259,9 @@ impl Assembler {
             self.build_still(model, state, factors.stiffness);
             self.still_for = Some(factors);
         }
+        self.stopwatch.lap(Phase::Assembly);
         self.gap_tangent(model, factors);
+        self.stopwatch.lap(Phase::Contact);
         self.joint_tangent(model, state, factors);
         // The bit's node is the first of the last station's block.
         let spin = Direction::Psi as usize;

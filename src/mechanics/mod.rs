@@ -8,10 +8,11 @@
 //! | [`gap`] | Eq. 20 to 34, Table 2 |
 //! | [`conditions`] | Eq. 1, loads |
 //! | [`assembly`] | Eq. 35, 40 to 42 |
-//! | [`newmark`], [`newton`], [`stepper`] | Eq. 36 to 44 |
+//! | [`newmark`], [`newton`], [`stepper`], [`halving`] | Eq. 36 to 44 |
 //! | [`statics`] | the start |
 //! | [`energy`] | the audit |
 //! | [`linear`] | the solvers |
+//! | [`phases`] | where the time goes |
 
 pub mod assembly;
 pub mod beam;
@@ -20,6 +21,7 @@ pub mod description;
 pub mod element_force;
 pub mod energy;
 pub mod gap;
+pub mod halving;
 pub mod jet;
 pub mod joint;
 pub mod linear;
@@ -27,6 +29,7 @@ pub mod model;
 pub mod newmark;
 pub mod newton;
 mod outcome;
+pub mod phases;
 pub mod rotation;
 pub mod section;
 pub mod state;

@@ -7,6 +7,7 @@ use super::linear::LinearSolver;
 use super::model::Model;
 use super::newmark::Newmark;
 use super::outcome::{FailureCause, StepFailure};
+use super::phases::Phase;
 use super::rotation::LARGEST_TILT;
 use super::state::State;
 
@@ -177,7 +178,10 @@ impl Newton {
         for (c, r) in self.correction.iter_mut().zip(&self.assembler.residual) {
             *c = -r;
         }
-        self.solver.solve(&self.assembler.system, &mut self.correction)?;
+        self.assembler.stopwatch.lap(Phase::Assembly);
+        let solved = self.solver.solve(&self.assembler.system, &mut self.correction);
+        self.assembler.stopwatch.lap(Phase::Solve);
+        solved?;
         for (i, dq) in self.correction.iter().enumerate() {
             to.q[i] += dq;
             if !self.multiplier[i] {

@@ -7,11 +7,13 @@ use serde::{Deserialize, Serialize};
 use super::conditions::Conditions;
 use super::description::{Direction, LiveParameters, ToolDescription};
 use super::energy::EnergyPoint;
+use super::halving::{Halving, most_attempts};
 use super::linear::{LinearSolver, SparseReference, StationElimination};
 use super::model::{Model, ModelError};
 use super::newmark::Newmark;
 use super::newton::{Newton, Tolerances};
 use super::outcome::{EnergyAudit, StepFailure, StepOutcome};
+use super::phases::{Phase, Stopwatch};
 use super::state::State;
 
 /// Inputs over one step: both change linearly from its start to its end.
@@ -150,6 +152,16 @@ impl Stepper {
         &self.counters
     }
 
+    /// Most Newton corrections (each an assembly and a solution) that one [`Stepper::advance`] can make, whatever happens.
+    pub fn most_iterations(&self) -> u64 {
+        most_attempts(self.max_halvings) * u64::from(self.newton.tolerances.max_iterations)
+    }
+
+    /// Times the phases of [`Stepper::advance`] while it runs.
+    pub fn stopwatch(&mut self) -> &mut Stopwatch {
+        &mut self.newton.assembler.stopwatch
+    }
+
     /// Torque of the drive at the end of the last step (N m).
     pub fn drive_torque(&self) -> f64 {
         self.energy.drive_torque
@@ -244,24 +256,19 @@ impl Stepper {
         self.before_step.copy_from(&self.state);
         self.energy_before_step.copy_from(&self.energy);
         let audit_before = self.audit;
-        let whole = 1_u64 << self.max_halvings;
-        let (mut done, mut level, mut deepest, mut iterations) = (0_u64, 0_u32, 0_u32, 0_u32);
-        while done < whole {
-            let size = whole >> level;
-            match self.sub_step(h, forcing, done, size, whole) {
+        let mut way = Halving::new(self.max_halvings);
+        let mut iterations = 0;
+        while let Some(part) = way.part() {
+            match self.sub_step(h, forcing, part) {
                 Ok(made) => {
                     iterations += made;
-                    done += size;
-                    // Go back to the larger step as soon as the grid allows.
-                    if level > 0 && done.is_multiple_of(size * 2) {
-                        level -= 1;
-                    }
+                    way.accept();
                 }
                 Err((made, failure)) => {
                     iterations += made;
                     self.counters.rejected += 1;
                     self.counters.last_rejection = Some(failure);
-                    if level == self.max_halvings {
+                    if !way.reject() {
                         self.state.copy_from(&self.before_step);
                         self.energy.copy_from(&self.energy_before_step);
                         self.audit = audit_before;
@@ -269,11 +276,10 @@ impl Stepper {
                         self.counters.iterations += u64::from(iterations);
                         return StepOutcome::Failed(failure);
                     }
-                    level += 1;
-                    deepest = deepest.max(level);
                 }
             }
         }
+        let deepest = way.deepest();
         self.unwind();
         self.weight_on_bit = forcing.weight_on_bit[1];
         self.counters.iterations += u64::from(iterations);
@@ -285,17 +291,8 @@ impl Stepper {
         }
     }
 
-    /// The part of a step from `done / whole` to `(done + size) / whole`.
-    fn sub_step(
-        &mut self,
-        h: f64,
-        forcing: &Forcing,
-        done: u64,
-        size: u64,
-        whole: u64,
-    ) -> Result<u32, (u32, StepFailure)> {
-        let at = |part: u64| part as f64 / whole as f64;
-        let (from, to) = (at(done), at(done + size));
+    /// The sub-step between two parts (0 to 1) of a step of size `h`.
+    fn sub_step(&mut self, h: f64, forcing: &Forcing, (from, to): (f64, f64)) -> Result<u32, (u32, StepFailure)> {
         let time = self.before_step.time + h * to;
         let [load_0, load_1] = forcing.weight_on_bit;
         let mut conditions = self.conditions(time, load_0 + (load_1 - load_0) * to);
@@ -309,7 +306,9 @@ impl Stepper {
             &conditions,
             &self.state,
             &mut self.trial,
-        )?;
+        );
+        self.newton.assembler.stopwatch.lap(Phase::Assembly);
+        let made = made?;
         self.trial_energy
             .evaluate(&self.model, &self.trial, &conditions, &self.newton.assembler);
         self.audit.add_step(
@@ -319,6 +318,7 @@ impl Stepper {
             (&self.state, &self.energy),
             (&self.trial, &self.trial_energy),
         );
+        self.newton.assembler.stopwatch.lap(Phase::Energy);
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.energy, &mut self.trial_energy);
         self.state.update_axial(&self.model);

@@ -459,7 +459,8 @@ pub mod flexdrill {
         pub output_sent: Vec<u64>,
         /// Messages lost since the start.
         pub output_dropped: Vec<u64>,
-        /// Per phase of a step: its name.
+        /// Per phase of a step: its name. assembly, contact, solve, energy, analysis, snapshot and other make up the solver's time; publish is
+        /// that of encoding and sending, on another thread.
         pub phase_name: Vec<std::string::String>,
         /// Mean time per step in the last interval (s).
         pub phase_time: Vec<f64>,

@@ -6,6 +6,7 @@
 use super::schedule::Due;
 use super::{BuildError, Inputs, Schedule, Simulation, SimulationSettings, Snapshot};
 use crate::analysis::WhirlSettings;
+use crate::mechanics::phases::PhaseTimes;
 use crate::mechanics::{LiveParameters, StepOutcome};
 
 /// What drives the model from a step on.
@@ -66,6 +67,8 @@ pub trait Model {
     fn set_whirl(&mut self, whirl: &WhirlSettings);
     /// See [`Simulation::reset`].
     fn reset(&mut self);
+    /// See [`Simulation::phase_times`].
+    fn phase_times(&self) -> PhaseTimes;
     /// See [`Simulation::checkpoint`].
     fn checkpoint(&self) -> Result<Vec<u8>, BuildError>;
 }
@@ -100,6 +103,9 @@ impl Model for Simulation {
     }
     fn reset(&mut self) {
         self.reset();
+    }
+    fn phase_times(&self) -> PhaseTimes {
+        self.phase_times()
     }
     fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
         self.checkpoint()

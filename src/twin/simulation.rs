@@ -6,6 +6,7 @@ use super::observe::Observer;
 use super::snapshot::Applied;
 use super::{Snapshot, SolverCounters};
 use crate::analysis::{StickSlipSettings, WhirlSettings};
+use crate::mechanics::phases::{Clock, Phase, PhaseTimes};
 use crate::mechanics::{
     Body, Forcing, LiveParameters, ModelError, Newmark, SolverKind, StartError, State, StepOutcome, Stepper,
     StepperCheckpoint, Tolerances, ToolDescription,
@@ -143,7 +144,9 @@ impl Simulation {
                 towards(load, inputs.weight_on_bit, self.settings.weight_on_bit_slew * dt),
             ],
         };
+        self.stepper.stopwatch().start();
         let outcome = self.stepper.advance(dt, &forcing);
+        self.stepper.stopwatch().lap(Phase::Other);
         if let StepOutcome::Advanced { iterations, .. } = outcome {
             self.step += 1;
             self.applied = Applied {
@@ -155,6 +158,7 @@ impl Simulation {
             self.observer
                 .after_step(&self.stepper, &self.applied, self.step, dt, iterations);
         }
+        self.stepper.stopwatch().stop(Phase::Analysis);
         outcome
     }
 
@@ -168,10 +172,12 @@ impl Simulation {
     /// Fills `out` without allocating. With `end_interval`, the peak and root-mean-square statistics of the contact forces and
     /// bit accelerations start anew.
     pub fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
+        self.stepper.stopwatch().start();
         self.fill(out);
         if end_interval {
             self.observer.end_interval();
         }
+        self.stepper.stopwatch().stop(Phase::Snapshot);
     }
 
     fn fill(&self, out: &mut Snapshot) {
@@ -211,6 +217,16 @@ impl Simulation {
     /// Replaces the thresholds of the whirl analysis. They change what is said of the motion, not the motion.
     pub fn set_whirl(&mut self, whirl: &WhirlSettings) {
         self.observer.set_whirl(whirl);
+    }
+
+    /// Measures with `clock` from now on where the time goes. It changes nothing else.
+    pub fn set_clock(&mut self, clock: Clock) {
+        self.stepper.stopwatch().set_clock(Some(clock));
+    }
+
+    /// Time per phase since [`Simulation::set_clock`]; zeros without. Resets and checkpoints leave it alone.
+    pub fn phase_times(&self) -> PhaseTimes {
+        self.stepper.newton().assembler.stopwatch.times()
     }
 
     /// Steps taken.

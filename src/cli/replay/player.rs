@@ -11,6 +11,7 @@ use crate::mechanics::{StepFailure, StepOutcome};
 use crate::messages::CdrError;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
+use crate::pacing::clock;
 use crate::ros::health::diagnostics::describe;
 use crate::twin::{Frame, Run, RunInputs, Simulation};
 
@@ -56,7 +57,8 @@ impl Player {
             .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
             .collect();
         let recorder = Recorder::create(out, &recorded)?;
-        let simulation = Simulation::new(&config.tool(), &config.simulation())?;
+        let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
+        simulation.set_clock(clock::now);
         let run = Run::new(simulation, schedule(&config));
         let mut player = Self {
             frame: run.new_frame(),
@@ -149,13 +151,16 @@ impl Player {
         self.run.capture(&mut self.frame);
         self.tally.take(&self.frame.snapshot);
         let (recorder, topics) = (&mut self.recorder, &self.topics);
+        let began = clock::now();
         self.outputs
             .frame(&self.frame, |encoded| write(recorder, topics, encoded))?;
+        self.tally.publishing(clock::now().saturating_sub(began));
         Ok(())
     }
 
     /// Ends the bag.
-    pub(super) fn finish(self) -> anyhow::Result<(Recording, Tally)> {
+    pub(super) fn finish(mut self) -> anyhow::Result<(Recording, Tally)> {
+        self.tally.phases(self.run.simulation().phase_times());
         let recording = self.recorder.finish().context("the bag could not be finished")?;
         Ok((recording, self.tally))
     }

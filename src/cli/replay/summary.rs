@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::mechanics::phases::{Phase, PhaseTimes};
 use crate::twin::Snapshot;
 
 /// The largest value of something and where and when it was.
@@ -40,6 +41,9 @@ pub(super) struct Tally {
     guide_wall: Peak,
     joints_at_limit: usize,
     last: Option<Last>,
+    phases: PhaseTimes,
+    /// Encoding and writing messages (ns).
+    publish: u64,
 }
 
 #[derive(Debug)]
@@ -57,6 +61,16 @@ impl Tally {
         if halvings > 0 {
             *self.halvings.entry(halvings).or_default() += 1;
         }
+    }
+
+    /// Adds time that went into messages (ns).
+    pub(super) fn publishing(&mut self, time: u64) {
+        self.publish += time;
+    }
+
+    /// Where the model's time went.
+    pub(super) fn phases(&mut self, times: PhaseTimes) {
+        self.phases = times;
     }
 
     pub(super) fn take(&mut self, snapshot: &Snapshot) {
@@ -102,6 +116,9 @@ impl Tally {
                 "Newton iterations",
                 format!("{:.2} per step", self.iterations as f64 / self.steps as f64),
             );
+        }
+        if self.steps > 0 {
+            row("time per step", self.time_per_step());
         }
         let split: u64 = self.halvings.values().sum();
         let deepest = self.halvings.keys().next_back().copied().unwrap_or_default();
@@ -152,5 +169,20 @@ impl Tally {
             row("rejected sub-steps", last.rejected.to_string());
             row("whirl warnings", format!("{} changes of level", last.warnings));
         }
+    }
+    /// Mean per step and phase.
+    fn time_per_step(&self) -> String {
+        let micros = |time: u64| time as f64 * 1e-3 / self.steps as f64;
+        let phases = Phase::ALL.map(|phase| (phase.name(), self.phases.of(phase)));
+        let parts: Vec<String> = phases
+            .into_iter()
+            .chain([("publish", self.publish)])
+            .map(|(name, time)| format!("{name} {:.1}", micros(time)))
+            .collect();
+        format!(
+            "{:.1} us: {}",
+            micros(self.phases.total() + self.publish),
+            parts.join(", ")
+        )
     }
 }

@@ -4,6 +4,7 @@ use std::sync::atomic::Ordering;
 
 use super::meters::StepTimes;
 use crate::inputs::{Door, InputKind};
+use crate::mechanics::phases::{Phase as StepPhase, PhaseTimes};
 use crate::mechanics::{EnergyAudit, FailureCause, StepFailure};
 use crate::messages::TwinStatus;
 use crate::messages::std_msgs::Header;
@@ -27,6 +28,10 @@ pub struct StatusKeeper {
     counters: SolverCounters,
     /// At the message before.
     counters_before: (SolverCounters, u64),
+    /// Time per phase and steps taken at the message before.
+    phases_before: (PhaseTimes, u64),
+    /// Encoding and sending frames since the message before (ns).
+    publishing: u64,
     energy: EnergyAudit,
     depths: Vec<f64>,
     counters_step: u64,
@@ -65,6 +70,8 @@ impl StatusKeeper {
             config_hash,
             counters: SolverCounters::default(),
             counters_before: Default::default(),
+            phases_before: Default::default(),
+            publishing: 0,
             energy: EnergyAudit::default(),
             depths: Vec::new(),
             counters_step: 0,
@@ -88,6 +95,11 @@ impl StatusKeeper {
         if self.depths.len() != snapshot.contacts.measured_depth.len() {
             self.depths.clone_from(&snapshot.contacts.measured_depth);
         }
+    }
+
+    /// Adds time that went into encoding and sending a frame (ns), on the publisher's thread.
+    pub fn add_publishing(&mut self, time: u64) {
+        self.publishing += time;
     }
 
     /// A step failed, after which there are no snapshots.
@@ -155,9 +167,23 @@ impl StatusKeeper {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             ..TwinStatus::default()
         };
+        self.tell_phases(&mut status, gauges);
         self.tell_inputs(&mut status, sources);
         tell_outputs(&mut status, sources);
         status
+    }
+
+    fn tell_phases(&mut self, status: &mut TwinStatus, gauges: &Gauges) {
+        let now = (gauges.phase_times(), gauges.steps_taken.load(Ordering::Relaxed));
+        let (before, steps_before) = std::mem::replace(&mut self.phases_before, now);
+        let times = now.0.since(&before);
+        let steps = now.1.saturating_sub(steps_before).max(1) as f64;
+        let published = ("publish", std::mem::take(&mut self.publishing));
+        let phases = StepPhase::ALL.map(|phase| (phase.name(), times.of(phase)));
+        for (name, time) in phases.into_iter().chain([published]) {
+            status.phase_name.push(name.to_owned());
+            status.phase_time.push(time as f64 * 1e-9 / steps);
+        }
     }
 
     fn tell_inputs(&self, status: &mut TwinStatus, sources: &Sources<'_>) {

@@ -266,6 +266,7 @@ fn build(config: &Config, checkpoint: Option<&[u8]>) -> Result<Run, BuildError> 
     if let Some(bytes) = checkpoint {
         simulation.restore(bytes)?;
     }
+    simulation.set_clock(clock::now);
     tracing::info!(
         "the tool is at its start after {:.1} s; model time runs",
         began.elapsed().as_secs_f64()

@@ -156,10 +156,12 @@ impl Publisher {
                 self.status.take(&frame.snapshot);
                 self.evidence.whirl = frame.snapshot.warning;
                 let parts = &self.parts;
+                let began = clock::now();
                 let sent = self
                     .outputs
                     .as_mut()
                     .map_or(Ok(()), |outputs| outputs.frame(&frame, |encoded| parts.send(encoded)));
+                self.status.add_publishing(clock::now().saturating_sub(began));
                 // There is room: no more frames are in circulation than the ring holds.
                 let _ = self.parts.end.empty.push(frame);
                 sent

@@ -7,6 +7,7 @@ use std::sync::mpsc::SyncSender;
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use crate::analysis::WhirlSettings;
+use crate::mechanics::phases::{self, PhaseTimes};
 use crate::mechanics::{LiveParameters, StepFailure};
 use crate::twin::{BuildError, Frame, Inputs, RunInputs, Schedule};
 
@@ -97,6 +98,8 @@ pub struct Gauges {
     pub frames_dropped: AtomicU64,
     /// Reports that found no room: a recording of this run cannot be replayed exactly.
     pub reports_lost: AtomicU64,
+    /// Time per phase of the steps taken so far (ns).
+    phase_times: [AtomicU64; phases::Phase::ALL.len()],
     /// Tells the solver's thread to end.
     pub stop: AtomicBool,
 }
@@ -109,6 +112,17 @@ impl Gauges {
             2 => Phase::Paused,
             3 => Phase::Failed,
             _ => Phase::Starting,
+        }
+    }
+
+    /// Time per phase of the steps taken so far. Each is a cell of its own, so that they may be a period apart.
+    pub fn phase_times(&self) -> PhaseTimes {
+        PhaseTimes::from_nanoseconds(|phase| self.phase_times[phase as usize].load(Ordering::Relaxed))
+    }
+
+    pub(super) fn set_phase_times(&self, times: &PhaseTimes) {
+        for phase in phases::Phase::ALL {
+            self.phase_times[phase as usize].store(times.of(phase), Ordering::Relaxed);
         }
     }
 

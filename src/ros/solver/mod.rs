@@ -264,6 +264,7 @@ impl<C: Clock, M: Model> Solver<C, M> {
             .steps_skipped
             .store(self.run.applied().skipped, Ordering::Relaxed);
         gauges.ticks.store(self.run.ticks(), Ordering::Relaxed);
+        gauges.set_phase_times(&self.run.simulation().phase_times());
         gauges.set_phase(match (self.paused, self.failed) {
             (true, _) => Phase::Paused,
             (_, true) => Phase::Failed,

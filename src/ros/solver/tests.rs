@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::Solver;
 use super::clock::Clock;
 use super::link::{Command, Gauges, Phase, PublisherEnd, Report, Targets, link};
+use crate::mechanics::phases::PhaseTimes;
 use crate::mechanics::{Body, FailureCause, LiveParameters, StepFailure, StepOutcome};
 use crate::twin::{BuildError, Inputs, Model, Run, RunInputs, Schedule, SimulationSettings, Snapshot};
 
@@ -62,6 +63,9 @@ impl Model for ScriptedModel {
     fn set_whirl(&mut self, _whirl: &crate::analysis::WhirlSettings) {}
     fn reset(&mut self) {
         self.step = 0;
+    }
+    fn phase_times(&self) -> PhaseTimes {
+        PhaseTimes::from_nanoseconds(|phase| self.step * (3 + phase as u64))
     }
     fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
         Ok(vec![self.step as u8])
@@ -217,6 +221,11 @@ fn in_time_it_shows_what_is_due_and_tells_inputs_once() {
     bench.speed(3.0);
     bench.period(0);
     assert_eq!(bench.reports(), ["applied 3 at 20 skipped 0"]);
+    // As the scripted model has it after 25 steps.
+    assert_eq!(
+        bench.gauges.phase_times(),
+        PhaseTimes::from_nanoseconds(|phase| 25 * (3 + phase as u64))
+    );
     assert_eq!(bench.gauges.phase(), Phase::Running);
     assert_eq!(bench.gauges.steps_skipped.load(Ordering::Relaxed), 0);
 }

@@ -1,0 +1,124 @@
+//! How a step is cut into sub-steps: halved where one does not converge, doubled again as soon as its grid allows.
+
+/// The way through one step, in units of the smallest sub-step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Halving {
+    whole: u64,
+    most: u32,
+    done: u64,
+    level: u32,
+    deepest: u32,
+}
+
+impl Halving {
+    /// At the beginning of a step that may be halved `most` times.
+    pub fn new(most: u32) -> Self {
+        Self {
+            whole: 1 << most,
+            most,
+            done: 0,
+            level: 0,
+            deepest: 0,
+        }
+    }
+
+    /// The next sub-step: parts of the step behind it at its start and at its end (0 to 1, exact); `None` at the step's end.
+    pub fn part(&self) -> Option<(f64, f64)> {
+        let at = |part: u64| part as f64 / self.whole as f64;
+        (self.done < self.whole).then(|| (at(self.done), at(self.done + self.size())))
+    }
+
+    /// The sub-step was taken.
+    pub fn accept(&mut self) {
+        self.done += self.size();
+        if self.level > 0 && self.done.is_multiple_of(self.size() * 2) {
+            self.level -= 1;
+        }
+    }
+
+    /// The sub-step was rejected; `false` if it was the smallest one already.
+    pub fn reject(&mut self) -> bool {
+        if self.level == self.most {
+            return false;
+        }
+        self.level += 1;
+        self.deepest = self.deepest.max(self.level);
+        true
+    }
+
+    /// Deepest split so far.
+    pub fn deepest(&self) -> u32 {
+        self.deepest
+    }
+
+    fn size(&self) -> u64 {
+        self.whole >> self.level
+    }
+}
+
+/// Most sub-steps that a step with n = `max_halvings` attempts, taken and rejected ones together: 3 x 2^(n-1) + n - 1, and 1 without
+/// halving. Every second smallest sub-step is taken, the steps between them are all tried in vain; as the size grows by one level at a
+/// time, not all of the larger ones are tried again, which would be 2^(n+1) - 1.
+pub const fn most_attempts(max_halvings: u32) -> u64 {
+    match max_halvings {
+        0 => 1,
+        n => 3 * (1 << (n - 1)) + n as u64 - 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::*;
+
+    /// Most attempts from here on, whatever is accepted or rejected.
+    fn worst(way: Halving, known: &mut HashMap<(u64, u32), u64>) -> u64 {
+        if way.part().is_none() {
+            return 0;
+        }
+        let key = (way.done, way.level);
+        if let Some(&worst) = known.get(&key) {
+            return worst;
+        }
+        let (mut accepted, mut rejected) = (way, way);
+        accepted.accept();
+        let after_accept = worst(accepted, known);
+        let after_reject = if rejected.reject() { worst(rejected, known) } else { 0 };
+        known.insert(key, 1 + after_accept.max(after_reject));
+        known[&key]
+    }
+
+    #[test]
+    fn the_bound_is_the_worst_of_all_ways_through_a_step() {
+        for most in 0..=12 {
+            assert_eq!(
+                worst(Halving::new(most), &mut HashMap::new()),
+                most_attempts(most),
+                "{most}"
+            );
+        }
+        assert_eq!(most_attempts(6), 101);
+    }
+
+    #[test]
+    fn a_step_without_trouble_is_taken_whole() {
+        let mut way = Halving::new(6);
+        assert_eq!(way.part(), Some((0.0, 1.0)));
+        way.accept();
+        assert_eq!((way.part(), way.deepest()), (None, 0));
+    }
+
+    #[test]
+    fn the_size_grows_again_on_its_own_grid() {
+        let mut way = Halving::new(2);
+        assert!(way.reject() && way.reject() && !way.reject());
+        assert_eq!(way.part(), Some((0.0, 0.25)));
+        way.accept();
+        assert_eq!(way.part(), Some((0.25, 0.5)));
+        way.accept();
+        assert_eq!(way.part(), Some((0.5, 1.0)));
+        way.accept();
+        assert_eq!((way.part(), way.deepest()), (None, 2));
+    }
+}
