@@ -1,6 +1,10 @@
-//! Every path of the station elimination gives what the sparse reference gives, on random systems with joints of every kind.
+//! Every path of the station elimination and of the condensed one gives what the sparse reference gives, on random systems with joints
+//! of every kind.
 
-use flexdrill::mechanics::linear::{BlockSystem, Layout, LinearSolver, SparseReference, StationElimination};
+use flexdrill::mechanics::linear::{
+    BlockSystem, Changes, CondensedElimination, Layout, LinearSolver, Operator, SparseReference, StationElimination,
+    Touching,
+};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// Deterministic values in -1..1.
@@ -166,5 +170,144 @@ fn blocks_without_a_diagonal() {
             }
         }
         compare(&system, seed + 300);
+    }
+}
+
+/// Makes a system of [`system`] one that lasts: no rotational rows, and each body coupled with itself only. What couples bodies belongs
+/// to what an iteration adds.
+fn lasting(joints: &[Option<Joint>], places: &[usize], seed: u64) -> BlockSystem {
+    let mut system = system(joints, seed);
+    for station in 0..joints.len() {
+        let nodes = if places.contains(&station) { 18 } else { 12 };
+        for row in 0..nodes {
+            for column in 0..nodes {
+                if row / 6 != column / 6 {
+                    *system.entry(station, row, column) = 0.0;
+                }
+            }
+        }
+    }
+    for &station in places {
+        for k in [3, 4, 5, 15, 16, 17] {
+            *system.entry(station, 21, k) = 0.0;
+            *system.entry(station, k, 21) = 0.0;
+        }
+    }
+    system
+}
+
+/// Random contacts and joints: per station nothing, the guide or both, as `touching` says.
+fn changes(layout: &Layout, joints: &[usize], touching: &[Touching], held: &[usize], seed: u64) -> Changes {
+    let mut random = Random(seed);
+    let mut changes = Changes::new(layout, joints.len(), 1, held.iter().copied());
+    changes.touching.copy_from_slice(touching);
+    for (block, touching) in changes.contact.iter_mut().zip(touching) {
+        let first = match touching {
+            // What a block holds where nothing touches must not matter.
+            Touching::Nothing => {
+                *block = [[1e9; 12]; 12];
+                continue;
+            }
+            Touching::Guide => 6,
+            Touching::Both => 0,
+        };
+        *block = [[0.0; 12]; 12];
+        for column in &mut block[first..] {
+            column[first..].iter_mut().for_each(|x| *x = random.next());
+        }
+    }
+    for joint in &mut changes.joints {
+        joint.rotations.iter_mut().flatten().for_each(|x| *x = random.next());
+        for k in 0..6 {
+            joint.rows[0][k] = random.next() + if k % 3 == 0 { 3.0 } else { 0.0 };
+        }
+    }
+    changes.drop_held();
+    changes
+}
+
+#[test]
+fn condensed_links() {
+    use Joint::{OneRow, Tie};
+    use Touching::{Both, Guide, Nothing};
+    let one = Some(OneRow);
+    let plain: [Option<Joint>; 3] = [None; 3];
+    // Top, three inner stations per link, joints; free, or tied at the bottom; two joints next to each other; no joint at all.
+    let link = |end| [plain.as_slice(), &[end]].concat();
+    let free = [vec![None], link(one), link(one), link(one), link(None)].concat();
+    let tied = [vec![None], link(one), link(one), link(one), link(Some(Tie))].concat();
+    let dense = vec![None, one, one, None, one, None, None, None, None, None, one, None];
+    for (joints, held) in [
+        (free.clone(), vec![]),
+        // A support inside a link, the guide's at a joint, and at both ends.
+        (free, vec![(2, 1), (4, 7), (0, 0), (0, 3), (16, 1), (16, 8)]),
+        (tied, vec![(0, 0)]),
+        (dense, vec![]),
+        (vec![None; 5], vec![]),
+    ] {
+        let places: Vec<usize> = (0..joints.len()).filter(|&s| joints[s] == one).collect();
+        let mut counted = [0; 3];
+        for seed in 0..20 {
+            let mut lasting = lasting(&joints, &places, seed);
+            let unknowns: Vec<usize> = held.iter().map(|&(s, k)| lasting.layout().offset(s) + k).collect();
+            unknowns.iter().for_each(|&unknown| lasting.hold(unknown));
+            let mut random = Random(seed + 500);
+            let touching: Vec<Touching> = joints
+                .iter()
+                .map(|_| match random.next() {
+                    x if x < 0.2 => Nothing,
+                    x if x < 0.85 => Guide,
+                    _ => Both,
+                })
+                .collect();
+            let changes = changes(lasting.layout(), &places, &touching, &unknowns, seed + 600);
+            let mut full = lasting.clone();
+            changes.add_to(&mut full);
+            let rhs: Vec<f64> = (0..full.layout().unknowns()).map(|_| random.next()).collect();
+            let mut expected = rhs.clone();
+            SparseReference::default().solve(&full, &mut expected).unwrap();
+            let scale = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let operator = Operator::of(lasting.clone(), &places).unwrap();
+            for (name, mut solver) in CondensedElimination::all_paths(lasting.layout(), &places) {
+                let mut x = rhs.clone();
+                solver.solve(&operator, &changes, &mut x).unwrap();
+                for (i, (x, expected)) in x.iter().zip(&expected).enumerate() {
+                    // As for the other paths.
+                    assert!(
+                        (x - expected).abs() < 1e-9 * scale,
+                        "{name}, seed {seed}: x[{i}] = {x} against {expected}"
+                    );
+                }
+                let mut again = rhs.clone();
+                solver.solve(&operator, &changes, &mut again).unwrap();
+                assert!(x == again, "{name} gave different bits");
+                counted
+                    .iter_mut()
+                    .zip(solver.span_counts())
+                    .for_each(|(sum, n)| *sum += n);
+            }
+        }
+        assert!(counted[1] > 0 && counted[2] > 0, "spans of one kind only: {counted:?}");
+    }
+}
+
+#[test]
+fn what_does_not_have_the_form_is_not_condensed() {
+    use Joint::{OneRow, TwoRows};
+    let hinges = lasting(&[None, None, Some(TwoRows), None, None], &[2], 1);
+    assert!(Operator::of(hinges, &[2]).is_none());
+    let made = || lasting(&[None, None, Some(OneRow), None, None], &[2], 1);
+    assert!(Operator::of(made(), &[2]).is_some());
+    let mut held = made();
+    held.hold(held.layout().offset(2) + 13);
+    assert!(Operator::of(held, &[2]).is_none());
+    // Pipe and guide coupled by what is said to last: inside a link, and at the start below a joint.
+    for (station, row, column) in [(1, 2, 8), (1, 8, 2), (2, 13, 7), (2, 7, 16)] {
+        let mut coupled = made();
+        coupled.add(station, row, column, 1.0);
+        assert!(
+            Operator::of(coupled, &[2]).is_none(),
+            "entry {row}, {column} of station {station}"
+        );
     }
 }

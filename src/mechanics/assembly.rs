@@ -11,7 +11,7 @@ use super::description::Direction;
 use super::element_force::{Ends, ends, plus};
 use super::gap::{GapMatrix, GapVector, Touch, regularised_sign};
 use super::joint::{Joint, JointMatrix, JointVector, Row, Stop};
-use super::linear::{BlockSystem, Diagonal, add_columns};
+use super::linear::{BlockSystem, Changes, Diagonal, Touching, add_columns};
 use super::model::{Model, Station};
 use super::phases::{Phase, Stopwatch};
 use super::state::{State, joint_rotations, node, translation};
@@ -66,6 +66,8 @@ pub struct Assembler {
     guide_axial: Vec<f64>,
     /// Stations whose block in `system` differs from `still`.
     changed: Vec<bool>,
+    /// What contacts, joints and the bit add.
+    pub changes: Changes,
 }
 
 impl Assembler {
@@ -90,6 +92,12 @@ impl Assembler {
             pipe_axial: vec![0.0; model.pipe.len()],
             guide_axial: vec![0.0; model.guide.len()],
             changed: vec![false; model.stations.len()],
+            changes: Changes::new(
+                &model.layout,
+                model.joints.len(),
+                Joint::rotational_rows(model.description.joint.kind),
+                model.held.iter().chain(&model.driven).copied(),
+            ),
             system,
             inner: vec![None; model.stations.len()],
             outer: vec![None; model.stations.len()],
@@ -260,19 +268,45 @@ impl Assembler {
             self.still_for = Some(factors);
         }
         self.stopwatch.lap(Phase::Assembly);
-        self.gap_tangent(model, factors);
-        self.stopwatch.lap(Phase::Contact);
-        self.joint_tangent(model, state, factors);
-        // The bit's node is the first of the last station's block.
-        let spin = Direction::Psi as usize;
-        self.system
-            .add(model.last(), spin, spin, factors.damping * self.bit_torque_slope);
-        self.changed[model.last()] = true;
+        self.linearise(model, state, factors);
+        self.changes.add_to(&mut self.system);
+        for (s, station) in model.stations.iter().enumerate() {
+            self.changed[s] = station.joint.is_some() || self.changes.touching[s] != Touching::Nothing;
+        }
         for &unknown in model.held.iter().chain(&model.driven) {
             if self.changed[model.layout.station_of(unknown)] {
                 self.system.hold(unknown);
             }
         }
+    }
+
+    /// The part of the tangent that lasts as long as step size and damping do: elastic, damping and inertia terms and the joints'
+    /// translational rows, with supports. Geometric stiffness is left out.
+    pub fn lasting(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) -> BlockSystem {
+        self.base_for = None;
+        self.build_base(model, conditions, factors);
+        let mut system = self.base.clone();
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            system.hold(unknown);
+        }
+        system
+    }
+
+    /// What contacts, joints and the bit add to the tangent: fills [`Assembler::changes`] from the parts linearised by the last
+    /// [`Assembler::residual`] at `state`.
+    pub fn linearise(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+        self.gap_tangent(model, factors);
+        self.stopwatch.lap(Phase::Contact);
+        self.joint_tangent(model, state, factors);
+        // The bit's node is the first of the last station's block.
+        let (last, spin) = (model.last(), Direction::Psi as usize);
+        if self.changes.touching[last] == Touching::Nothing {
+            self.changes.contact[last] = [[0.0; 12]; 12];
+        }
+        self.changes.touching[last] = Touching::Both;
+        self.changes.contact[last][spin][spin] += factors.damping * self.bit_torque_slope;
+        self.changes.drop_held();
+        self.stopwatch.lap(Phase::Assembly);
     }
 
     fn build_base(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
@@ -340,45 +374,47 @@ impl Assembler {
 
     fn gap_tangent(&mut self, model: &Model, factors: TangentFactors) {
         for (s, station) in model.stations.iter().enumerate() {
-            self.changed[s] |= self.inner[s].is_some() || self.outer[s].is_some();
+            self.changes.touching[s] = match (&self.inner[s], &self.outer[s]) {
+                (None, None) => Touching::Nothing,
+                (None, Some(_)) => Touching::Guide,
+                (Some(_), _) => Touching::Both,
+            };
+            if self.changes.touching[s] == Touching::Nothing {
+                continue;
+            }
+            let block = &mut self.changes.contact[s];
+            *block = [[0.0; 12]; 12];
             if let Some(touch) = &self.inner[s] {
                 let local = -(touch.by_displacement * factors.stiffness + touch.by_velocity * factors.damping);
                 let (pp, pg, gp, gg) = inner_tangent(model, station, &local);
-                self.system.add_block(s, 0, 0, &pp);
-                self.system.add_block(s, 0, 6, &pg);
-                self.system.add_block(s, 6, 0, &gp);
-                self.system.add_block(s, 6, 6, &gg);
+                for j in 0..6 {
+                    for i in 0..6 {
+                        block[j][i] = pp[(i, j)];
+                        block[j][6 + i] = gp[(i, j)];
+                        block[6 + j][i] = pg[(i, j)];
+                        block[6 + j][6 + i] = gg[(i, j)];
+                    }
+                }
             }
             if let Some(touch) = &self.outer[s] {
                 let local = -(touch.by_displacement * factors.stiffness + touch.by_velocity * factors.damping);
-                self.system
-                    .add_block(s, 6, 6, &scaled(&local, model.guide_radii[1], model.guide_radii[1]));
+                let gg = scaled(&local, model.guide_radii[1], model.guide_radii[1]);
+                add_columns(block, 6, &gg.data.0, 1.0);
             }
         }
     }
 
     fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
         for (j, joint) in model.joints.iter().enumerate() {
-            let (station, first) = (model.joint_stations[j], model.multipliers(j));
+            let first = model.multipliers(j);
             let JointLinearisation { rows, stop } = &self.joints[j];
-            self.changed[station] = true;
+            let change = &mut self.changes.joints[j];
             let mut m: JointMatrix = stop.stiffness * factors.stiffness + stop.damping * factors.damping;
             for (r, row) in rows.iter().take(Joint::rotational_rows(joint.kind)).enumerate() {
                 m += row.hessian * (factors.stiffness * model.moment_scale * state.q[first + 3 + r]);
-                let gradient = row.gradient * model.moment_scale;
-                for k in 0..3 {
-                    for (side, g) in [(3, gradient[k]), (15, gradient[3 + k])] {
-                        self.system.add(station, 21 + r, side + k, g);
-                        self.system.add(station, side + k, 21 + r, g);
-                    }
-                }
+                change.rows[r] = (row.gradient * model.moment_scale).data.0[0];
             }
-            for (i, row) in [3, 15].into_iter().enumerate() {
-                for (k, column) in [3, 15].into_iter().enumerate() {
-                    let part = m.fixed_view::<3, 3>(3 * i, 3 * k).into_owned();
-                    self.system.add_block(station, row, column, &part);
-                }
-            }
+            change.rotations = m.data.0;
         }
     }
 }

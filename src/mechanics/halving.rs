@@ -46,6 +46,11 @@ impl Halving {
         true
     }
 
+    /// Whether the whole step is being tried.
+    pub fn is_whole(&self) -> bool {
+        self.done == 0 && self.level == 0
+    }
+
     /// Deepest split so far.
     pub fn deepest(&self) -> u32 {
         self.deepest

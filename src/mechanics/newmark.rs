@@ -45,10 +45,15 @@ impl Newmark {
 
     /// Predicts `state` a step on, unknown by unknown, with the acceleration fading to zero.
     pub fn predict(&self, h: f64, from: &State, to: &mut State) {
-        for i in 0..from.q.len() {
-            let dq = self.displacement(h, from.v[i], from.a[i], 0.0);
-            to.q[i] = from.q[i] + dq;
-            (to.v[i], to.a[i]) = self.rates(h, dq, from.v[i], from.a[i]);
+        let n = from.q.len();
+        let (q0, v0, a0) = (&from.q[..n], &from.v[..n], &from.a[..n]);
+        let (q, v, a) = (&mut to.q[..n], &mut to.v[..n], &mut to.a[..n]);
+        let (by_v, by_a) = (h, h * h * (0.5 - self.beta));
+        let rate = h * (1.0 - self.gamma);
+        for i in 0..n {
+            q[i] = q0[i] + (by_v * v0[i] + by_a * a0[i]);
+            v[i] = v0[i] + rate * a0[i];
+            a[i] = 0.0;
         }
     }
 }

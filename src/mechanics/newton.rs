@@ -3,7 +3,7 @@
 use super::assembly::{Assembler, TangentFactors};
 use super::conditions::Conditions;
 use super::description::Body;
-use super::linear::LinearSolver;
+use super::linear::{CondensedElimination, LinearSolver, Operator};
 use super::model::Model;
 use super::newmark::Newmark;
 use super::outcome::{FailureCause, StepFailure};
@@ -48,17 +48,27 @@ pub struct Newton {
     pub solver: Box<dyn LinearSolver>,
     /// Limits.
     pub tolerances: Tolerances,
+    /// For motion: the lasting part of the tangent, condensed, per step size.
+    condensed: Option<Condensed>,
     correction: Vec<f64>,
-    /// Limit on the residual per unknown; infinite where there is no equation.
-    limits: Vec<f64>,
+    /// One over the limit on the residual, per unknown; zero where there is no equation.
+    weights: Vec<f64>,
     multiplier: Vec<bool>,
+    /// 0 for multipliers, else 1.
+    moving: Vec<f64>,
 }
 
-/// The residual relative to its limit, where it is worst.
-#[derive(Debug, Clone, Copy)]
-struct Worst {
-    ratio: f64,
-    unknown: usize,
+/// The way of steps in motion: geometric stiffness is left out of the tangent, which then lasts but for contacts and joints.
+struct Condensed {
+    elimination: CondensedElimination,
+    operators: Vec<(Key, Operator)>,
+}
+
+/// What the lasting tangent depends on: factors, alpha, beta.
+type Key = (TangentFactors, f64, f64);
+
+fn key(factors: TangentFactors, conditions: &Conditions) -> Key {
+    (factors, conditions.rayleigh.alpha, conditions.rayleigh.beta)
 }
 
 impl Newton {
@@ -90,10 +100,30 @@ impl Newton {
             assembler: Assembler::new(model),
             solver,
             tolerances,
+            condensed: None,
             correction: vec![0.0; n],
-            limits,
+            weights: limits.iter().map(|limit| 1.0 / limit).collect(),
+            moving: multiplier.iter().map(|&m| if m { 0.0 } else { 1.0 }).collect(),
             multiplier,
         }
+    }
+
+    /// Condenses the tangent's lasting part for steps with these factors, if the tool's joints allow it; others take the plain way.
+    pub fn prepare(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
+        let key = key(factors, conditions);
+        let known = |condensed: &Condensed| condensed.operators.iter().any(|(known, _)| *known == key);
+        if self.condensed.as_ref().is_some_and(known) {
+            return;
+        }
+        let lasting = self.assembler.lasting(model, conditions, factors);
+        let Some(operator) = Operator::of(lasting, &model.joint_stations) else {
+            return;
+        };
+        let condensed = self.condensed.get_or_insert_with(|| Condensed {
+            elimination: CondensedElimination::new(&model.layout, &model.joint_stations),
+            operators: Vec::new(),
+        });
+        condensed.operators.push((key, operator));
     }
 
     /// Solves the step of size `h` that ends under `conditions`. `to` holds the new state on success; the assembler holds its
@@ -125,7 +155,7 @@ impl Newton {
         let mut iterations = 0;
         loop {
             self.assembler.residual(model, to, conditions);
-            let worst = self.worst();
+            let ratio = self.worst();
             let failure = |cause, value: f64, unknown: usize| {
                 let (station, body) = locate(model, unknown);
                 StepFailure {
@@ -137,18 +167,22 @@ impl Newton {
                     value,
                 }
             };
-            if worst.ratio.is_nan() {
-                return Err((iterations, failure(FailureCause::NotFinite, f64::NAN, worst.unknown)));
+            if ratio.is_nan() {
+                return Err((
+                    iterations,
+                    failure(FailureCause::NotFinite, f64::NAN, self.worst_unknown()),
+                ));
             }
-            if worst.ratio <= 1.0 {
+            if ratio <= 1.0 {
                 return match out_of_range(model, to) {
                     Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
                     None => Ok(iterations),
                 };
             }
             if iterations == self.tolerances.max_iterations {
-                let value = self.assembler.residual[worst.unknown];
-                return Err((iterations, failure(FailureCause::NotConverged, value, worst.unknown)));
+                let unknown = self.worst_unknown();
+                let value = self.assembler.residual[unknown];
+                return Err((iterations, failure(FailureCause::NotConverged, value, unknown)));
             }
             iterations += 1;
             if let Err(singular) = self.correct(model, to, conditions, factors) {
@@ -174,20 +208,32 @@ impl Newton {
         factors: TangentFactors,
     ) -> Result<(), super::linear::Singular> {
         self.assembler.drop_reactions(model);
-        self.assembler.tangent(model, to, conditions, factors);
         for (c, r) in self.correction.iter_mut().zip(&self.assembler.residual) {
             *c = -r;
         }
-        self.assembler.stopwatch.lap(Phase::Assembly);
-        let solved = self.solver.solve(&self.assembler.system, &mut self.correction);
-        self.assembler.stopwatch.lap(Phase::Solve);
-        solved?;
-        for (i, dq) in self.correction.iter().enumerate() {
-            to.q[i] += dq;
-            if !self.multiplier[i] {
-                to.v[i] += factors.damping * dq;
-                to.a[i] += factors.mass * dq;
-            }
+        let key = key(factors, conditions);
+        let condensed = self.condensed.as_mut().and_then(|condensed| {
+            let (_, operator) = condensed.operators.iter().find(|(known, _)| *known == key)?;
+            Some((&mut condensed.elimination, operator))
+        });
+        if let Some((elimination, operator)) = condensed {
+            self.assembler.stopwatch.lap(Phase::Assembly);
+            self.assembler.linearise(model, to, factors);
+            let solved = elimination.solve(operator, &self.assembler.changes, &mut self.correction);
+            self.assembler.stopwatch.lap(Phase::Solve);
+            solved?;
+        } else {
+            self.assembler.tangent(model, to, conditions, factors);
+            let solved = self.solver.solve(&self.assembler.system, &mut self.correction);
+            self.assembler.stopwatch.lap(Phase::Solve);
+            solved?;
+        }
+        let rates = to.v.iter_mut().zip(&mut to.a);
+        for ((q, (v, a)), (dq, moving)) in to.q.iter_mut().zip(rates).zip(self.correction.iter().zip(&self.moving)) {
+            *q += dq;
+            let dq = dq * moving;
+            *v += factors.damping * dq;
+            *a += factors.mass * dq;
         }
         Ok(())
     }
@@ -240,7 +286,7 @@ impl Newton {
             mass: 0.0,
         };
         self.assembler.residual(model, state, conditions);
-        let mut best = self.worst().ratio;
+        let mut best = self.worst();
         for _ in 0..self.tolerances.max_iterations {
             scratch.copy_from(state);
             if self.correct(model, scratch, conditions, factors).is_err() {
@@ -248,7 +294,7 @@ impl Newton {
             }
             scratch.update_axial(model);
             self.assembler.residual(model, scratch, conditions);
-            let ratio = self.worst().ratio;
+            let ratio = self.worst();
             if ratio.is_nan() || ratio >= best || out_of_range(model, scratch).is_some() {
                 return;
             }
@@ -257,19 +303,48 @@ impl Newton {
         }
     }
 
-    fn worst(&self) -> Worst {
-        let mut worst = Worst { ratio: 0.0, unknown: 0 };
-        for (unknown, (r, limit)) in self.assembler.residual.iter().zip(&self.limits).enumerate() {
-            let ratio = r.abs() / limit;
-            if ratio > worst.ratio || ratio.is_nan() {
-                // Padding has no force and an infinite limit, so a NaN is the state's.
-                worst = Worst { ratio, unknown };
-                if ratio.is_nan() {
-                    break;
-                }
+    /// The largest residual relative to its limit, or NaN.
+    fn worst(&self) -> f64 {
+        // Eight running maxima, so that the compiler can use vectors; the place is only looked for when it is asked for.
+        const LANES: usize = 8;
+        let mut worst = [0.0_f64; LANES];
+        let mut sum = [0.0_f64; LANES];
+        let (residual, rest) = self.assembler.residual.as_chunks::<LANES>();
+        let (weights, rest_weights) = self.weights.as_chunks::<LANES>();
+        for (r, w) in residual.iter().zip(weights) {
+            for k in 0..LANES {
+                let ratio = r[k].abs() * w[k];
+                // A maximum passes over a number that is not one; the sum does not.
+                worst[k] = if ratio > worst[k] { ratio } else { worst[k] };
+                sum[k] += ratio;
             }
         }
-        worst
+        let mut ratio = 0.0_f64;
+        let mut total = 0.0;
+        for k in 0..LANES {
+            ratio = ratio.max(worst[k]);
+            total += sum[k];
+        }
+        for (r, w) in rest.iter().zip(rest_weights) {
+            ratio = ratio.max(r.abs() * w);
+            total += r.abs() * w;
+        }
+        if total.is_nan() { f64::NAN } else { ratio }
+    }
+
+    /// The unknown whose residual is worst, or the first that is not a number.
+    fn worst_unknown(&self) -> usize {
+        let mut worst = (0.0, 0);
+        for (unknown, (r, w)) in self.assembler.residual.iter().zip(&self.weights).enumerate() {
+            let ratio = r.abs() * w;
+            if ratio.is_nan() {
+                return unknown;
+            }
+            if ratio > worst.0 {
+                worst = (ratio, unknown);
+            }
+        }
+        worst.1
     }
 }
 

@@ -86,6 +86,10 @@ pub struct Stepper {
     /// Whole turns taken off the spins so far.
     turns: f64,
     weight_on_bit: f64,
+    /// Whether steps in motion may condense links.
+    condense: bool,
+    /// Step size for which they are condensed (s).
+    condensed_for: f64,
 }
 
 impl Stepper {
@@ -98,10 +102,10 @@ impl Stepper {
         scheme: Newmark,
         tolerances: Tolerances,
         max_halvings: u32,
-        solver: SolverKind,
+        kind: SolverKind,
     ) -> Result<Self, ModelError> {
         let model = Model::new(description)?;
-        let solver: Box<dyn LinearSolver> = match solver {
+        let solver: Box<dyn LinearSolver> = match kind {
             SolverKind::Stations => Box::new(StationElimination::new(&model.layout)),
             SolverKind::SparseReference => Box::new(SparseReference::default()),
         };
@@ -121,6 +125,8 @@ impl Stepper {
             counters: Counters::default(),
             turns: 0.0,
             weight_on_bit: 0.0,
+            condense: kind == SolverKind::Stations,
+            condensed_for: 0.0,
             state,
             energy,
             model,
@@ -250,16 +256,29 @@ impl Stepper {
         }
     }
 
+    /// Makes what steps of size `h` (s) and their halves need, so that [`Stepper::advance`] does not.
+    pub fn prepare(&mut self, h: f64) {
+        if !self.condense || self.condensed_for == h {
+            return;
+        }
+        let conditions = self.conditions(0.0, 0.0);
+        for level in 0..=self.max_halvings {
+            let factors = self.scheme.factors(h / f64::from(1_u32 << level));
+            self.newton.prepare(&self.model, &conditions, factors);
+        }
+        self.condensed_for = h;
+    }
+
     /// Advances by `h` (s) under `forcing`. A sub-step that does not converge is halved and retried; when the smallest one fails, the
     /// state stays that before the step.
     pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
-        self.before_step.copy_from(&self.state);
-        self.energy_before_step.copy_from(&self.energy);
+        self.prepare(h);
+        let start = (self.state.time, self.state.drive_angle);
         let audit_before = self.audit;
         let mut way = Halving::new(self.max_halvings);
         let mut iterations = 0;
         while let Some(part) = way.part() {
-            match self.sub_step(h, forcing, part) {
+            match self.sub_step(h, start, forcing, part) {
                 Ok(made) => {
                     iterations += made;
                     way.accept();
@@ -268,6 +287,11 @@ impl Stepper {
                     iterations += made;
                     self.counters.rejected += 1;
                     self.counters.last_rejection = Some(failure);
+                    if way.is_whole() {
+                        // Nothing has changed yet. From here on a later part may fail after an earlier one was taken.
+                        self.before_step.copy_from(&self.state);
+                        self.energy_before_step.copy_from(&self.energy);
+                    }
                     if !way.reject() {
                         self.state.copy_from(&self.before_step);
                         self.energy.copy_from(&self.energy_before_step);
@@ -291,13 +315,19 @@ impl Stepper {
         }
     }
 
-    /// The sub-step between two parts (0 to 1) of a step of size `h`.
-    fn sub_step(&mut self, h: f64, forcing: &Forcing, (from, to): (f64, f64)) -> Result<u32, (u32, StepFailure)> {
-        let time = self.before_step.time + h * to;
+    /// The sub-step between two parts (0 to 1) of a step of size `h` that begins at time `start` with the drive at `start_angle`.
+    fn sub_step(
+        &mut self,
+        h: f64,
+        (start, start_angle): (f64, f64),
+        forcing: &Forcing,
+        (from, to): (f64, f64),
+    ) -> Result<u32, (u32, StepFailure)> {
+        let time = start + h * to;
         let [load_0, load_1] = forcing.weight_on_bit;
         let mut conditions = self.conditions(time, load_0 + (load_1 - load_0) * to);
         let [speed_0, speed_1] = forcing.rotary_speed;
-        conditions.drive_angle = self.before_step.drive_angle + h * to * (speed_0 + 0.5 * (speed_1 - speed_0) * to);
+        conditions.drive_angle = start_angle + h * to * (speed_0 + 0.5 * (speed_1 - speed_0) * to);
         let step = h * (to - from);
         let made = self.newton.step(
             &self.model,

@@ -114,6 +114,7 @@ impl Simulation {
         } else {
             stepper.start_as_given(load)?;
         }
+        stepper.prepare(settings.time_step);
         let start = stepper.state().clone();
         let observer = Observer::new(stepper.model(), settings);
         let mut simulation = Self {

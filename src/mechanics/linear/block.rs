@@ -19,9 +19,22 @@ pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
     b: &mut [[f64; N]; C],
     active: impl Fn(usize) -> usize,
 ) -> Result<(), f64> {
+    eliminate::<N, N, C, FUSED>(a, b, active)
+}
+
+/// The same for `K` unknowns in columns filled up to `N` rows with zeros, which stay zeros.
+///
+/// # Errors
+/// As [`solve_columns`].
+#[inline(always)]
+pub fn eliminate<const N: usize, const K: usize, const C: usize, const FUSED: bool>(
+    a: &mut [[f64; N]; K],
+    b: &mut [[f64; N]; C],
+    active: impl Fn(usize) -> usize,
+) -> Result<(), f64> {
     let mut reciprocals = [0.0; N];
     let mut exchanged = false;
-    for k in 0..N {
+    for k in 0..K {
         let size = a[k][k].abs();
         let mut small = size.is_nan() | (size == 0.0);
         for (r, x) in a[k].iter().enumerate() {
@@ -58,9 +71,13 @@ pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
 /// Brings the largest candidate to the diagonal.
 #[cold]
 #[inline(never)]
-fn exchange<const N: usize, const C: usize>(k: usize, a: &mut [[f64; N]; N], b: &mut [[f64; N]; C]) -> Result<(), f64> {
+fn exchange<const N: usize, const K: usize, const C: usize>(
+    k: usize,
+    a: &mut [[f64; N]; K],
+    b: &mut [[f64; N]; C],
+) -> Result<(), f64> {
     let mut p = k;
-    for r in k + 1..N {
+    for r in k + 1..K {
         if a[k][r].abs() > a[k][p].abs() {
             p = r;
         }

@@ -6,6 +6,7 @@
 use std::hint::black_box;
 
 use super::block::{solve_columns, subtract, subtract_product};
+use super::instructions::Instructions;
 use super::reduction::{REDUCED, Reduction, active};
 use super::system::{BlockSystem, Coupling, Layout};
 use super::{LinearSolver, Singular};
@@ -24,47 +25,6 @@ pub struct StationElimination {
     /// How each joint station was reduced, if it was.
     reductions: Vec<Option<Reduction>>,
     reduce: bool,
-}
-
-/// Which vector instructions the machine has. The results of two machines may differ in rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Instructions {
-    Portable,
-    #[cfg(target_arch = "x86_64")]
-    Avx2,
-    #[cfg(target_arch = "x86_64")]
-    Avx512,
-}
-
-impl Instructions {
-    /// From the least to the best.
-    fn all() -> impl Iterator<Item = Self> {
-        [
-            Self::Portable,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512,
-        ]
-        .into_iter()
-    }
-
-    /// Whether this machine has them.
-    fn available(&self) -> bool {
-        match self {
-            Self::Portable => true,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => is_x86_feature_detected!("fma") && is_x86_feature_detected!("avx2"),
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => {
-                Self::Avx2.available() && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl")
-            }
-        }
-    }
-
-    fn of_this_machine() -> Self {
-        Self::all().filter(Self::available).last().unwrap_or(Self::Portable)
-    }
 }
 
 impl StationElimination {

@@ -5,11 +5,16 @@
 //! padding).
 
 mod block;
+mod changes;
+mod condensed;
 mod elimination;
+mod instructions;
 mod reduction;
 mod sparse;
 mod system;
 
+pub use changes::{Changes, ContactBlock, JointChange, Touching};
+pub use condensed::{CondensedElimination, Operator};
 pub use elimination::StationElimination;
 pub use sparse::SparseReference;
 pub(super) use system::add_columns;

@@ -15,7 +15,7 @@ pub fn active(k: usize) -> usize {
     6 * (usize::from(k >= 3) + usize::from(k >= 9))
 }
 /// Place in the block of 24 of each reduced unknown.
-const PLACES: [usize; REDUCED] = [3, 4, 5, 0, 1, 2, 15, 16, 17, 6, 7, 8, 9, 10, 11, 21];
+pub const PLACES: [usize; REDUCED] = [3, 4, 5, 0, 1, 2, 15, 16, 17, 6, 7, 8, 9, 10, 11, 21];
 /// First of u_a among the reduced unknowns.
 const U: usize = 3;
 /// First of the rotations of b.
@@ -31,11 +31,11 @@ type Block = [[f64; 24]; 24];
 #[derive(Debug, Clone, Copy)]
 pub struct Reduction {
     /// P by columns.
-    turn: [[f64; 3]; 3],
+    pub turn: [[f64; 3]; 3],
     /// c.
     offset: [f64; 3],
     /// E_b / s, by columns, with the sign of its entries: gives the multipliers from the rows of u_b.
-    recover: [[f64; 3]; 3],
+    pub recover: [[f64; 3]; 3],
 }
 
 impl Reduction {
@@ -82,13 +82,13 @@ impl Reduction {
 
     /// P^T x.
     #[inline(always)]
-    fn turned_back(&self, x: [f64; 3]) -> [f64; 3] {
+    pub fn turned_back(&self, x: [f64; 3]) -> [f64; 3] {
         [dot(&self.turn[0], &x), dot(&self.turn[1], &x), dot(&self.turn[2], &x)]
     }
 
     /// P x.
     #[inline(always)]
-    fn turned(&self, x: [f64; 3]) -> [f64; 3] {
+    pub fn turned(&self, x: [f64; 3]) -> [f64; 3] {
         let mut out = [0.0; 3];
         for (i, out) in out.iter_mut().enumerate() {
             *out = self.turn[0][i] * x[0] + self.turn[1][i] * x[1] + self.turn[2][i] * x[2];
@@ -98,7 +98,7 @@ impl Reduction {
 
     /// The 16 rows of a column of 24.
     #[inline(always)]
-    fn rows(&self, column: &[f64; 24]) -> [f64; REDUCED] {
+    pub fn rows(&self, column: &[f64; 24]) -> [f64; REDUCED] {
         let mut out = [0.0; REDUCED];
         out[..U].copy_from_slice(&column[3..6]);
         out[ROTATIONS..GUIDE].copy_from_slice(&column[15..18]);
