@@ -118,14 +118,10 @@ impl GuideChain {
             }
             if k == last {
                 for j in 0..6 {
-                    for i in 0..8 {
-                        out.bottom[j][i] = -carry[j][i];
-                        out.lower[j][i] = -carry[TOP + j][i];
-                    }
+                    out.bottom[j] = carry[j].map(|x| -x);
+                    out.lower[j] = carry[TOP + j].map(|x| -x);
                 }
-                for i in 0..8 {
-                    out.right[1][i] = -carry[RIGHT][i];
-                }
+                out.right[1] = carry[RIGHT].map(|x| -x);
             }
         }
         Ok(out)

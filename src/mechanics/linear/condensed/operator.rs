@@ -263,8 +263,8 @@ impl Edge {
             lower_offset: [[0.0; 8]; 3],
             multiplier_rows: [[0.0; 3]; 6],
         };
-        for j in 0..6 {
-            let column = upper.column(PIPE_PLACES[j]);
+        for (j, place) in PIPE_PLACES.into_iter().enumerate() {
+            let column = upper.column(place);
             let (u, rotations) = ([column[0], column[1], column[2]], [column[3], column[4], column[5]]);
             edge.multiplier_rows[j] = u;
             let (first, second) = match joint {

@@ -352,13 +352,11 @@ impl CondensedElimination {
         } else {
             &matrices.start
         };
-        let mut c = [0.0; 3];
-        for k in 0..3 {
-            let r = &reduction.recover[k];
-            c[k] = r[0] * values[18] + r[1] * values[19] + r[2] * values[20];
-            for i in 0..SIZE {
-                right[i] -= start.columns[k][i] * c[k];
-            }
+        let c = reduction
+            .recover
+            .map(|r| r[0] * values[18] + r[1] * values[19] + r[2] * values[20]);
+        for (column, c) in start.columns.iter().zip(c) {
+            right.iter_mut().zip(column).for_each(|(r, x)| *r -= x * c);
         }
         self.offsets[node] = c;
         right
@@ -400,8 +398,8 @@ impl CondensedElimination {
         }
         // Two halves of eight rows: the pipe is in the first, the guide in the second from its second row on.
         let mut guide_lower = [[0.0; 8]; 6];
-        for j in 0..6 {
-            guide_lower[j][1..7].copy_from_slice(&coupling.guide_lower[j][..6]);
+        for (to, from) in guide_lower.iter_mut().zip(coupling.guide_lower) {
+            to[1..7].copy_from_slice(&from[..6]);
         }
         for (carry, column) in carry.columns.iter_mut().zip(columns.iter()) {
             let (mut pipe, mut guide) = ([0.0; 8], [0.0; 8]);
@@ -414,9 +412,8 @@ impl CondensedElimination {
         }
         if let Some(node) = node {
             for (column, c) in coupling.pipe.lower_offset.iter().zip(self.offsets[node]) {
-                for i in 0..6 {
-                    carry.columns[12][i] += column[i] * c;
-                }
+                let right = carry.columns[12].iter_mut().zip(&column[..6]);
+                right.for_each(|(r, x)| *r += x * c);
             }
         }
         Ok(())
@@ -651,14 +648,11 @@ fn add_joint(block: &mut Block, change: &JointChange) {
 #[inline(always)]
 fn take(block: &mut Block, right: &mut [f64; SIZE], carry: &Carry) {
     for j in 0..6 {
-        for i in 0..SIZE {
-            block[j][i] -= carry.columns[j][i];
-            block[GUIDE + j][i] -= carry.columns[6 + j][i];
-        }
+        block[j].iter_mut().zip(&carry.columns[j]).for_each(|(x, c)| *x -= c);
+        let guide = block[GUIDE + j].iter_mut().zip(&carry.columns[6 + j]);
+        guide.for_each(|(x, c)| *x -= c);
     }
-    for i in 0..SIZE {
-        right[i] -= carry.columns[12][i];
-    }
+    right.iter_mut().zip(&carry.columns[12]).for_each(|(x, c)| *x -= c);
 }
 
 /// All 24 unknowns of a joint station from its 16, `x`; `rhs` holds its right-hand side. `start` and `next` are the rows of the start
