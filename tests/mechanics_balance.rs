@@ -2,7 +2,7 @@
 
 use flexdrill::config::Config;
 use flexdrill::mechanics::energy::joint_violation;
-use flexdrill::mechanics::{Newmark, SolverKind, State, Stepper, Tolerances};
+use flexdrill::mechanics::{Scheme, SolverKind, State, Stepper, Tolerances};
 use nalgebra::Vector3;
 
 fn default_config() -> Config {
@@ -10,7 +10,7 @@ fn default_config() -> Config {
 }
 
 fn stepper(config: &Config, solver: SolverKind) -> Stepper {
-    Stepper::new(&config.tool(), Newmark::damped(0.6), Tolerances::default(), 6, solver).unwrap()
+    Stepper::new(&config.tool(), Scheme::newmark(0.6), Tolerances::default(), 6, solver).unwrap()
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn joints_stay_closed_and_both_solvers_agree() {
         ..Tolerances::default()
     };
     let [mut fast, mut reference] = [SolverKind::Stations, SolverKind::SparseReference]
-        .map(|kind| Stepper::new(&config.tool(), Newmark::damped(0.6), tolerances, 6, kind).unwrap());
+        .map(|kind| Stepper::new(&config.tool(), Scheme::newmark(0.6), tolerances, 6, kind).unwrap());
     fast.settle(10e3).unwrap();
     let mut speed = 0.0;
     let (mut inner, mut outer) = (0, 0);

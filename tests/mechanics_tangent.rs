@@ -4,7 +4,7 @@
 use flexdrill::config::Config;
 use flexdrill::mechanics::assembly::{Assembler, TangentFactors};
 use flexdrill::mechanics::{
-    JointKind, Model, Newmark, SolverKind, State, Stepper, Tolerances, ToolDescription, WobPath,
+    JointKind, Model, Scheme, SolverKind, State, Stepper, Tolerances, ToolDescription, WobPath,
 };
 
 /// A tool of four links of two elements in the paper's well.
@@ -56,7 +56,7 @@ fn lively_state(model: &Model) -> State {
 fn check(tool: &ToolDescription) {
     let stepper = Stepper::new(
         tool,
-        Newmark::damped(0.6),
+        Scheme::newmark(0.6),
         Tolerances::default(),
         0,
         SolverKind::Stations,

@@ -93,9 +93,9 @@ impl fmt::Display for Summary<'_> {
         row(
             "step",
             format!(
-                "{} ms, Newmark gamma {}",
+                "{} ms, {}",
                 config.solver.time_step * 1e3,
-                config.solver.gamma
+                config.solver.scheme_in_words()
             ),
         )?;
         let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);

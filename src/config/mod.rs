@@ -47,7 +47,7 @@ pub use outputs::{Outputs, Rates};
 pub use pipe::{Guide, Piece, Pipe};
 pub use place::At;
 pub use run::Run;
-pub use solver::Solver;
+pub use solver::{Solver, TimeScheme};
 pub use start::{Initial, Start};
 pub use tool::{Bit, Damping, Joint, Material, Tool};
 pub use well::{Section, Well};
@@ -253,7 +253,7 @@ impl Config {
         let (speed, weight) = (&self.inputs.rotary_speed, &self.inputs.weight_on_bit);
         SimulationSettings {
             time_step: self.solver.time_step,
-            gamma: self.solver.gamma,
+            scheme: self.solver.describe(),
             max_iterations: self.solver.max_iterations,
             max_halvings: self.solver.max_halvings,
             initial_inputs: Inputs {

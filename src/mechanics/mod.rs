@@ -8,7 +8,7 @@
 //! | [`gap`] | Eq. 20 to 34, Table 2 |
 //! | [`conditions`] | Eq. 1, loads |
 //! | [`assembly`] | Eq. 35, 40 to 42 |
-//! | [`newmark`], [`newton`], [`stepper`], [`halving`] | Eq. 36 to 44 |
+//! | [`scheme`], [`newton`], [`stepper`], [`halving`] | Eq. 36 to 44 |
 //! | [`statics`] | the start |
 //! | [`energy`] | the audit |
 //! | [`linear`] | the solvers |
@@ -26,11 +26,11 @@ pub mod jet;
 pub mod joint;
 pub mod linear;
 pub mod model;
-pub mod newmark;
 pub mod newton;
 mod outcome;
 pub mod phases;
 pub mod rotation;
+pub mod scheme;
 pub mod section;
 pub mod state;
 pub mod statics;
@@ -39,9 +39,9 @@ pub mod well;
 
 pub use description::*;
 pub use model::{Model, ModelError};
-pub use newmark::Newmark;
 pub use newton::Tolerances;
 pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
+pub use scheme::Scheme;
 pub use state::State;
 pub use statics::StartError;
 pub use stepper::{Counters, Forcing, SolverKind, Stepper, StepperCheckpoint};

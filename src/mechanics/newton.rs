@@ -5,10 +5,10 @@ use super::conditions::Conditions;
 use super::description::Body;
 use super::linear::{CondensedElimination, LinearSolver, Operator};
 use super::model::Model;
-use super::newmark::Newmark;
 use super::outcome::{FailureCause, StepFailure};
 use super::phases::Phase;
 use super::rotation::LARGEST_TILT;
+use super::scheme::Scheme;
 use super::state::State;
 
 /// When an iterate is accepted.
@@ -126,30 +126,27 @@ impl Newton {
         condensed.operators.push((key, operator));
     }
 
-    /// Solves the step of size `h` that ends under `conditions`. `to` holds the new state on success; the assembler holds its
-    /// residual with the reactions.
+    /// Solves the step of size `h` that ends under `conditions`. `to` comes with the axial forces to use and holds the new state on success;
+    /// the assembler holds its residual with the reactions.
     ///
     /// # Errors
     /// Why and where no iterate was accepted; the iterations made are in the first field.
     pub fn step(
         &mut self,
         model: &Model,
-        scheme: Newmark,
+        scheme: Scheme,
         h: f64,
         conditions: &Conditions,
         from: &State,
         to: &mut State,
     ) -> Result<u32, (u32, StepFailure)> {
         scheme.predict(h, from, to);
-        to.pipe_axial.copy_from_slice(&from.pipe_axial);
-        to.guide_axial.copy_from_slice(&from.guide_axial);
         to.time = conditions.time;
         let drive_angle = conditions.drive_angle;
         to.drive_angle = drive_angle;
         if let Some(driven) = model.driven {
             to.q[driven] = drive_angle;
-            (to.v[driven], to.a[driven]) =
-                scheme.rates(h, drive_angle - from.q[driven], from.v[driven], from.a[driven]);
+            (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
         }
         let factors = scheme.factors(h);
         let mut iterations = 0;
@@ -176,7 +173,10 @@ impl Newton {
             if ratio <= 1.0 {
                 return match out_of_range(model, to) {
                     Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
-                    None => Ok(iterations),
+                    None => {
+                        scheme.finish(h, from, to);
+                        Ok(iterations)
+                    }
                 };
             }
             if iterations == self.tolerances.max_iterations {

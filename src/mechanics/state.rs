@@ -3,7 +3,7 @@
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::element_force::{Ends, ends};
+use super::element_force::{Ends, ends, plus};
 use super::joint::JointVector;
 use super::model::Model;
 
@@ -20,7 +20,11 @@ pub struct State {
     pub v: Vec<f64>,
     /// Accelerations.
     pub a: Vec<f64>,
-    /// Axial force of each pipe element at the last accepted step (N): the N of the geometric stiffness.
+    /// Accelerations that the time scheme lets lag behind `a`, see [`Scheme`](super::scheme::Scheme).
+    pub lagged: Vec<f64>,
+    /// Step size (s) that `lagged` is for; 0 before the first step.
+    pub scheme_step: f64,
+    /// Axial force of each pipe element as foreseen for the last step (N): the N of the geometric stiffness.
     pub pipe_axial: Vec<f64>,
     /// The same for the guide.
     pub guide_axial: Vec<f64>,
@@ -38,6 +42,8 @@ impl State {
             q: vec![0.0; n],
             v: vec![0.0; n],
             a: vec![0.0; n],
+            lagged: vec![0.0; n],
+            scheme_step: 0.0,
             pipe_axial: vec![0.0; model.pipe.len()],
             guide_axial: vec![0.0; model.guide.len()],
             time: 0.0,
@@ -50,10 +56,26 @@ impl State {
         self.q.copy_from_slice(&other.q);
         self.v.copy_from_slice(&other.v);
         self.a.copy_from_slice(&other.a);
+        self.lagged.copy_from_slice(&other.lagged);
+        self.scheme_step = other.scheme_step;
         self.pipe_axial.copy_from_slice(&other.pipe_axial);
         self.guide_axial.copy_from_slice(&other.guide_axial);
         self.time = other.time;
         self.drive_angle = other.drive_angle;
+    }
+
+    /// Sets the axial forces for a step of size `h` to those that the velocities of `from` lead to at its end. Forces of the step before
+    /// would make the step one of first order.
+    pub fn predict_axial(&mut self, model: &Model, from: &Self, h: f64) {
+        let ahead = |q: &Ends, v: &Ends| plus(q, h, v);
+        for (e, element) in model.pipe.iter().enumerate() {
+            let q = ahead(&pipe_element(model, e, &from.q), &pipe_element(model, e, &from.v));
+            self.pipe_axial[e] = element.force.tension(&q);
+        }
+        for (e, element) in model.guide.iter().enumerate() {
+            let q = ahead(&guide_element(model, e, &from.q), &guide_element(model, e, &from.v));
+            self.guide_axial[e] = element.force.tension(&element.turn.to_chord(&q));
+        }
     }
 
     /// Sets the lagged axial forces from the displacements.

@@ -2,8 +2,8 @@
 
 use super::conditions::Conditions;
 use super::linear::Singular;
-use super::newmark::Newmark;
 use super::outcome::StepFailure;
+use super::scheme::Scheme;
 use super::stepper::Stepper;
 
 /// Why the tool could not be started.
@@ -81,17 +81,17 @@ impl Stepper {
         self.start_as_given(weight_on_bit)?;
         let conditions = settling(self.conditions(0.0, weight_on_bit));
         let (model, newton, state, trial) = self.parts();
-        let scheme = Newmark::damped(1.0);
+        let scheme = Scheme::newmark(1.0);
         let mut h = STEPS[0];
         let mut speed = f64::INFINITY;
         let mut at_largest = 0;
         let mut steps = 0;
         while steps < MOST_STEPS {
             steps += 1;
+            trial.predict_axial(model, state, 0.0);
             match newton.step(model, scheme, h, &conditions, state, trial) {
                 Ok(iterations) => {
                     std::mem::swap(state, trial);
-                    state.update_axial(model);
                     speed = state.v.iter().fold(0.0, |worst: f64, v| worst.max(v.abs()));
                     if iterations <= 4 {
                         h = (h * 1.5).min(STEPS[1]);

@@ -10,10 +10,10 @@ use super::energy::EnergyPoint;
 use super::halving::{Halving, most_attempts};
 use super::linear::{LinearSolver, SparseReference, StationElimination};
 use super::model::{Model, ModelError};
-use super::newmark::Newmark;
 use super::newton::{Newton, Tolerances};
 use super::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use super::phases::{Phase, Stopwatch};
+use super::scheme::Scheme;
 use super::state::State;
 
 /// Inputs over one step: both change linearly from its start to its end.
@@ -72,7 +72,7 @@ const UNWIND_TURNS: f64 = 1000.0;
 pub struct Stepper {
     model: Model,
     newton: Newton,
-    scheme: Newmark,
+    scheme: Scheme,
     max_halvings: u32,
     live: LiveParameters,
     state: State,
@@ -99,7 +99,7 @@ impl Stepper {
     /// See [`Model::new`].
     pub fn new(
         description: &ToolDescription,
-        scheme: Newmark,
+        scheme: Scheme,
         tolerances: Tolerances,
         max_halvings: u32,
         kind: SolverKind,
@@ -195,6 +195,9 @@ impl Stepper {
     /// Takes `state` as the present one, with the audit starting at zero. The accelerations must balance the forces.
     pub fn start_from(&mut self, state: &State, weight_on_bit: f64) {
         self.state.copy_from(state);
+        if self.state.scheme_step == 0.0 {
+            self.state.lagged.copy_from_slice(&state.a);
+        }
         let conditions = self.conditions(self.state.time, weight_on_bit);
         self.newton.assembler.residual(&self.model, &self.state, &conditions);
         self.energy
@@ -329,6 +332,7 @@ impl Stepper {
         let [speed_0, speed_1] = forcing.rotary_speed;
         conditions.drive_angle = start_angle + h * to * (speed_0 + 0.5 * (speed_1 - speed_0) * to);
         let step = h * (to - from);
+        self.trial.predict_axial(&self.model, &self.state, step);
         let made = self.newton.step(
             &self.model,
             self.scheme,
@@ -351,7 +355,6 @@ impl Stepper {
         self.newton.assembler.stopwatch.lap(Phase::Energy);
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.energy, &mut self.trial_energy);
-        self.state.update_axial(&self.model);
         Ok(made)
     }
 }

@@ -8,7 +8,7 @@ use super::{Snapshot, SolverCounters};
 use crate::analysis::{StickSlipSettings, WhirlSettings};
 use crate::mechanics::phases::{Clock, Phase, PhaseTimes};
 use crate::mechanics::{
-    Body, Forcing, LiveParameters, ModelError, Newmark, SolverKind, StartError, State, StepOutcome, Stepper,
+    Body, Forcing, LiveParameters, ModelError, Scheme, SolverKind, StartError, State, StepOutcome, Stepper,
     StepperCheckpoint, Tolerances, ToolDescription,
 };
 
@@ -26,8 +26,8 @@ pub struct Inputs {
 pub struct SimulationSettings {
     /// Model step (s).
     pub time_step: f64,
-    /// Newmark's gamma.
-    pub gamma: f64,
+    /// How time is integrated.
+    pub scheme: Scheme,
     /// Most Newton iterations per sub-step.
     pub max_iterations: u32,
     /// Most halvings of a step.
@@ -106,8 +106,7 @@ impl Simulation {
             max_iterations: settings.max_iterations,
             ..Tolerances::default()
         };
-        let scheme = Newmark::damped(settings.gamma);
-        let mut stepper = Stepper::new(tool, scheme, tolerances, settings.max_halvings, solver)?;
+        let mut stepper = Stepper::new(tool, settings.scheme, tolerances, settings.max_halvings, solver)?;
         let load = settings.initial_inputs.weight_on_bit;
         if tool.static_start {
             stepper.settle(load)?;

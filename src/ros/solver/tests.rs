@@ -7,7 +7,7 @@ use super::Solver;
 use super::clock::Clock;
 use super::link::{Command, Gauges, Phase, PublisherEnd, Report, Targets, link};
 use crate::mechanics::phases::PhaseTimes;
-use crate::mechanics::{Body, FailureCause, LiveParameters, StepFailure, StepOutcome};
+use crate::mechanics::{Body, FailureCause, LiveParameters, Scheme, StepFailure, StepOutcome};
 use crate::twin::{BuildError, Inputs, Model, Run, RunInputs, Schedule, SimulationSettings, Snapshot};
 
 const MS: u64 = 1_000_000;
@@ -106,7 +106,7 @@ impl Bench {
     fn new() -> Self {
         let settings = SimulationSettings {
             time_step: 1e-3,
-            gamma: 0.6,
+            scheme: Scheme::newmark(0.6),
             max_iterations: 30,
             max_halvings: 4,
             initial_inputs: Inputs {
