@@ -22,6 +22,7 @@ mod pipe;
 mod place;
 pub(crate) mod reading;
 mod run;
+mod sized;
 mod solver;
 mod start;
 mod tool;

@@ -3,12 +3,29 @@
 /// Nanoseconds of CLOCK_MONOTONIC.
 #[cfg(target_os = "linux")]
 pub fn now() -> u64 {
+    read(libc::CLOCK_MONOTONIC)
+}
+
+#[cfg(target_os = "linux")]
+fn read(clock: libc::clockid_t) -> u64 {
     let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
-    // SAFETY: `time` is a valid timespec that the call fills; CLOCK_MONOTONIC always exists on Linux, so that it cannot
-    // fail.
-    unsafe { libc::clock_gettime(libc::CLOCK_MONOTONIC, &raw mut time) };
-    // Neither part is negative on this clock.
+    // SAFETY: `time` is a valid timespec that the call fills; both clocks asked for always exist on Linux, so that it
+    // cannot fail.
+    unsafe { libc::clock_gettime(clock, &raw mut time) };
+    // Neither part is negative on these clocks.
     time.tv_sec.unsigned_abs() * 1_000_000_000 + time.tv_nsec.unsigned_abs()
+}
+
+/// Nanoseconds that this thread has had a processor; on other systems than Linux those of [`now`].
+pub fn processor_time() -> u64 {
+    #[cfg(target_os = "linux")]
+    {
+        read(libc::CLOCK_THREAD_CPUTIME_ID)
+    }
+    #[cfg(not(target_os = "linux"))]
+    {
+        now()
+    }
 }
 
 /// Sleeps until `deadline` (ns of [`now`]); returns at once when it has passed. Signals do not shorten it.

@@ -1,0 +1,181 @@
+//! One run at constant inputs as fast as it goes, with its times.
+
+use hdrhistogram::Histogram;
+
+use super::super::progress::Progress;
+use super::figures::Figures;
+use crate::config::Config;
+use crate::inputs::units::{kn_to_n, rpm_to_rad_per_s};
+use crate::mechanics::phases::{Phase, PhaseTimes};
+use crate::mechanics::{Counters, EnergyAudit, StepFailure, StepOutcome};
+use crate::pacing::clock;
+use crate::twin::{Inputs, Simulation, Snapshot};
+
+/// Model time in one published frame (s).
+const FRAME: f64 = 0.02;
+/// Longest time told apart (ns): a minute.
+const LONGEST: u64 = 60_000_000_000;
+
+/// What is run.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Load {
+    /// r/min.
+    pub rpm: f64,
+    /// kN, on from the static start.
+    pub wob: f64,
+}
+
+/// What a run came to.
+pub(super) struct Measured {
+    /// Of the static start (s).
+    pub start: f64,
+    pub unknowns: usize,
+    /// s.
+    pub time_step: f64,
+    /// Steps asked for and taken.
+    pub steps: u64,
+    /// Wall time and this thread's processor time of steps and frames (s).
+    pub wall: f64,
+    pub processor: f64,
+    /// Times of single steps and of frames of 20 ms (ns).
+    pub step_times: Histogram<u64>,
+    pub frame_times: Histogram<u64>,
+    pub phases: PhaseTimes,
+    pub counters: Counters,
+    pub most_iterations: u32,
+    pub energy: EnergyAudit,
+    pub figures: Figures,
+    pub last: Snapshot,
+    /// Where the run ended, if a step failed.
+    pub failure: Option<StepFailure>,
+}
+
+impl Measured {
+    /// Model time per wall time.
+    pub(super) fn real_time_factor(&self) -> f64 {
+        self.steps as f64 * self.time_step / self.wall
+    }
+
+    /// Model time per processor time.
+    pub(super) fn processor_factor(&self) -> f64 {
+        self.steps as f64 * self.time_step / self.processor
+    }
+
+    /// Newton iterations per step.
+    pub(super) fn iterations(&self) -> f64 {
+        self.counters.iterations as f64 / self.steps.max(1) as f64
+    }
+
+    /// Energy error over the drive's work (%).
+    pub(super) fn energy_error(&self) -> f64 {
+        100.0 * self.energy.error.abs() / self.energy.drive.abs().max(f64::MIN_POSITIVE)
+    }
+
+    /// Mean processor time of a step (us).
+    pub(super) fn step_time(&self) -> f64 {
+        1e6 * self.processor / self.steps.max(1) as f64
+    }
+
+    /// Mean per step of one phase (us): its share of the wall time, of the processor time. So neighbours on the machine do not count.
+    pub(super) fn phase(&self, phase: Phase) -> f64 {
+        self.step_time() * self.phases.of(phase) as f64 / self.phases.total().max(1) as f64
+    }
+}
+
+/// Median, p99, p99.9 and longest (ms).
+pub(super) fn percentiles(times: &Histogram<u64>) -> [f64; 4] {
+    let at = |q: f64| times.value_at_quantile(q) as f64 * 1e-6;
+    [at(0.5), at(0.99), at(0.999), times.max() as f64 * 1e-6]
+}
+
+/// Runs `config` for `duration` (s) of model time after the static start; `every_frame` is told the model time.
+///
+/// # Errors
+/// When the tool cannot be built. A step that fails ends the run and is part of the result.
+pub(super) fn run(
+    config: &Config,
+    load: Load,
+    duration: f64,
+    mut every_frame: impl FnMut(f64),
+) -> anyhow::Result<Measured> {
+    let config = config.with_value("inputs.weight_on_bit.initial_kn", load.wob)?;
+    let began = clock::now();
+    let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
+    let start = seconds(clock::now() - began);
+    simulation.set_clock(clock::now);
+    let time_step = simulation.settings().time_step;
+    let inputs = Inputs {
+        rotary_speed: rpm_to_rad_per_s(load.rpm),
+        weight_on_bit: kn_to_n(load.wob),
+    };
+    let mut last = simulation.new_snapshot();
+    let mut figures = Figures::new(&last);
+    let mut step_times = Histogram::<u64>::new_with_bounds(1, LONGEST, 3)?;
+    let mut frame_times = step_times.clone();
+    let per_frame = (FRAME / time_step).round().max(1.0) as u64;
+    let total = (duration / time_step).round() as u64;
+    let (mut steps, mut busy, mut frame) = (0, 0, 0);
+    let mut most_iterations = 0;
+    let mut failure = None;
+    let mut progress = Progress::new(duration);
+    let mut aside = 0;
+    let processor = clock::processor_time();
+    while steps < total {
+        let before = clock::now();
+        let outcome = simulation.advance(&inputs);
+        let mut took = clock::now() - before;
+        match outcome {
+            StepOutcome::Advanced { iterations, .. } => most_iterations = most_iterations.max(iterations),
+            StepOutcome::Failed(failed) => {
+                failure = Some(failed);
+                break;
+            }
+        }
+        steps += 1;
+        step_times.saturating_record(took);
+        let ends_frame = steps % per_frame == 0;
+        if ends_frame {
+            let before = clock::now();
+            simulation.snapshot(&mut last, true);
+            took += clock::now() - before;
+        }
+        busy += took;
+        frame += took;
+        if ends_frame {
+            frame_times.saturating_record(frame);
+            frame = 0;
+            // What the bench itself does is not the model's.
+            let before = clock::processor_time();
+            if steps * 4 >= total {
+                figures.take(&last);
+            }
+            let time = steps as f64 * time_step;
+            progress.at(time);
+            every_frame(time);
+            aside += clock::processor_time() - before;
+        }
+    }
+    let processor = clock::processor_time() - processor - aside;
+    progress.done();
+    Ok(Measured {
+        start,
+        unknowns: simulation.stepper().model().degrees_of_freedom(),
+        time_step,
+        steps,
+        wall: seconds(busy),
+        processor: seconds(processor),
+        step_times,
+        frame_times,
+        phases: simulation.phase_times(),
+        counters: *simulation.stepper().counters(),
+        most_iterations,
+        energy: *simulation.stepper().audit(),
+        figures,
+        last,
+        failure,
+    })
+}
+
+fn seconds(nanoseconds: u64) -> f64 {
+    nanoseconds as f64 * 1e-9
+}

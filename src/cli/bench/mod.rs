@@ -1,0 +1,260 @@
+//! `flexdrill bench`: runs at constant inputs as fast as they go, with the figures that `docs/measurements.md` quotes.
+
+mod document;
+mod figures;
+mod machine;
+mod measure;
+mod memory;
+mod real_time;
+mod scaling;
+
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+
+use self::document::Table;
+use self::measure::{Load, Measured, percentiles};
+use super::WrongUse;
+use crate::config::Config;
+use crate::mechanics::phases::Phase;
+use crate::ros::health::diagnostics::describe;
+
+/// Runs a configuration at constant inputs as fast as it goes and prints its speed and its figures, as Markdown.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Configurations to run, one after another; with --cases the first one [default: config/default.yaml, without --cases also
+    /// config/coarse.yaml].
+    #[arg(long = "config", value_name = "FILE")]
+    configs: Vec<PathBuf>,
+    /// A set of runs instead of a single one.
+    #[arg(long, value_enum)]
+    cases: Option<Cases>,
+    /// Writes the tables of --cases into this document, between its markers.
+    #[arg(long, value_name = "DOCUMENT", requires = "cases")]
+    write: Option<PathBuf>,
+    /// Model time after the static start (s) [default: 20; 60 real-time, 10 scaling, 3600 memory].
+    #[arg(long)]
+    duration: Option<f64>,
+    /// Rotary speed (r/min).
+    #[arg(long, default_value_t = 40.0)]
+    rpm: f64,
+    /// Weight on bit (kN), on from the start; real-time has its own.
+    #[arg(long, default_value_t = 10.0)]
+    wob: f64,
+    /// Another model step than the configuration's (s).
+    #[arg(long)]
+    time_step: Option<f64>,
+    /// Values to change, as KEY=VALUE with the key's dotted path (may be given more than once).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// Sets of runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Cases {
+    /// The tool as it is and three harder ones, with speed, iterations, energy error and time per phase.
+    RealTime,
+    /// 8 to 132 links.
+    Scaling,
+    /// Resident memory over an hour of model time.
+    Memory,
+    /// All of them.
+    All,
+}
+
+impl Cases {
+    fn each(self) -> &'static [Self] {
+        match self {
+            Self::All => &[Self::RealTime, Self::Scaling, Self::Memory],
+            Self::RealTime => &[Self::RealTime],
+            Self::Scaling => &[Self::Scaling],
+            Self::Memory => &[Self::Memory],
+        }
+    }
+
+    /// As on the command line and in the markers.
+    fn name(self) -> &'static str {
+        match self {
+            Self::RealTime => "real-time",
+            Self::Scaling => "scaling",
+            Self::Memory => "memory",
+            Self::All => "all",
+        }
+    }
+
+    /// s.
+    fn usual_duration(self) -> f64 {
+        match self {
+            Self::RealTime => 60.0,
+            Self::Scaling => 10.0,
+            Self::Memory | Self::All => 3600.0,
+        }
+    }
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When a configuration is refused, a step fails, or the document cannot be written.
+pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
+    if let Some(duration) = args.duration
+        && !(duration > 0.0 && duration.is_finite())
+    {
+        return Err(WrongUse::new(format!("--duration {duration}: a time above 0 s")).into());
+    }
+    match args.cases {
+        Some(cases) => run_cases(args, cases),
+        None => run_plain(args),
+    }
+}
+
+fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
+    let path = args.configs.first().cloned().unwrap_or_else(|| PathBuf::from(DEFAULT));
+    let config = load(&path, args)?;
+    if let Some(document) = &args.write {
+        for case in cases.each() {
+            document::check(document, case.name())?;
+        }
+    }
+    let constant = Load {
+        rpm: args.rpm,
+        wob: args.wob,
+    };
+    for case in cases.each() {
+        let duration = args.duration.unwrap_or_else(|| case.usual_duration());
+        let tables = match case {
+            Cases::RealTime => real_time::tables(&config, args.rpm, duration)?,
+            Cases::Scaling => scaling::tables(&config, constant, duration)?,
+            Cases::Memory | Cases::All => memory::tables(&config, constant, duration)?,
+        };
+        let text = format!(
+            "Command: `flexdrill bench --cases {}`, `{}`. {}\n\n{tables}",
+            case.name(),
+            path.display(),
+            machine::describe()
+        );
+        println!("\n### {}\n\n{text}", case.name());
+        if let Some(document) = &args.write {
+            document::write(document, case.name(), &text)?;
+            eprintln!("written to {}", document.display());
+        }
+    }
+    Ok(())
+}
+
+const DEFAULT: &str = "config/default.yaml";
+
+fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
+    let usual = [DEFAULT, "config/coarse.yaml"].map(PathBuf::from);
+    let paths = if args.configs.is_empty() {
+        &usual[..]
+    } else {
+        &args.configs
+    };
+    let duration = args.duration.unwrap_or(20.0);
+    for path in paths {
+        let config = load(path, args)?;
+        println!(
+            "\n### {}, {} r/min, {} kN, {duration} s\n",
+            path.display(),
+            args.rpm,
+            args.wob
+        );
+        let load = Load {
+            rpm: args.rpm,
+            wob: args.wob,
+        };
+        let measured = measure::run(&config, load, duration, |_| {})?;
+        print!("{}", figures_of(&measured).text());
+        if let Some(failure) = measured.failure {
+            anyhow::bail!(
+                "a step failed at model time {:.4} s: {}",
+                failure.time,
+                describe(&failure)
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The configuration with the changes that the command line asks for.
+fn load(path: &std::path::Path, args: &BenchArgs) -> anyhow::Result<Config> {
+    let mut config = Config::load(path)?;
+    if let Some(step) = args.time_step {
+        config = config.with_value("solver.time_step", step)?;
+    }
+    for change in &args.set {
+        let (key, value) = change
+            .split_once('=')
+            .ok_or_else(|| WrongUse::new(format!("--set {change}: expected KEY=VALUE")))?;
+        // What is no number, true or false is a word, such as `shared`.
+        let value = serde_json::from_str(value).unwrap_or_else(|_| serde_json::Value::from(value));
+        config = config
+            .with_value(key, value)
+            .with_context(|| format!("--set {change}"))?;
+    }
+    Ok(config)
+}
+
+fn figures_of(measured: &Measured) -> Table {
+    let mut table = Table::new(["figure", "value"]);
+    let mut row = |figure: &str, value: String| table.row([figure.to_owned(), value]);
+    let milliseconds = |times| percentiles(times).map(|time| format!("{time:.3}")).join(", ");
+    row("static start", format!("{:.3} s", measured.start));
+    row(
+        "unknowns, step",
+        format!("{}, {} ms", measured.unknowns, 1e3 * measured.time_step),
+    );
+    row(
+        "real-time factor, of processor time",
+        format!("{:.2}, {:.2}", measured.real_time_factor(), measured.processor_factor()),
+    );
+    row(
+        "step: median, p99, p99.9, max",
+        format!("{} ms", milliseconds(&measured.step_times)),
+    );
+    row(
+        "frame of 20 ms: median, p99, p99.9, max",
+        format!("{} ms", milliseconds(&measured.frame_times)),
+    );
+    row(
+        "time per step",
+        format!(
+            "{} us",
+            Phase::ALL
+                .map(|phase| format!("{} {:.1}", phase.name(), measured.phase(phase)))
+                .join(", ")
+        ),
+    );
+    row(
+        "Newton iterations per step: mean, most",
+        format!("{:.2}, {}", measured.iterations(), measured.most_iterations),
+    );
+    let counters = &measured.counters;
+    row(
+        "halved, rejected, failed steps",
+        format!(
+            "{}, {}, {}",
+            counters.halved_steps, counters.rejected, counters.failed_steps
+        ),
+    );
+    measured.figures.rows(&measured.last, &mut table);
+    let energy = &measured.energy;
+    table.row([
+        "energy: drive, bit, friction, error".into(),
+        format!(
+            "{:.0}, {:.0}, {:.0}, {:.2} J ({:.3} %)",
+            energy.drive,
+            energy.bit,
+            energy.friction,
+            energy.error,
+            measured.energy_error()
+        ),
+    ]);
+    table.row([
+        "peak memory".into(),
+        machine::status_kb("VmHWM:").map_or_else(|| "unknown".to_owned(), |kb| format!("{kb} kB")),
+    ]);
+    table
+}

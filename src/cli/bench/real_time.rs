@@ -1,0 +1,115 @@
+//! `--cases real-time`: the default tool and the hard cases, each with its speed.
+
+use super::document::Table;
+use super::measure::{Load, Measured, percentiles, run};
+use crate::config::Config;
+use crate::mechanics::phases::Phase;
+use crate::ros::health::diagnostics::describe;
+
+/// A tool and a load that the twin must keep pace with.
+struct Case {
+    name: &'static str,
+    wob: f64,
+    changes: fn(&Config) -> Result<Config, crate::config::ConfigError>,
+}
+
+/// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the wall.
+const CASES: &[Case] = &[
+    Case {
+        name: "as it is, 10 kN",
+        wob: 10.0,
+        changes: |config| Ok(config.clone()),
+    },
+    Case {
+        name: "`wob_path: shared`, 30 kN",
+        wob: 30.0,
+        changes: |config| config.with_value("boundary.wob_path", "shared"),
+    },
+    Case {
+        name: "contact 3e7 / 5e7 N/m, 10 kN",
+        wob: 10.0,
+        changes: |config| {
+            config
+                .with_value("contact.inner.stiffness", 3e7)?
+                .with_value("contact.outer.stiffness", 5e7)
+        },
+    },
+    Case {
+        name: "guide `bending_factor: 0.05`, 20 kN",
+        wob: 20.0,
+        changes: |config| config.with_value("tool.guide.bending_factor", 0.05),
+    },
+];
+
+/// Runs all cases; gives the tables.
+///
+/// # Errors
+/// When a tool cannot be built. A failed step is a line of the table.
+pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result<String> {
+    let mut speed = Table::new([
+        "case",
+        "real-time factor",
+        "of processor time",
+        "step: p50, p99, p99.9, max (ms)",
+        "frame of 20 ms: p50, p99, p99.9, max (ms)",
+        "iterations: mean, most",
+        "halved, rejected",
+        "energy error",
+    ]);
+    let names: Vec<&str> = std::iter::once("case")
+        .chain(Phase::ALL.map(Phase::name))
+        .chain(["sum"])
+        .collect();
+    let mut phases = Table::with_head(&names);
+    let mut failures = String::new();
+    for case in CASES {
+        eprintln!("{}: {duration} s of model time", case.name);
+        let config = (case.changes)(config)?;
+        let measured = run(&config, Load { rpm, wob: case.wob }, duration, |_| {})?;
+        speed.row(speed_row(case.name, &measured));
+        let times = Phase::ALL.map(|phase| measured.phase(phase));
+        let cells: Vec<String> = std::iter::once(case.name.to_owned())
+            .chain(
+                times
+                    .iter()
+                    .chain([&measured.step_time()])
+                    .map(|time| format!("{time:.1}")),
+            )
+            .collect();
+        phases.cells(&cells);
+        if let Some(failure) = measured.failure {
+            failures.push_str(&format!(
+                "\nFailed: {}, at model time {:.3} s: {}.\n",
+                case.name,
+                failure.time,
+                describe(&failure)
+            ));
+        }
+    }
+    Ok(format!(
+        "Each {duration} s of model time from rest, up to {rpm} r/min, one thread; {} links x {} elements, step {} ms, gamma {}.\n\n{}{failures}\nMean processor time per step (us), shared out as the phases share the wall time:\n\n{}",
+        config.tool.links,
+        config.tool.elements_per_link,
+        1e3 * config.solver.time_step,
+        config.solver.gamma,
+        speed.text(),
+        phases.text()
+    ))
+}
+
+fn speed_row(name: &str, measured: &Measured) -> [String; 8] {
+    let times = |times| {
+        let [p50, p99, p999, max] = percentiles(times);
+        format!("{p50:.3}, {p99:.3}, {p999:.3}, {max:.2}")
+    };
+    [
+        name.to_owned(),
+        format!("{:.2}", measured.real_time_factor()),
+        format!("{:.2}", measured.processor_factor()),
+        times(&measured.step_times),
+        times(&measured.frame_times),
+        format!("{:.2}, {}", measured.iterations(), measured.most_iterations),
+        format!("{}, {}", measured.counters.halved_steps, measured.counters.rejected),
+        format!("{:.3} %", measured.energy_error()),
+    ]
+}

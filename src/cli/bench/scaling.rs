@@ -1,0 +1,81 @@
+//! `--cases scaling`: how the cost grows with the number of links.
+
+use super::document::Table;
+use super::measure::{Load, percentiles, run};
+use crate::config::Config;
+
+/// Sizes of the tool: from a quarter of the paper's to four times it.
+const LINKS: [usize; 5] = [8, 16, 33, 66, 132];
+
+/// Runs all sizes; gives the table and the fit.
+///
+/// # Errors
+/// When a tool cannot be built or a step fails.
+pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Result<String> {
+    let mut table = Table::new([
+        "links",
+        "unknowns",
+        "real-time factor",
+        "step: mean of processor time, p50, p99 (us)",
+        "iterations per step",
+        "us per link and step",
+        "us per link and iteration",
+    ]);
+    let (mut steps, mut iterations) = (Vec::new(), Vec::new());
+    for links in LINKS {
+        eprintln!("{links} links: {duration} s of model time");
+        let measured = run(&config.with_links(links)?, load, duration, |_| {})?;
+        if let Some(failure) = measured.failure {
+            anyhow::bail!("{links} links: a step failed: {failure:?}");
+        }
+        let mean = measured.step_time();
+        let [p50, p99, ..] = percentiles(&measured.step_times);
+        let size = links as f64;
+        table.row([
+            links.to_string(),
+            measured.unknowns.to_string(),
+            format!("{:.2}", measured.real_time_factor()),
+            format!("{mean:.1}, {:.1}, {:.1}", 1e3 * p50, 1e3 * p99),
+            format!("{:.2}", measured.iterations()),
+            format!("{:.2}", mean / size),
+            format!("{:.2}", mean / size / measured.iterations()),
+        ]);
+        steps.push((size, mean));
+        iterations.push((size, mean / measured.iterations()));
+    }
+    Ok(format!(
+        "{duration} s of model time each, {} r/min, {} kN; links of the same length, a shorter tool ends in the curve, a longer one goes on level behind it.\n\n{}\nFit of cost = a x links^b: b = {:.2} per step, {:.2} per iteration (1 is linear).\n",
+        load.rpm,
+        load.wob,
+        table.text(),
+        exponent(&steps),
+        exponent(&iterations)
+    ))
+}
+
+/// Least-squares slope of log y over log x.
+fn exponent(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0.ln()), mean(|p| p.1.ln()));
+    let (mut product, mut square) = (0.0, 0.0);
+    for p in points {
+        product += (p.0.ln() - x) * (p.1.ln() - y);
+        square += (p.0.ln() - x).powi(2);
+    }
+    product / square
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_exponent_of_a_power_is_found() {
+        for power in [1.0, 1.5, 2.0] {
+            let points = LINKS.map(|n| (n as f64, 3.0 * (n as f64).powf(power)));
+            // Rounding of logarithms only.
+            assert!((exponent(&points) - power).abs() < 1e-12);
+        }
+    }
+}
