@@ -9,7 +9,7 @@ use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use criterion::{BatchSize, Bencher, BenchmarkId, Criterion, criterion_group, criterion_main};
 use flexdrill::config::Config;
 use flexdrill::mechanics::assembly::Assembler;
-use flexdrill::mechanics::linear::{LinearSolver, StationElimination};
+use flexdrill::mechanics::linear::{CondensedElimination, LinearSolver, Operator, StationElimination};
 use flexdrill::mechanics::{Newmark, StepOutcome};
 use flexdrill::pacing::clock;
 use flexdrill::twin::{Inputs, Simulation};
@@ -97,26 +97,37 @@ fn parts(c: &mut Criterion<ProcessorTime>) {
         bench("tangent", &mut |b| {
             b.iter(|| assembler.tangent(model, black_box(state), &conditions, factors));
         });
-        // As in the first iteration of a step: the axial forces of the geometric stiffness are new.
-        let mut other = state.clone();
-        other.pipe_axial.iter_mut().for_each(|force| *force += 1.0);
-        let mut turn = 0_u64;
-        bench("tangent, new axial forces", &mut |b| {
-            b.iter(|| {
-                turn += 1;
-                let state = if turn.is_multiple_of(2) { state } else { &other };
-                assembler.tangent(model, black_box(state), &conditions, factors);
-            });
+        // What an iteration on condensed links needs of it.
+        bench("linearise", &mut |b| {
+            b.iter(|| assembler.linearise(model, black_box(state), factors));
+        });
+        // Once per step size.
+        let lasting = assembler.lasting(model, &conditions, factors);
+        bench("condense", &mut |b| {
+            b.iter_batched(
+                || lasting.clone(),
+                |lasting| Operator::of(lasting, &model.joint_stations),
+                BatchSize::SmallInput,
+            );
         });
         assembler.residual(model, state, &conditions);
         assembler.drop_reactions(model);
         assembler.tangent(model, state, &conditions, factors);
         let rhs = assembler.residual.clone();
-        let mut solver = StationElimination::new(&model.layout);
-        bench("factor and solve", &mut |b| {
+        let mut stations = StationElimination::new(&model.layout);
+        bench("factor and solve, stations", &mut |b| {
             b.iter_batched_ref(
                 || rhs.clone(),
-                |x| solver.solve(black_box(&assembler.system), x),
+                |x| stations.solve(black_box(&assembler.system), x),
+                BatchSize::SmallInput,
+            );
+        });
+        let operator = Operator::of(lasting, &model.joint_stations).expect("joints that can be condensed");
+        let mut condensed = CondensedElimination::new(&model.layout, &model.joint_stations);
+        bench("factor and solve, condensed", &mut |b| {
+            b.iter_batched_ref(
+                || rhs.clone(),
+                |x| condensed.solve(black_box(&operator), &assembler.changes, x),
                 BatchSize::SmallInput,
             );
         });

@@ -13,6 +13,8 @@ pub(super) struct Figures {
     outer_square: Vec<f64>,
     inner_peak: Vec<f64>,
     outer_peak: Vec<f64>,
+    /// Touching gaps of both layers, over all frames.
+    touching: [usize; 2],
     taken: u32,
 }
 
@@ -44,6 +46,7 @@ impl Figures {
             outer_square: stations.clone(),
             inner_peak: stations.clone(),
             outer_peak: stations,
+            touching: [0; 2],
             taken: 0,
         }
     }
@@ -55,6 +58,10 @@ impl Figures {
         self.bend = joints.bend_angle.iter().fold(self.bend, |m, &b| m.max(b));
         self.at_limit += joints.stop_moment.iter().filter(|&&moment| moment > 0.0).count();
         let contacts = &snapshot.contacts;
+        for state in &contacts.state {
+            self.touching[0] += usize::from(state & 1);
+            self.touching[1] += usize::from(state >> 1);
+        }
         for (layer, square, peak) in [
             (&contacts.pipe_guide, &mut self.inner_square, &mut self.inner_peak),
             (&contacts.guide_wall, &mut self.outer_square, &mut self.outer_peak),
@@ -64,6 +71,11 @@ impl Figures {
                 peak[s] = peak[s].max(layer.normal_peak[s]);
             }
         }
+    }
+
+    /// Touching gaps on average: pipe-guide, guide-wall.
+    pub(super) fn touching(&self) -> [f64; 2] {
+        self.touching.map(|sum| sum as f64 / f64::from(self.taken.max(1)))
     }
 
     pub(super) fn rows(&self, last: &Snapshot, table: &mut Table) {

@@ -20,6 +20,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         "iterations per step",
         "us per link and step",
         "us per link and iteration",
+        "touching gaps per link: pipe-guide, guide-wall",
     ]);
     let (mut steps, mut iterations) = (Vec::new(), Vec::new());
     for links in LINKS {
@@ -39,6 +40,11 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
             format!("{:.2}", measured.iterations()),
             format!("{:.2}", mean / size),
             format!("{:.2}", mean / size / measured.iterations()),
+            measured
+                .figures
+                .touching()
+                .map(|gaps| format!("{:.2}", gaps / size))
+                .join(", "),
         ]);
         steps.push((size, mean));
         iterations.push((size, mean / measured.iterations()));
