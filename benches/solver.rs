@@ -8,9 +8,9 @@ use std::hint::black_box;
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use criterion::{BatchSize, Bencher, BenchmarkId, Criterion, criterion_group, criterion_main};
 use flexdrill::config::Config;
+use flexdrill::mechanics::StepOutcome;
 use flexdrill::mechanics::assembly::Assembler;
 use flexdrill::mechanics::linear::{CondensedElimination, LinearSolver, Operator, StationElimination};
-use flexdrill::mechanics::{Newmark, StepOutcome};
 use flexdrill::pacing::clock;
 use flexdrill::twin::{Inputs, Simulation};
 
@@ -86,7 +86,8 @@ fn parts(c: &mut Criterion<ProcessorTime>) {
         let stepper = simulation.stepper();
         let (model, state) = (stepper.model(), stepper.state());
         let conditions = stepper.conditions(simulation.time(), INPUTS.weight_on_bit);
-        let factors = Newmark::damped(simulation.settings().gamma).factors(simulation.settings().time_step);
+        let settings = simulation.settings();
+        let factors = settings.scheme.factors(settings.time_step);
         let mut assembler = Assembler::new(model);
         let mut bench = |part: &str, routine: &mut dyn FnMut(&mut Bencher<'_, ProcessorTime>)| {
             c.bench_with_input(BenchmarkId::new(part, links), &(), |b, ()| routine(b));

@@ -87,11 +87,11 @@ pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
         }
     }
     Ok(format!(
-        "Each {duration} s of model time from rest, up to {rpm} r/min, one thread; {} links x {} elements, step {} ms, gamma {}.\n\n{}{failures}\nMean processor time per step (us), shared out as the phases share the wall time:\n\n{}",
+        "Each {duration} s of model time from rest, up to {rpm} r/min, one thread; {} links x {} elements, step {} ms, {}.\n\n{}{failures}\nMean processor time per step (us), shared out as the phases share the wall time:\n\n{}",
         config.tool.links,
         config.tool.elements_per_link,
         1e3 * config.solver.time_step,
-        config.solver.gamma,
+        config.solver.scheme_in_words(),
         speed.text(),
         phases.text()
     ))
