@@ -8,10 +8,13 @@ use nalgebra::{Matrix3, Matrix6, Vector2};
 use super::beam::ElementMatrix;
 use super::conditions::Conditions;
 use super::description::Direction;
-use super::element_force::{Ends, ends, plus};
+use super::element_form::{add, load};
 use super::gap::{GapMatrix, GapVector, Touch, regularised_sign};
 use super::joint::{Joint, JointMatrix, JointVector, Row, Stop};
-use super::linear::{BlockSystem, Changes, Diagonal, Touching, add_columns};
+#[cfg(target_arch = "x86_64")]
+use super::linear::vector::{Avx2, Avx512};
+use super::linear::vector::{Portable, Vector};
+use super::linear::{BlockSystem, Changes, Diagonal, Instructions, Touching, add_columns};
 use super::model::{Model, Station};
 use super::phases::{Phase, Stopwatch};
 use super::state::{State, joint_rotations, node, translation};
@@ -66,6 +69,7 @@ pub struct Assembler {
     guide_axial: Vec<f64>,
     /// Stations whose block in `system` differs from `still`.
     changed: Vec<bool>,
+    instructions: Instructions,
     /// What contacts, joints and the bit add.
     pub changes: Changes,
 }
@@ -92,6 +96,7 @@ impl Assembler {
             pipe_axial: vec![0.0; model.pipe.len()],
             guide_axial: vec![0.0; model.guide.len()],
             changed: vec![false; model.stations.len()],
+            instructions: Instructions::of_this_machine(),
             changes: Changes::new(
                 &model.layout,
                 model.joints.len(),
@@ -111,7 +116,6 @@ impl Assembler {
     /// Evaluates the residual at `state`; entries of held, driven and padding unknowns are zero.
     pub fn residual(&mut self, model: &Model, state: &State, conditions: &Conditions) {
         self.stopwatch.lap(Phase::Other);
-        self.residual.fill(0.0);
         self.elements(model, state, conditions);
         for point in &model.masses {
             for k in 0..3 {
@@ -149,36 +153,57 @@ impl Assembler {
         }
     }
 
+    /// Elastic, damping and inertia forces and those of the geometric stiffness, less gravity.
     fn elements(&mut self, model: &Model, state: &State, conditions: &Conditions) {
-        let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
-        let motion = |first: usize, second: usize| {
-            let q = ends(&state.q, first, second);
-            let v = ends(&state.v, first, second);
-            let a = ends(&state.a, first, second);
-            (plus(&q, beta, &v), plus(&a, alpha, &v), q)
-        };
-        for (e, element) in model.pipe.iter().enumerate() {
-            let (first, second) = (model.stations[e].pipe_below, model.stations[e + 1].pipe_above);
-            let (x, a, q) = motion(first, second);
-            let f = element.force.total(&x, &a, &q, state.pipe_axial[e]);
-            self.scatter_ends(first, second, &plus(&f, -1.0, &element.weight.data.0[0]));
-        }
-        for (e, element) in model.guide.iter().enumerate() {
-            let (first, second) = (model.stations[e].guide, model.stations[e + 1].guide);
-            let (x, a, q) = motion(first, second);
-            let chord = |values| element.turn.to_chord(values);
-            let f = element
-                .force
-                .total(&chord(&x), &chord(&a), &chord(&q), state.guide_axial[e]);
-            let f = element.turn.from_chord(&f);
-            self.scatter_ends(first, second, &plus(&f, -1.0, &element.weight.data.0[0]));
+        match self.instructions {
+            Instructions::Portable => self.elements_with::<Portable>(model, state, conditions),
+            // SAFETY: chosen only where the processor was found to have these instructions.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => unsafe { self.elements_avx2(model, state, conditions) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { self.elements_avx512(model, state, conditions) },
         }
     }
 
-    #[inline]
-    fn scatter_ends(&mut self, first: usize, second: usize, force: &Ends) {
-        self.scatter(first, &force[..6]);
-        self.scatter(second, &force[6..]);
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn elements_avx2(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        self.elements_with::<Avx2>(model, state, conditions);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+    fn elements_avx512(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        self.elements_with::<Avx512>(model, state, conditions);
+    }
+
+    #[inline(always)]
+    fn elements_with<V: Vector>(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        for (r, w) in self.residual.iter_mut().zip(&model.weight) {
+            *r = -w;
+        }
+        let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
+        let tensions = state.pipe_axial.iter().chain(&state.guide_axial);
+        for (element, &tension) in model.elements.list.iter().zip(tensions) {
+            let forms = &model.elements.kinds[element.kind as usize];
+            let nodes = [element.nodes[0] as usize, element.nodes[1] as usize];
+            let zero = V::splat(0.0);
+            let (mut x, mut a, mut stretched) = ([zero; 2], [zero; 2], [zero; 2]);
+            for n in 0..2 {
+                let q: V = load(&state.q, nodes[n]);
+                let v: V = load(&state.v, nodes[n]);
+                x[n] = q.plus_product(beta, v);
+                a[n] = load::<V>(&state.a, nodes[n]).plus_product(alpha, v);
+                stretched[n] = q.times(V::splat(tension));
+            }
+            let mut force = forms.stiffness.product(forms.to_own(x));
+            forms.mass.add_product(forms.to_own(a), &mut force);
+            forms.geometric.add_product(forms.to_own(stretched), &mut force);
+            let force = forms.from_own(force);
+            add(&mut self.residual, nodes[0], force[0]);
+            add(&mut self.residual, nodes[1], force[1]);
+        }
     }
 
     #[inline]

@@ -139,6 +139,11 @@ impl PlanarTurn {
         }
     }
 
+    /// Cosine and sine per node.
+    pub fn nodes(&self) -> [[f64; 2]; 2] {
+        self.nodes
+    }
+
     /// Nodal values to the chord's frame, Eq. 8.
     #[inline(always)]
     pub fn to_chord(&self, x: &Ends) -> Ends {

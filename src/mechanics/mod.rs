@@ -3,7 +3,7 @@
 //! | file | paper |
 //! |---|---|
 //! | [`well`], [`model`] | Fig. 2, 4; geometry and numbering |
-//! | [`section`], [`beam`] | Eq. 2 to 10 |
+//! | [`section`], [`beam`], [`element_form`] | Eq. 2 to 10 |
 //! | [`joint`], [`rotation`], [`jet`] | Eq. 11 to 18 |
 //! | [`gap`] | Eq. 20 to 34, Table 2 |
 //! | [`conditions`] | Eq. 1, loads |
@@ -19,6 +19,7 @@ pub mod beam;
 pub mod conditions;
 pub mod description;
 pub mod element_force;
+pub mod element_form;
 pub mod energy;
 pub mod gap;
 pub mod halving;

@@ -8,6 +8,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use super::beam::{Beam, ElementMatrix, ElementVector};
 use super::description::{Body, Direction, JointKind, Place, PointLoad, ToolDescription, WobPath};
 use super::element_force::{ElementForce, PlanarTurn};
+use super::element_form::{ElementForms, Elements};
 use super::joint::Joint;
 use super::linear::Layout;
 use super::section::SectionProperties;
@@ -109,6 +110,10 @@ pub struct Model {
     pub pipe: Vec<PipeElement>,
     /// Element e between stations e and e + 1.
     pub guide: Vec<GuideElement>,
+    /// The same elements, pipe then guide, as the residual needs them.
+    pub elements: Elements,
+    /// Consistent forces of gravity on both pipes, per unknown (N, N m).
+    pub weight: Vec<f64>,
     /// Unknowns held at zero.
     pub held: Vec<usize>,
     /// Spin of the top pipe node, if driven.
@@ -288,6 +293,8 @@ impl Model {
         let mut model = Self {
             joints,
             joint_stations,
+            elements: Elements::default(),
+            weight: vec![0.0; layout.unknowns()],
             pipe,
             guide,
             held: Vec::new(),
@@ -308,8 +315,26 @@ impl Model {
             stations,
             description: description.clone(),
         };
+        model.collect_elements();
         model.place(description)?;
         Ok(model)
+    }
+
+    fn collect_elements(&mut self) {
+        let mut add = |beam: &Beam, turn: Option<&PlanarTurn>, weight: &ElementVector, nodes: [usize; 2]| {
+            self.elements.push(ElementForms::of(beam, turn), nodes);
+            for (k, w) in weight.iter().enumerate() {
+                self.weight[nodes[k / 6] + k % 6] += w;
+            }
+        };
+        for (ends, element) in self.stations.windows(2).zip(&self.pipe) {
+            let nodes = [ends[0].pipe_below, ends[1].pipe_above];
+            add(&element.beam, None, &element.weight, nodes);
+        }
+        for (ends, element) in self.stations.windows(2).zip(&self.guide) {
+            let nodes = [ends[0].guide, ends[1].guide];
+            add(&element.beam, Some(&element.turn), &element.weight, nodes);
+        }
     }
 
     fn place(&mut self, d: &ToolDescription) -> Result<(), ModelError> {

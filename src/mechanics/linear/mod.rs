@@ -12,10 +12,12 @@ mod instructions;
 mod reduction;
 mod sparse;
 mod system;
+pub mod vector;
 
 pub use changes::{Changes, ContactBlock, JointChange, Touching};
 pub use condensed::{CondensedElimination, Operator};
 pub use elimination::StationElimination;
+pub use instructions::Instructions;
 pub use sparse::SparseReference;
 pub(super) use system::add_columns;
 pub use system::{BlockSystem, Coupling, Diagonal, JOINT_BLOCK, Layout, PLAIN_BLOCK};

@@ -147,7 +147,10 @@ impl Body {
     /// Inner displacements from those of the ends (top, bottom); `still` are those of [`Body::condense`].
     #[inline(always)]
     pub fn expand<const FUSED: bool>(&self, ends: &[f64; 12], still: &mut [f64]) {
-        let negative = ends.map(|x| -x);
+        let mut negative = *ends;
+        for x in &mut negative {
+            *x = -*x;
+        }
         product_onto::<FUSED>(&self.gain, self.padded, &negative, still);
     }
 }

@@ -83,7 +83,9 @@ impl GuideChain {
             let mut block = self.diagonal[k];
             if touching[k] == Touching::Guide {
                 for (column, change) in block.iter_mut().zip(&contact[k][6..]) {
-                    column.iter_mut().zip(&change[6..]).for_each(|(x, c)| *x += c);
+                    for (x, c) in column.iter_mut().zip(&change[6..]) {
+                        *x += c;
+                    }
                 }
             }
             for j in 0..6 {
@@ -114,14 +116,16 @@ impl GuideChain {
             carry = [[0.0; 8]; COLUMNS];
             for (carry, solved) in carry.iter_mut().zip(solved.iter()) {
                 times::<FUSED>(&self.lower[k + 1], solved, carry);
-                carry.iter_mut().for_each(|x| *x = -*x);
+                for x in carry.iter_mut() {
+                    *x = -*x;
+                }
             }
             if k == last {
                 for j in 0..6 {
-                    out.bottom[j] = carry[j].map(|x| -x);
-                    out.lower[j] = carry[TOP + j].map(|x| -x);
+                    out.bottom[j] = negative(&carry[j]);
+                    out.lower[j] = negative(&carry[TOP + j]);
                 }
-                out.right[1] = carry[RIGHT].map(|x| -x);
+                out.right[1] = negative(&carry[RIGHT]);
             }
         }
         Ok(out)
@@ -155,4 +159,13 @@ fn times<const FUSED: bool>(m: &Six, x: &[f64; 8], out: &mut [f64; 8]) {
     for j in 0..6 {
         body::add::<8, FUSED>(out, &m[j], -x[j]);
     }
+}
+
+#[inline(always)]
+fn negative(x: &[f64; 8]) -> [f64; 8] {
+    let mut out = *x;
+    for x in &mut out {
+        *x = -*x;
+    }
+    out
 }

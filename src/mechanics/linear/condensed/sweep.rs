@@ -356,7 +356,9 @@ impl CondensedElimination {
             .recover
             .map(|r| r[0] * values[18] + r[1] * values[19] + r[2] * values[20]);
         for (column, c) in start.columns.iter().zip(c) {
-            right.iter_mut().zip(column).for_each(|(r, x)| *r -= x * c);
+            for (r, x) in right.iter_mut().zip(column) {
+                *r -= x * c;
+            }
         }
         self.offsets[node] = c;
         right
@@ -412,8 +414,9 @@ impl CondensedElimination {
         }
         if let Some(node) = node {
             for (column, c) in coupling.pipe.lower_offset.iter().zip(self.offsets[node]) {
-                let right = carry.columns[12].iter_mut().zip(&column[..6]);
-                right.for_each(|(r, x)| *r += x * c);
+                for (r, x) in carry.columns[12].iter_mut().zip(&column[..6]) {
+                    *r += x * c;
+                }
             }
         }
         Ok(())
@@ -585,14 +588,18 @@ fn plain_right_hand_side(offset: usize, rhs: &[f64]) -> [f64; SIZE] {
 #[inline(always)]
 fn add_block(block: &mut Block, part: &Block) {
     for (to, from) in block.iter_mut().zip(part) {
-        to.iter_mut().zip(from).for_each(|(x, y)| *x += y);
+        for (x, y) in to.iter_mut().zip(from) {
+            *x += y;
+        }
     }
 }
 
 #[inline(always)]
 fn add_guide(block: &mut Block, part: &Six) {
     for (to, from) in block[GUIDE..MULTIPLIER].iter_mut().zip(part) {
-        to[GUIDE..MULTIPLIER].iter_mut().zip(from).for_each(|(x, y)| *x += y);
+        for (x, y) in to[GUIDE..MULTIPLIER].iter_mut().zip(from) {
+            *x += y;
+        }
     }
 }
 
@@ -648,11 +655,16 @@ fn add_joint(block: &mut Block, change: &JointChange) {
 #[inline(always)]
 fn take(block: &mut Block, right: &mut [f64; SIZE], carry: &Carry) {
     for j in 0..6 {
-        block[j].iter_mut().zip(&carry.columns[j]).for_each(|(x, c)| *x -= c);
-        let guide = block[GUIDE + j].iter_mut().zip(&carry.columns[6 + j]);
-        guide.for_each(|(x, c)| *x -= c);
+        for (x, c) in block[j].iter_mut().zip(&carry.columns[j]) {
+            *x -= c;
+        }
+        for (x, c) in block[GUIDE + j].iter_mut().zip(&carry.columns[6 + j]) {
+            *x -= c;
+        }
     }
-    right.iter_mut().zip(&carry.columns[12]).for_each(|(x, c)| *x -= c);
+    for (x, c) in right.iter_mut().zip(&carry.columns[12]) {
+        *x -= c;
+    }
 }
 
 /// All 24 unknowns of a joint station from its 16, `x`; `rhs` holds its right-hand side. `start` and `next` are the rows of the start
