@@ -6,7 +6,7 @@
 /// The diagonal entry is the pivot unless a candidate is larger by more than this. Stiffness and inertia dominate their own equations, so
 /// exchanges are rare; the factor leaves room for the different units of displacements and rotations (forces against couples over an
 /// element's length of centimetres).
-const PIVOT_RATIO: f64 = 1e-3;
+pub const PIVOT_RATIO: f64 = 1e-3;
 
 /// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. `FUSED` uses fused multiply-add, which is fast only where the
 /// processor has it. The last column of `b` is full; of the others, only the first `active(k)` have entries in rows 0 to k.
@@ -19,22 +19,9 @@ pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
     b: &mut [[f64; N]; C],
     active: impl Fn(usize) -> usize,
 ) -> Result<(), f64> {
-    eliminate::<N, N, C, FUSED>(a, b, active)
-}
-
-/// The same for `K` unknowns in columns filled up to `N` rows with zeros, which stay zeros.
-///
-/// # Errors
-/// As [`solve_columns`].
-#[inline(always)]
-pub fn eliminate<const N: usize, const K: usize, const C: usize, const FUSED: bool>(
-    a: &mut [[f64; N]; K],
-    b: &mut [[f64; N]; C],
-    active: impl Fn(usize) -> usize,
-) -> Result<(), f64> {
     let mut reciprocals = [0.0; N];
     let mut exchanged = false;
-    for k in 0..K {
+    for k in 0..N {
         let size = a[k][k].abs();
         let mut small = size.is_nan() | (size == 0.0);
         for (r, x) in a[k].iter().enumerate() {
@@ -69,9 +56,12 @@ pub fn eliminate<const N: usize, const K: usize, const C: usize, const FUSED: bo
 }
 
 /// Brings the largest candidate to the diagonal.
+///
+/// # Errors
+/// Its size when it is zero or not a number.
 #[cold]
 #[inline(never)]
-fn exchange<const N: usize, const K: usize, const C: usize>(
+pub fn exchange<const N: usize, const K: usize, const C: usize>(
     k: usize,
     a: &mut [[f64; N]; K],
     b: &mut [[f64; N]; C],

@@ -2,6 +2,9 @@
 
 use nalgebra::{DMatrix, Matrix6};
 
+use super::super::vector::Vector;
+use super::pivots::{halves_mut, load};
+
 /// Block-tridiagonal matrix of one body from end to end: nodes 0 (top end) to m + 1 (bottom end), six unknowns each. The ends' diagonal
 /// blocks are not part of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -135,68 +138,63 @@ impl Body {
     /// From the forces inside, `forces` (filled up with zeros): what they put on the ends (top, bottom), and in `still` the inner
     /// displacements while the ends do not move.
     #[inline(always)]
-    pub fn condense<const FUSED: bool>(&self, forces: &[f64], still: &mut [f64]) -> [f64; 16] {
-        let mut ends = [0.0; 16];
+    pub fn condense<V: Vector>(&self, forces: &[f64], still: &mut [f64]) -> [f64; 16] {
+        let mut ends = [V::splat(0.0); 2];
         for (column, &force) in self.onto_ends.iter().zip(forces) {
-            add::<16, FUSED>(&mut ends, column, force);
+            let (force, column) = (V::splat(force), load::<V>(column));
+            ends[0] = ends[0].plus_product(column[0], force);
+            ends[1] = ends[1].plus_product(column[1], force);
         }
-        product::<FUSED>(&self.inverse, self.padded, forces, still);
-        ends
+        still[..self.padded].fill(0.0);
+        add_product::<V>(&self.inverse, self.padded, forces, still);
+        let mut out = [0.0; 16];
+        for (half, ends) in halves_mut(&mut out).iter_mut().zip(ends) {
+            ends.store(half);
+        }
+        out
     }
 
     /// Inner displacements from those of the ends (top, bottom); `still` are those of [`Body::condense`].
     #[inline(always)]
-    pub fn expand<const FUSED: bool>(&self, ends: &[f64; 12], still: &mut [f64]) {
+    pub fn expand<V: Vector>(&self, ends: &[f64; 12], still: &mut [f64]) {
         let mut negative = *ends;
         for x in &mut negative {
             *x = -*x;
         }
-        product_onto::<FUSED>(&self.gain, self.padded, &negative, still);
+        add_product::<V>(&self.gain, self.padded, &negative, still);
     }
 }
 
-/// out = a x, `a` by columns of `rows`, a multiple of eight.
+/// out += a x, `a` by columns of `rows`, a multiple of eight.
 #[inline(always)]
-fn product<const FUSED: bool>(a: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
-    out[..rows].fill(0.0);
-    product_onto::<FUSED>(a, rows, x, out);
-}
-
-/// out += a x.
-#[inline(always)]
-fn product_onto<const FUSED: bool>(a: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+fn add_product<V: Vector>(a: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
+    let (out, _) = out.as_chunks_mut::<8>();
     let mut first = 0;
     // Three vectors of eight at a time: the paper's link of five elements in one go.
     while first + 24 <= rows {
-        chunk::<24, FUSED>(a, rows, x, first, out);
+        columns::<V, 3>(a, rows, first, x, &mut out[first / 8..]);
         first += 24;
     }
     while first + 8 <= rows {
-        chunk::<8, FUSED>(a, rows, x, first, out);
+        columns::<V, 1>(a, rows, first, x, &mut out[first / 8..]);
         first += 8;
     }
 }
 
+/// The same for `N` vectors of rows.
 #[inline(always)]
-fn chunk<const N: usize, const FUSED: bool>(a: &[f64], rows: usize, x: &[f64], first: usize, out: &mut [f64]) {
-    let mut sum = [0.0; N];
-    sum.copy_from_slice(&out[first..first + N]);
-    for (column, &x) in a.chunks_exact(rows).zip(x) {
-        let mut part = [0.0; N];
-        part.copy_from_slice(&column[first..first + N]);
-        add::<N, FUSED>(&mut sum, &part, x);
+fn columns<V: Vector, const N: usize>(a: &[f64], rows: usize, first: usize, x: &[f64], out: &mut [[f64; 8]]) {
+    // Even and odd columns apart: half as long a chain of additions.
+    let mut sums = [[V::splat(0.0); N]; 2];
+    for (k, (column, &x)) in a.chunks_exact(rows).zip(x).enumerate() {
+        let x = V::splat(x);
+        let (parts, _) = column[first..first + 8 * N].as_chunks::<8>();
+        let sum = &mut sums[k % 2];
+        for n in 0..N {
+            sum[n] = sum[n].plus_product(V::load(&parts[n]), x);
+        }
     }
-    out[first..first + N].copy_from_slice(&sum);
-}
-
-/// to += column scale.
-#[inline(always)]
-pub fn add<const N: usize, const FUSED: bool>(to: &mut [f64; N], column: &[f64; N], scale: f64) {
-    for r in 0..N {
-        to[r] = if FUSED {
-            column[r].mul_add(scale, to[r])
-        } else {
-            to[r] + column[r] * scale
-        };
+    for n in 0..N {
+        V::load(&out[n]).plus(sums[0][n]).plus(sums[1][n]).store(&mut out[n]);
     }
 }

@@ -2,10 +2,10 @@
 
 use nalgebra::Matrix6;
 
-use super::super::block::{eliminate, subtract};
 use super::super::changes::{ContactBlock, Touching};
+use super::super::vector::Vector;
 use super::body::Body;
-use super::{Six, body};
+use super::{Six, pivots};
 
 /// Columns of an inner node: the next node's six, the top end's six, the right-hand side.
 const COLUMNS: usize = 13;
@@ -62,7 +62,7 @@ impl GuideChain {
     /// # Errors
     /// Inner node and size of a pivot that vanished.
     #[inline(always)]
-    pub fn condense<const FUSED: bool>(
+    pub fn condense<V: Vector>(
         &self,
         touching: &[Touching],
         contact: &[ContactBlock],
@@ -104,18 +104,18 @@ impl GuideChain {
             for i in 0..8 {
                 solved[RIGHT][i] = right[i] - carry[RIGHT][i];
             }
-            eliminate::<8, 6, COLUMNS, FUSED>(&mut block, solved, |_| COLUMNS - 1).map_err(|pivot| (k, pivot))?;
+            pivots::six::<V, COLUMNS>(&mut block, solved).map_err(|pivot| (k, pivot))?;
             // The top end's coupling to this node is what `upper` holds now; it moves on to the next node.
             let mut onto_next = [[0.0; 8]; 6];
             for j in 0..6 {
-                times::<FUSED>(&out.upper, &solved[j], &mut onto_next[j]);
-                times::<FUSED>(&out.upper, &solved[TOP + j], &mut out.top[j]);
+                times::<V>(&out.upper, &solved[j], &mut onto_next[j]);
+                times::<V>(&out.upper, &solved[TOP + j], &mut out.top[j]);
             }
-            times::<FUSED>(&out.upper, &solved[RIGHT], &mut out.right[0]);
+            times::<V>(&out.upper, &solved[RIGHT], &mut out.right[0]);
             out.upper = onto_next;
             carry = [[0.0; 8]; COLUMNS];
             for (carry, solved) in carry.iter_mut().zip(solved.iter()) {
-                times::<FUSED>(&self.lower[k + 1], solved, carry);
+                times::<V>(&self.lower[k + 1], solved, carry);
                 for x in carry.iter_mut() {
                     *x = -*x;
                 }
@@ -134,20 +134,18 @@ impl GuideChain {
 
 /// Inner displacements from the bottom up, six per node, from those of the ends.
 #[inline(always)]
-pub fn expand<const FUSED: bool>(
-    solved: &[Solved],
-    top: &[f64; 6],
-    bottom: &[f64; 6],
-    mut set: impl FnMut(usize, &[f64; 8]),
-) {
+pub fn expand<V: Vector>(solved: &[Solved], top: &[f64; 6], bottom: &[f64; 6], mut set: impl FnMut(usize, &[f64; 8])) {
     let mut below = [0.0; 8];
     below[..6].copy_from_slice(bottom);
     for (k, solved) in solved.iter().enumerate().rev() {
-        let mut x = solved[RIGHT];
+        let mut sum = V::load(&solved[RIGHT]);
         for j in 0..6 {
-            subtract::<8, FUSED>(&mut x, &solved[j], below[j]);
-            subtract::<8, FUSED>(&mut x, &solved[TOP + j], top[j]);
+            sum = sum
+                .minus_product(V::load(&solved[j]), V::splat(below[j]))
+                .minus_product(V::load(&solved[TOP + j]), V::splat(top[j]));
         }
+        let mut x = [0.0; 8];
+        sum.store(&mut x);
         set(k, &x);
         below = x;
     }
@@ -155,10 +153,12 @@ pub fn expand<const FUSED: bool>(
 
 /// out -= m x.
 #[inline(always)]
-fn times<const FUSED: bool>(m: &Six, x: &[f64; 8], out: &mut [f64; 8]) {
-    for j in 0..6 {
-        body::add::<8, FUSED>(out, &m[j], -x[j]);
+fn times<V: Vector>(m: &Six, x: &[f64; 8], out: &mut [f64; 8]) {
+    let mut sum = V::load(out);
+    for (column, &x) in m.iter().zip(x) {
+        sum = sum.minus_product(V::load(column), V::splat(x));
     }
+    sum.store(out);
 }
 
 #[inline(always)]

@@ -13,6 +13,7 @@
 mod body;
 mod guide_span;
 mod operator;
+mod pivots;
 mod sweep;
 
 pub use operator::Operator;

@@ -2,14 +2,16 @@
 
 use nalgebra::Matrix6;
 
-use super::super::block::{eliminate, subtract};
 use super::super::changes::{Changes, JointChange, Touching};
 use super::super::instructions::Instructions;
 use super::super::reduction::{PLACES, active};
+#[cfg(target_arch = "x86_64")]
+use super::super::vector::{Avx2, Avx512};
+use super::super::vector::{Portable, Vector};
 use super::super::{Layout, Singular};
-use super::body::add;
 use super::guide_span::{Condensed, Solved, expand, six};
 use super::operator::{Edge, Matrices, Operator, place, spread};
+use super::pivots::{self, halves_mut, load};
 use super::{BELOW, Block, COLUMNS, Columns, GUIDE, MULTIPLIER, SIZE, Six, U};
 
 /// How a span takes part in this iteration.
@@ -122,7 +124,7 @@ impl CondensedElimination {
     /// When a block cannot be factorised.
     pub fn solve(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
         match self.instructions {
-            Instructions::Portable => self.run::<false>(operator, changes, rhs),
+            Instructions::Portable => self.run::<Portable>(operator, changes, rhs),
             // SAFETY: chosen only where the processor was found to have these instructions.
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => unsafe { self.run_avx2(operator, changes, rhs) },
@@ -135,32 +137,27 @@ impl CondensedElimination {
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
     fn run_avx2(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
-        self.run::<true>(operator, changes, rhs)
+        self.run::<Avx2>(operator, changes, rhs)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
     fn run_avx512(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
-        self.run::<true>(operator, changes, rhs)
+        self.run::<Avx512>(operator, changes, rhs)
     }
 
     #[inline(always)]
-    fn run<const FUSED: bool>(
-        &mut self,
-        operator: &Operator,
-        changes: &Changes,
-        rhs: &mut [f64],
-    ) -> Result<(), Singular> {
-        self.condense_spans::<FUSED>(operator, changes, rhs)?;
-        self.sweep::<FUSED>(operator, changes, rhs)?;
-        self.recover::<FUSED>(operator, rhs);
-        self.recover_spans::<FUSED>(operator, rhs);
+    fn run<V: Vector>(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
+        self.condense_spans::<V>(operator, changes, rhs)?;
+        self.sweep::<V>(operator, changes, rhs)?;
+        self.recover::<V>(operator, rhs);
+        self.recover_spans::<V>(operator, rhs);
         Ok(())
     }
 
     /// Takes the inner stations' right-hand sides to the ends of their spans.
     #[inline(always)]
-    fn condense_spans<const FUSED: bool>(
+    fn condense_spans<V: Vector>(
         &mut self,
         operator: &Operator,
         changes: &Changes,
@@ -185,7 +182,7 @@ impl CondensedElimination {
             let forces = &mut self.forces;
             gather(forces, layout.offset(span.first), span.inner, rhs);
             let still = &mut self.pipes[k * self.room..(k + 1) * self.room];
-            let onto = operator.pipes[span.pipe].condense::<FUSED>(forces, still);
+            let onto = operator.pipes[span.pipe].condense::<V>(forces, still);
             for i in 0..6 {
                 rhs[ends.pipe[0] + i] += onto[i];
                 rhs[ends.pipe[1] + i] += onto[6 + i];
@@ -194,7 +191,7 @@ impl CondensedElimination {
             let guide = &operator.guides[span.guide];
             if mode == Mode::Still {
                 let still = &mut self.guides[k * self.room..(k + 1) * self.room];
-                let onto = guide.body.condense::<FUSED>(forces, still);
+                let onto = guide.body.condense::<V>(forces, still);
                 for i in 0..6 {
                     rhs[ends.guide[0] + i] += onto[i];
                     rhs[ends.guide[1] + i] += onto[6 + i];
@@ -202,7 +199,7 @@ impl CondensedElimination {
             } else {
                 let condensed = guide
                     .chain
-                    .condense::<FUSED>(
+                    .condense::<V>(
                         &changes.touching[inner.clone()],
                         &changes.contact[inner.clone()],
                         forces,
@@ -224,12 +221,7 @@ impl CondensedElimination {
 
     /// From the top down.
     #[inline(always)]
-    fn sweep<const FUSED: bool>(
-        &mut self,
-        operator: &Operator,
-        changes: &Changes,
-        rhs: &[f64],
-    ) -> Result<(), Singular> {
+    fn sweep<V: Vector>(&mut self, operator: &Operator, changes: &Changes, rhs: &[f64]) -> Result<(), Singular> {
         let layout = operator.layout();
         self.swept.clear();
         let mut carry = Carry {
@@ -271,7 +263,7 @@ impl CondensedElimination {
                 node: Some(k),
             };
             let Some(span) = operator.spans.get(k) else {
-                self.last::<FUSED>(&mut block, &right, swept)?;
+                self.last::<V>(&mut block, &right, swept)?;
                 break;
             };
             if !open(below) {
@@ -282,7 +274,7 @@ impl CondensedElimination {
                     guide_upper: &guide_upper,
                     guide_lower: &guide_lower,
                 };
-                self.step::<FUSED>(&mut block, &right, swept, out, Some(k), &coupling, &mut carry)?;
+                self.step::<V>(&mut block, &right, swept, out, Some(k), &coupling, &mut carry)?;
                 continue;
             }
             // The span's stations one by one.
@@ -300,7 +292,7 @@ impl CondensedElimination {
                     guide_upper: &guide_upper,
                     guide_lower: &guide_lower,
                 };
-                self.step::<FUSED>(&mut block, &right, swept, out, from, &coupling, &mut carry)?;
+                self.step::<V>(&mut block, &right, swept, out, from, &coupling, &mut carry)?;
                 if station == span.first + span.inner {
                     break;
                 }
@@ -367,7 +359,7 @@ impl CondensedElimination {
     /// Eliminates a station that another follows.
     #[expect(clippy::too_many_arguments, reason = "one station's data, each used once")]
     #[inline(always)]
-    fn step<const FUSED: bool>(
+    fn step<V: Vector>(
         &mut self,
         block: &mut Block,
         right: &[f64; SIZE],
@@ -393,10 +385,9 @@ impl CondensedElimination {
             pivot,
         };
         if out == U {
-            eliminate::<SIZE, SIZE, COLUMNS, FUSED>(block, columns, active).map_err(singular)?;
+            pivots::sixteen::<V, COLUMNS>(block, columns, active).map_err(singular)?;
         } else {
-            eliminate::<SIZE, SIZE, COLUMNS, FUSED>(block, columns, |k| if k < GUIDE { 6 } else { 12 })
-                .map_err(singular)?;
+            pivots::sixteen::<V, COLUMNS>(block, columns, |k| if k < GUIDE { 6 } else { 12 }).map_err(singular)?;
         }
         // Two halves of eight rows: the pipe is in the first, the guide in the second from its second row on.
         let mut guide_lower = [[0.0; 8]; 6];
@@ -404,13 +395,14 @@ impl CondensedElimination {
             to[1..7].copy_from_slice(&from[..6]);
         }
         for (carry, column) in carry.columns.iter_mut().zip(columns.iter()) {
-            let (mut pipe, mut guide) = ([0.0; 8], [0.0; 8]);
+            let (mut pipe, mut guide) = (V::splat(0.0), V::splat(0.0));
             for j in 0..6 {
-                add::<8, FUSED>(&mut pipe, &coupling.pipe.lower[j], column[out + j]);
-                add::<8, FUSED>(&mut guide, &guide_lower[j], column[GUIDE + j]);
+                pipe = pipe.plus_product(V::load(&coupling.pipe.lower[j]), V::splat(column[out + j]));
+                guide = guide.plus_product(V::load(&guide_lower[j]), V::splat(column[GUIDE + j]));
             }
-            carry[..8].copy_from_slice(&pipe);
-            carry[8..].copy_from_slice(&guide);
+            let halves = halves_mut(carry);
+            pipe.store(&mut halves[0]);
+            guide.store(&mut halves[1]);
         }
         if let Some(node) = node {
             for (column, c) in coupling.pipe.lower_offset.iter().zip(self.offsets[node]) {
@@ -424,14 +416,9 @@ impl CondensedElimination {
 
     /// Eliminates the last station.
     #[inline(always)]
-    fn last<const FUSED: bool>(
-        &mut self,
-        block: &mut Block,
-        right: &[f64; SIZE],
-        swept: Swept,
-    ) -> Result<(), Singular> {
+    fn last<V: Vector>(&mut self, block: &mut Block, right: &[f64; SIZE], swept: Swept) -> Result<(), Singular> {
         let mut column = [*right];
-        eliminate::<SIZE, SIZE, 1, FUSED>(block, &mut column, |_| 0).map_err(|pivot| Singular {
+        pivots::sixteen::<V, 1>(block, &mut column, |_| 0).map_err(|pivot| Singular {
             station: swept.station,
             pivot,
         })?;
@@ -444,15 +431,24 @@ impl CondensedElimination {
 
     /// From the bottom up: every swept station's unknowns.
     #[inline(always)]
-    fn recover<const FUSED: bool>(&mut self, operator: &Operator, rhs: &mut [f64]) {
+    fn recover<V: Vector>(&mut self, operator: &Operator, rhs: &mut [f64]) {
         let layout = operator.layout();
         // Rotations, displacement, guide of the station below.
         let mut below = [0.0; 12];
         for (swept, columns) in self.swept.iter().zip(&self.columns).rev() {
             let offset = layout.offset(swept.station);
-            let mut x = columns[12];
-            for j in 0..12 {
-                subtract::<SIZE, FUSED>(&mut x, &columns[j], below[j]);
+            // Two sums in each half: half as long a chain.
+            let (mut even, mut odd): ([V; 2], [V; 2]) = (load(&columns[12]), [V::splat(0.0); 2]);
+            for j in 0..6 {
+                let (first, second): ([V; 2], [V; 2]) = (load(&columns[2 * j]), load(&columns[2 * j + 1]));
+                for half in 0..2 {
+                    even[half] = even[half].minus_product(first[half], V::splat(below[2 * j]));
+                    odd[half] = odd[half].minus_product(second[half], V::splat(below[2 * j + 1]));
+                }
+            }
+            let mut x = [0.0; SIZE];
+            for (half, place) in halves_mut(&mut x).iter_mut().enumerate() {
+                even[half].plus(odd[half]).store(place);
             }
             let matrices = swept.node.map(|node| &operator.matrices[operator.nodes[node].matrices]);
             match (swept.node, matrices) {
@@ -498,7 +494,7 @@ impl CondensedElimination {
 
     /// Inner stations of the spans that were condensed.
     #[inline(always)]
-    fn recover_spans<const FUSED: bool>(&mut self, operator: &Operator, rhs: &mut [f64]) {
+    fn recover_spans<V: Vector>(&mut self, operator: &Operator, rhs: &mut [f64]) {
         let layout = operator.layout();
         for (k, span) in operator.spans.iter().enumerate() {
             if self.modes[k] == Mode::Open || span.inner == 0 {
@@ -508,13 +504,13 @@ impl CondensedElimination {
             let room = k * self.room..(k + 1) * self.room;
             let first = layout.offset(span.first);
             let still = &mut self.pipes[room.clone()];
-            operator.pipes[span.pipe].expand::<FUSED>(&ends.values(&ends.pipe, rhs), still);
+            operator.pipes[span.pipe].expand::<V>(&ends.values(&ends.pipe, rhs), still);
             scatter(still, first, span.inner, rhs);
             if self.modes[k] == Mode::Still {
                 let still = &mut self.guides[room];
                 operator.guides[span.guide]
                     .body
-                    .expand::<FUSED>(&ends.values(&ends.guide, rhs), still);
+                    .expand::<V>(&ends.values(&ends.guide, rhs), still);
                 scatter(still, first + 6, span.inner, rhs);
             } else {
                 let values = ends.values(&ends.guide, rhs);
@@ -522,7 +518,7 @@ impl CondensedElimination {
                 top.copy_from_slice(&values[..6]);
                 bottom.copy_from_slice(&values[6..]);
                 let solved = &self.solved[span.first..span.first + span.inner];
-                expand::<FUSED>(solved, &top, &bottom, |node, x| {
+                expand::<V>(solved, &top, &bottom, |node, x| {
                     let at = first + 12 * node + 6;
                     rhs[at..at + 6].copy_from_slice(&x[..6]);
                 });
