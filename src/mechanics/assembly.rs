@@ -146,6 +146,11 @@ impl Assembler {
         }
     }
 
+    /// Vector instructions in use.
+    pub fn instructions(&self) -> Instructions {
+        self.instructions
+    }
+
     /// Sets the residual of unknowns without an equation to zero. Reactions are read before this.
     pub fn drop_reactions(&mut self, model: &Model) {
         for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {

@@ -7,25 +7,34 @@
 use serde::{Deserialize, Serialize};
 
 use super::assembly::{Assembler, inner_forces, outer_force};
-use super::beam::ElementVector;
 use super::conditions::Conditions;
 use super::description::Direction;
-use super::element_force::{ElementForce, Ends, plus};
+use super::element_form::{add, load};
+use super::linear::Instructions;
+#[cfg(target_arch = "x86_64")]
+use super::linear::vector::{Avx2, Avx512};
+use super::linear::vector::{Portable, Vector};
 use super::model::Model;
 use super::outcome::EnergyAudit;
-use super::state::{State, guide_element, joint_rotations, pipe_element};
+use super::state::{State, joint_rotations};
 
 /// Forces and energies at one end of a step that the trapezoid rule needs at the other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyPoint {
     /// Friction of both layers on every unknown (N, N m).
     friction: Vec<f64>,
-    /// Geometric-stiffness force with the axial force in use, per element's unknowns, pipe then guide.
-    geometric: Vec<ElementVector>,
+    /// Geometric-stiffness force N G q with the axial force in use.
+    geometric: Vec<f64>,
+    /// Rayleigh damping's force C v.
+    damping: Vec<f64>,
+    /// M a.
+    inertia: Vec<f64>,
     /// Point loads.
     loads: Vec<f64>,
     /// Kinetic, elastic, geometric, contact and stop energy (J).
     stored: f64,
+    /// Part of `stored` that is kinetic.
+    kinetic: f64,
     /// Part of `stored` in the geometric stiffness.
     geometric_energy: f64,
     /// Power of contact and stop damping (W).
@@ -41,9 +50,12 @@ impl EnergyPoint {
     pub fn new(model: &Model) -> Self {
         Self {
             friction: vec![0.0; model.unknowns()],
-            geometric: vec![ElementVector::zeros(); model.pipe.len() + model.guide.len()],
+            geometric: vec![0.0; model.unknowns()],
+            damping: vec![0.0; model.unknowns()],
+            inertia: vec![0.0; model.unknowns()],
             loads: vec![0.0; model.loads.len()],
             stored: 0.0,
+            kinetic: 0.0,
             geometric_energy: 0.0,
             contact_dissipation: 0.0,
             drive_torque: 0.0,
@@ -56,6 +68,8 @@ impl EnergyPoint {
     pub fn fits(&self, other: &Self) -> bool {
         self.friction.len() == other.friction.len()
             && self.geometric.len() == other.geometric.len()
+            && self.damping.len() == other.damping.len()
+            && self.inertia.len() == other.inertia.len()
             && self.loads.len() == other.loads.len()
     }
 
@@ -63,9 +77,12 @@ impl EnergyPoint {
     pub fn copy_from(&mut self, other: &Self) {
         self.friction.copy_from_slice(&other.friction);
         self.geometric.copy_from_slice(&other.geometric);
+        self.damping.copy_from_slice(&other.damping);
+        self.inertia.copy_from_slice(&other.inertia);
         self.loads.copy_from_slice(&other.loads);
         let Self {
             stored,
+            kinetic,
             geometric_energy,
             contact_dissipation,
             drive_torque,
@@ -73,6 +90,7 @@ impl EnergyPoint {
             weight_on_bit,
             ..
         } = *other;
+        self.kinetic = kinetic;
         (self.stored, self.geometric_energy, self.contact_dissipation) =
             (stored, geometric_energy, contact_dissipation);
         (self.drive_torque, self.bit_torque, self.weight_on_bit) = (drive_torque, bit_torque, weight_on_bit);
@@ -80,28 +98,25 @@ impl EnergyPoint {
 
     /// Evaluates at `state`, whose residual (reactions still in it) the assembler holds.
     pub fn evaluate(&mut self, model: &Model, state: &State, conditions: &Conditions, assembler: &Assembler) {
-        let mut stored = 0.0;
-        let mut geometric_energy = 0.0;
-        let (pipes, guides) = self.geometric.split_at_mut(model.pipe.len());
-        let mut add = |force: &ElementForce, q: &Ends, v: &Ends, tension: f64, out: &mut ElementVector| {
-            let g = force.total(&[0.0; 12], &[0.0; 12], q, tension);
-            geometric_energy += 0.5 * dot(q, &g);
-            stored += 0.5 * (force.stiffness_between(q, q) + force.mass_between(v, v));
-            out.data.0[0] = g;
+        let mut stored = match assembler.instructions() {
+            Instructions::Portable => self.elements::<Portable>(model, state, conditions),
+            // SAFETY: chosen only where the processor was found to have these instructions.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => unsafe { self.elements_avx2(model, state, conditions) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { self.elements_avx512(model, state, conditions) },
         };
-        for (e, element) in model.pipe.iter().enumerate() {
-            let (q, v) = (pipe_element(model, e, &state.q), pipe_element(model, e, &state.v));
-            add(&element.force, &q, &v, state.pipe_axial[e], &mut pipes[e]);
-        }
-        for (e, element) in model.guide.iter().enumerate() {
-            let q = element.turn.to_chord(&guide_element(model, e, &state.q));
-            let v = element.turn.to_chord(&guide_element(model, e, &state.v));
-            add(&element.force, &q, &v, state.guide_axial[e], &mut guides[e]);
-        }
         for point in &model.masses {
-            let speed: f64 = (0..3).map(|k| state.v[point.unknown + k].powi(2)).sum();
-            stored += 0.5 * point.mass * speed;
+            for k in 0..3 {
+                let u = point.unknown + k;
+                let v = state.v[u];
+                self.kinetic += 0.5 * point.mass * v * v;
+                self.inertia[u] += point.mass * state.a[u];
+                self.damping[u] += conditions.rayleigh.alpha * point.mass * v;
+            }
         }
+        stored += self.kinetic;
         self.friction.fill(0.0);
         self.contact_dissipation = 0.0;
         for (s, station) in model.stations.iter().enumerate() {
@@ -128,111 +143,132 @@ impl EnergyPoint {
         for (value, load) in self.loads.iter_mut().zip(&model.loads) {
             *value = load.load.history.at(conditions.time);
         }
-        self.stored = stored + geometric_energy;
-        self.geometric_energy = geometric_energy;
+        self.stored = stored;
         self.drive_torque = model.driven.map_or(0.0, |driven| assembler.residual[driven]);
         self.bit_torque = assembler.bit_torque;
         self.weight_on_bit = conditions.weight_on_bit;
     }
+
+    /// Forces of the elements, and their kinetic energy. Returns the elastic and geometric energy.
+    #[inline(always)]
+    fn elements<V: Vector>(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
+        self.geometric.fill(0.0);
+        self.damping.fill(0.0);
+        self.inertia.fill(0.0);
+        let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
+        let zero = V::splat(0.0);
+        let (mut elastic, mut geometric, mut kinetic) = (zero, zero, zero);
+        let tensions = state.pipe_axial.iter().chain(&state.guide_axial);
+        for (element, &tension) in model.elements.list.iter().zip(tensions) {
+            let forms = &model.elements.kinds[element.kind as usize];
+            let nodes = [element.nodes[0] as usize, element.nodes[1] as usize];
+            let q = forms.to_own::<V>([load(&state.q, nodes[0]), load(&state.q, nodes[1])]);
+            let v = forms.to_own::<V>([load(&state.v, nodes[0]), load(&state.v, nodes[1])]);
+            let a = forms.to_own::<V>([load(&state.a, nodes[0]), load(&state.a, nodes[1])]);
+            let bent = forms.stiffness.product(q);
+            let moving = forms.mass.product(v);
+            let stiff = forms.stiffness.product(v);
+            let tension = V::splat(tension);
+            let mut stretched = forms.geometric.product(q);
+            let mut damped = [zero; 2];
+            for n in 0..2 {
+                stretched[n] = stretched[n].times(tension);
+                damped[n] = moving[n].times(alpha).plus_product(stiff[n], beta);
+                elastic = elastic.plus_product(q[n], bent[n]);
+                geometric = geometric.plus_product(q[n], stretched[n]);
+                kinetic = kinetic.plus_product(v[n], moving[n]);
+            }
+            let inert = forms.from_own(forms.mass.product(a));
+            let (stretched, damped) = (forms.from_own(stretched), forms.from_own(damped));
+            for n in 0..2 {
+                add(&mut self.geometric, nodes[n], stretched[n]);
+                add(&mut self.damping, nodes[n], damped[n]);
+                add(&mut self.inertia, nodes[n], inert[n]);
+            }
+        }
+        self.kinetic = 0.5 * sum(kinetic);
+        self.geometric_energy = 0.5 * sum(geometric);
+        0.5 * sum(elastic) + self.geometric_energy
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn elements_avx2(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
+        self.elements::<Avx2>(model, state, conditions)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+    fn elements_avx512(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
+        self.elements::<Avx512>(model, state, conditions)
+    }
+}
+
+/// Sum of the lanes that belong to a node.
+#[inline(always)]
+fn sum<V: Vector>(lanes: V) -> f64 {
+    let mut out = [0.0; 8];
+    lanes.store(&mut out);
+    out[..6].iter().sum()
+}
+
+/// dq . (f0 + f1) / 2 for the forces of both ends of a step.
+fn mean_work(moved: &[f64], before: &[f64], after: &[f64]) -> f64 {
+    // Eight sums, so that the compiler can use vectors.
+    let mut sums = [0.0; 8];
+    let (moved, before, after) = (moved.as_chunks::<8>(), before.as_chunks::<8>(), after.as_chunks::<8>());
+    for ((dq, f0), f1) in moved.0.iter().zip(before.0).zip(after.0) {
+        for k in 0..8 {
+            sums[k] += dq[k] * (f0[k] + f1[k]);
+        }
+    }
+    for ((dq, f0), f1) in moved.1.iter().zip(before.1).zip(after.1) {
+        sums[0] += dq * (f0 + f1);
+    }
+    0.5 * sums.iter().sum::<f64>()
 }
 
 impl EnergyAudit {
-    /// Adds the step of size `h` from `(s0, e0)` to `(s1, e1)`.
+    /// Adds the step of size `h` from `(s0, e0)` to `(s1, e1)`. `room` holds a value per unknown and is overwritten.
     pub fn add_step(
         &mut self,
         model: &Model,
-        conditions: &Conditions,
         h: f64,
         (s0, e0): (&State, &EnergyPoint),
         (s1, e1): (&State, &EnergyPoint),
+        room: &mut [f64],
     ) {
-        let moved = |unknown: usize| s1.q[unknown] - s0.q[unknown];
+        for (moved, (q1, q0)) in room.iter_mut().zip(s1.q.iter().zip(&s0.q)) {
+            *moved = q1 - q0;
+        }
+        let moved = &*room;
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         if let Some(driven) = model.driven {
-            self.drive += mean(e0.drive_torque, e1.drive_torque) * moved(driven);
+            self.drive += mean(e0.drive_torque, e1.drive_torque) * moved[driven];
         }
         let bottom = &model.stations[model.last()];
-        self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved(bottom.guide);
-        self.bit += mean(e0.bit_torque, e1.bit_torque) * moved(bottom.pipe_above + Direction::Psi as usize);
+        self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved[bottom.guide];
+        self.bit += mean(e0.bit_torque, e1.bit_torque) * moved[bottom.pipe_above + Direction::Psi as usize];
         for (k, load) in model.loads.iter().enumerate() {
-            self.loads += mean(e0.loads[k], e1.loads[k]) * moved(load.unknown);
+            self.loads += mean(e0.loads[k], e1.loads[k]) * moved[load.unknown];
         }
-        for unknown in 0..s0.q.len() {
-            self.friction -= mean(e0.friction[unknown], e1.friction[unknown]) * moved(unknown);
-        }
+        self.friction -= mean_work(moved, &e0.friction, &e1.friction);
         self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
-
-        let mut geometric_work = 0.0;
-        let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
-        for (e, element) in model.pipe.iter().enumerate() {
-            let at = |values: &[f64]| pipe_element(model, e, values);
-            let dq = plus(&at(&s1.q), -1.0, &at(&s0.q));
-            self.gravity += dot(&dq, &element.weight.data.0[0]);
-            geometric_work += mean_work(&dq, &e0.geometric[e], &e1.geometric[e]);
-            let rates = [at(&s0.v), at(&s1.v), at(&s0.a), at(&s1.a)];
-            self.beam_losses(&element.force, &dq, &rates, alpha, beta);
-        }
-        for (e, element) in model.guide.iter().enumerate() {
-            let at = |values: &[f64]| guide_element(model, e, values);
-            let dq = plus(&at(&s1.q), -1.0, &at(&s0.q));
-            self.gravity += dot(&dq, &element.weight.data.0[0]);
-            let dq = element.turn.to_chord(&dq);
-            let g = model.pipe.len() + e;
-            geometric_work += mean_work(&dq, &e0.geometric[g], &e1.geometric[g]);
-            let chord = |values: &[f64]| element.turn.to_chord(&at(values));
-            let rates = [chord(&s0.v), chord(&s1.v), chord(&s0.a), chord(&s1.a)];
-            self.beam_losses(&element.force, &dq, &rates, alpha, beta);
-        }
+        self.gravity += mean_work(moved, &model.weight, &model.weight);
         for point in &model.masses {
-            for k in 0..3 {
-                let u = point.unknown + k;
-                let dq = moved(u);
-                self.gravity += point.mass * point.gravity[k] * dq;
-                self.rayleigh_damping += alpha * point.mass * dq * mean(s0.v[u], s1.v[u]);
-                let kinetic = 0.5 * (s1.v[u].powi(2) - s0.v[u].powi(2));
-                self.numerical_damping += point.mass * (dq * mean(s0.a[u], s1.a[u]) - kinetic);
-            }
+            let down = (0..3).map(|k| point.gravity[k] * moved[point.unknown + k]);
+            self.gravity += point.mass * down.sum::<f64>();
         }
+        self.rayleigh_damping += mean_work(moved, &e0.damping, &e1.damping);
+        // The scheme's own loss: what inertia took less what became kinetic energy.
+        self.numerical_damping += mean_work(moved, &e0.inertia, &e1.inertia) - (e1.kinetic - e0.kinetic);
+        let geometric_work = mean_work(moved, &e0.geometric, &e1.geometric);
         self.axial_update += (e1.geometric_energy - e0.geometric_energy) - geometric_work;
         self.stored += e1.stored - e0.stored;
         let worked_in = self.drive + self.weight_on_bit + self.gravity + self.loads + self.axial_update;
         let taken = self.bit + self.friction + self.contact_damping + self.rayleigh_damping + self.numerical_damping;
         self.error = worked_in - taken - self.stored;
     }
-
-    /// Rayleigh damping and the scheme's own loss of one element that moves by `dq`; `v0`, `v1`, `a0`, `a1` are its rates at both ends
-    /// of the step.
-    fn beam_losses(&mut self, force: &ElementForce, dq: &Ends, [v0, v1, a0, a1]: &[Ends; 4], alpha: f64, beta: f64) {
-        let v = mean(v0, v1);
-        self.rayleigh_damping += alpha * force.mass_between(dq, &v) + beta * force.stiffness_between(dq, &v);
-        // T_1 - T_0 = M (v_1 - v_0) . v.
-        let kinetic = force.mass_between(&plus(v1, -1.0, v0), &v);
-        self.numerical_damping += 0.5 * force.mass_between(dq, &plus(a0, 1.0, a1)) - kinetic;
-    }
-}
-
-#[inline(always)]
-fn dot(x: &Ends, y: &Ends) -> f64 {
-    let mut sum = 0.0;
-    for i in 0..12 {
-        sum += x[i] * y[i];
-    }
-    sum
-}
-
-#[inline(always)]
-fn mean(x: &Ends, y: &Ends) -> Ends {
-    let mut sum = plus(x, 1.0, y);
-    for x in &mut sum {
-        *x *= 0.5;
-    }
-    sum
-}
-
-/// dq . (f0 + f1) / 2.
-#[inline(always)]
-fn mean_work(dq: &Ends, f0: &ElementVector, f1: &ElementVector) -> f64 {
-    dot(dq, &mean(&f0.data.0[0], &f1.data.0[0]))
 }
 
 /// Largest violation of the joint rows: translations (m) and rotations (-).

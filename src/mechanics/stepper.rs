@@ -81,6 +81,8 @@ pub struct Stepper {
     energy: EnergyPoint,
     trial_energy: EnergyPoint,
     energy_before_step: EnergyPoint,
+    /// Room for the displacements of a step.
+    moved: Vec<f64>,
     audit: EnergyAudit,
     counters: Counters,
     /// Whole turns taken off the spins so far.
@@ -121,6 +123,7 @@ impl Stepper {
             before_step: state.clone(),
             trial_energy: energy.clone(),
             energy_before_step: energy.clone(),
+            moved: vec![0.0; model.unknowns()],
             audit: EnergyAudit::default(),
             counters: Counters::default(),
             turns: 0.0,
@@ -347,10 +350,10 @@ impl Stepper {
             .evaluate(&self.model, &self.trial, &conditions, &self.newton.assembler);
         self.audit.add_step(
             &self.model,
-            &conditions,
             step,
             (&self.state, &self.energy),
             (&self.trial, &self.trial_energy),
+            &mut self.moved,
         );
         self.newton.assembler.stopwatch.lap(Phase::Energy);
         std::mem::swap(&mut self.state, &mut self.trial);
