@@ -185,16 +185,17 @@ fn add_product<V: Vector>(a: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
 #[inline(always)]
 fn columns<V: Vector, const N: usize>(a: &[f64], rows: usize, first: usize, x: &[f64], out: &mut [[f64; 8]]) {
     // Even and odd columns apart: half as long a chain of additions.
-    let mut sums = [[V::splat(0.0); N]; 2];
-    for (k, (column, &x)) in a.chunks_exact(rows).zip(x).enumerate() {
-        let x = V::splat(x);
-        let (parts, _) = column[first..first + 8 * N].as_chunks::<8>();
-        let sum = &mut sums[k % 2];
+    let (mut even, mut odd) = ([V::splat(0.0); N], [V::splat(0.0); N]);
+    for (pair, x) in a.chunks_exact(2 * rows).zip(x.chunks_exact(2)) {
+        let (first_column, second_column) = pair.split_at(rows);
+        let (first_part, _) = first_column[first..first + 8 * N].as_chunks::<8>();
+        let (second_part, _) = second_column[first..first + 8 * N].as_chunks::<8>();
         for n in 0..N {
-            sum[n] = sum[n].plus_product(V::load(&parts[n]), x);
+            even[n] = even[n].plus_product(V::load(&first_part[n]), V::splat(x[0]));
+            odd[n] = odd[n].plus_product(V::load(&second_part[n]), V::splat(x[1]));
         }
     }
     for n in 0..N {
-        V::load(&out[n]).plus(sums[0][n]).plus(sums[1][n]).store(&mut out[n]);
+        V::load(&out[n]).plus(even[n]).plus(odd[n]).store(&mut out[n]);
     }
 }
