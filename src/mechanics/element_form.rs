@@ -79,9 +79,8 @@ impl ElementForm {
     #[inline(always)]
     pub fn add_product<V: Vector>(&self, x: Both<V>, out: &mut Both<V>) {
         let swapped = [x[0].paired(), x[1].paired()];
-        for row in 0..2 {
-            let (d, p) = (&self.diagonal[row], &self.paired[row]);
-            out[row] = out[row]
+        for ((out, d), p) in out.iter_mut().zip(&self.diagonal).zip(&self.paired) {
+            *out = out
                 .plus_product(V::load(&d[0]), x[0])
                 .plus_product(V::load(&p[0]), swapped[0])
                 .plus_product(V::load(&d[1]), x[1])
