@@ -1,12 +1,12 @@
 //! Messages made from a snapshot say what the snapshot says.
 
-use flexdrill::analysis::{Severity, WhirlKind};
+use flexdrill::analysis::{Severity, ShockLevel, WhirlKind};
 use flexdrill::mechanics::Body;
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::fill::{self, ShapeStyle};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::visualization_msgs::{Marker, MarkerArray};
-use flexdrill::messages::{ContactForces, JointDeflections, WhirlWarning, sensor_msgs};
+use flexdrill::messages::{BitState, ContactForces, JointDeflections, WhirlWarning, sensor_msgs};
 use flexdrill::twin::{ContactLayer, Snapshot};
 
 fn header() -> Header {
@@ -27,6 +27,7 @@ fn layer(normal: [f64; 2]) -> ContactLayer {
         axial: vec![0.0; 2],
         normal_peak: normal.iter().map(|force| force * 2.0).collect(),
         normal_rms: normal.to_vec(),
+        shock: normal.iter().map(|force| force * 1e-3).collect(),
     }
 }
 
@@ -71,6 +72,78 @@ fn the_largest_contact_force_is_the_interval_s_peak() {
     );
     assert_eq!((message.max_guide_wall_force, message.max_guide_wall_station), (0.0, 0));
     assert_eq!(message.state, [1, 0]);
+    assert_eq!(message.pipe_guide_shock, [1.0, 0.0]);
+}
+
+#[test]
+fn shock_and_stick_slip_carry_their_levels() {
+    let mut snapshot = snapshot();
+    snapshot.shock = ShockLevel {
+        severity: Severity::Warning,
+        layer: 1,
+        station: 1,
+        impulse: 17.0,
+        since: 1.0,
+    };
+    snapshot.bit.stick_slip = Severity::Critical;
+    snapshot.bit.lateral_impulse = 0.4;
+    let mut contacts = ContactForces::default();
+    fill::contact_forces(&snapshot, &header(), &mut contacts);
+    assert_eq!(contacts.shock_severity, ContactForces::SHOCK_WARNING);
+    assert_eq!(
+        (contacts.shock_layer, contacts.shock_station, contacts.shock_impulse),
+        (ContactForces::OUTER, 1, 17.0)
+    );
+    let mut bit = BitState::default();
+    fill::bit_state(&snapshot, &header(), &mut bit);
+    assert_eq!(
+        (bit.stick_slip_severity, bit.lateral_impulse),
+        (BitState::CRITICAL, 0.4)
+    );
+}
+
+#[test]
+fn a_doubtful_input_is_said_and_rolling_is_told_from_sliding() {
+    let mut snapshot = snapshot();
+    snapshot.whirl.measured_depth = vec![2.5];
+    snapshot.whirl.inclination = vec![0.5];
+    snapshot.whirl.body = vec![Body::Pipe];
+    snapshot.warning.severity = Severity::Warning;
+    snapshot.warning.kind = WhirlKind::Backward;
+    snapshot.warning.rolling_share = 0.97;
+    snapshot.warning.rolling = true;
+    snapshot.warning.confidence = 0.54;
+    snapshot.warning.peak_force = 7300.0;
+    let mut message = WhirlWarning::default();
+    let mut said = |snapshot: &Snapshot, quality| {
+        fill::whirl_warning(snapshot, &header(), quality, &mut message);
+        assert_eq!(
+            (message.input_quality, message.confidence, message.peak_force),
+            (quality, 0.54, 7300.0)
+        );
+        message.message.clone()
+    };
+    let fresh = said(&snapshot, WhirlWarning::INPUT_OK);
+    assert!(fresh.contains("rolling (97 % of the rate without slip)"), "{fresh}");
+    assert!(fresh.contains("up to 7.30 kN, confidence 54 %"), "{fresh}");
+    assert!(!fresh.contains("input"), "{fresh}");
+    let stale = said(&snapshot, WhirlWarning::INPUT_STALE);
+    assert!(
+        stale.ends_with("at held or safe values, with less confidence."),
+        "{stale}"
+    );
+    let rejected = said(&snapshot, WhirlWarning::INPUT_REJECTED);
+    assert!(rejected.contains("was rejected"), "{rejected}");
+    (snapshot.warning.rolling_share, snapshot.warning.rolling) = (0.6, false);
+    let sliding = said(&snapshot, WhirlWarning::INPUT_OK);
+    assert!(sliding.contains("sliding (60 % of the rate of rolling)"), "{sliding}");
+    // That all is well is doubtful too when nobody knows what the tool is doing.
+    snapshot.warning.severity = Severity::Ok;
+    let calm = said(&snapshot, WhirlWarning::INPUT_NOT_RECEIVED);
+    assert!(
+        calm.starts_with("No whirl") && calm.contains("No input has been received"),
+        "{calm}"
+    );
 }
 
 #[test]

@@ -13,6 +13,7 @@ fn root() -> PathBuf {
 fn replay(log: &Path, from: &str) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out.mcap");
+    let incidents = folder.path().join("incidents.json");
     let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
         .arg("replay")
         .arg(log)
@@ -22,6 +23,8 @@ fn replay(log: &Path, from: &str) {
         .arg(root().join("config/coarse.yaml"))
         .args(["--from", from, "--duration", "120", "--out"])
         .arg(&out)
+        .arg("--incidents")
+        .arg(&incidents)
         .output()
         .unwrap();
     let said = format!(
@@ -31,6 +34,7 @@ fn replay(log: &Path, from: &str) {
     );
     assert!(output.status.success(), "{said}");
     println!("{said}");
+    check_incidents(&said, &incidents);
 
     let (mut joints, mut contacts, mut bits) = (0_u32, 0_u32, Vec::new());
     for message in flexdrill::bag::open(&out).unwrap() {
@@ -71,6 +75,32 @@ fn replay(log: &Path, from: &str) {
         bits.iter().any(|bit| bit.weight_on_bit > 1e3),
         "no weight on bit in the log"
     );
+}
+
+/// Every incident has its time, place, kind, severity and duration, on the screen and in the file.
+fn check_incidents(said: &str, path: &Path) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let rows: Vec<serde_json::Value> = serde_json::from_str(&text).unwrap();
+    // A flexible pipe at 40 to 50 r/min under load whirls: two minutes without any incident would be a fault.
+    assert!(
+        !rows.is_empty() && said.contains(&format!("incidents: {}", rows.len())),
+        "{said}"
+    );
+    for row in &rows {
+        let number = |key: &str| row.pointer(key).and_then(serde_json::Value::as_f64).unwrap();
+        assert!((0.0..=120.0).contains(&number("/start")), "{row}");
+        assert!(
+            number("/duration") >= 0.0 && number("/start") + number("/duration") <= 120.0 + 1e-6,
+            "{row}"
+        );
+        assert!((0.0..=5.1).contains(&number("/place/measured_depth")), "{row}");
+        assert!((0.0..=90.1).contains(&number("/inclination_deg")), "{row}");
+        assert!(
+            ["watch", "warning", "critical"].contains(&row["severity"].as_str().unwrap()),
+            "{row}"
+        );
+        assert!(row["kind"].is_string() && row["place"]["station"].is_u64(), "{row}");
+    }
 }
 
 #[test]

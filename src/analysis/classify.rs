@@ -24,26 +24,51 @@ const SINGLE_LINE: f64 = 0.9;
 pub(super) struct View {
     pub(super) orbit: Orbit,
     pub(super) lines: Lines,
+    /// Phase rate (rad/s) from the turns about the centre, where the swept area and the strongest line disagree.
+    pub(super) turning: Option<f64>,
+    /// How much the motion repeats itself after one turn of the tool, one and a half or two; 0 where it was not looked at.
+    pub(super) repetition: f64,
     /// s.
     pub(super) duration: f64,
 }
 
 impl View {
-    fn is_clean(&self, settings: &WhirlSettings) -> bool {
-        self.orbit.axis_ratio >= settings.min_axis_ratio
+    fn is_clean(&self, min_axis_ratio: f64) -> bool {
+        self.orbit.axis_ratio >= min_axis_ratio
             && self.lines.direction.abs() >= CLEAN_DIRECTION
             && self.lines.concentration >= CLEAN_CONCENTRATION
     }
 
-    /// 1 when the rates of both estimators are equal, 0 when they differ by their own size.
+    /// 1 when the estimators in time and in frequency give the same rate, 0 when they differ by their own size. In time
+    /// the swept area or the turns may agree: for one line both do, of several the turns follow the larger one.
     fn agreement(&self) -> f64 {
-        let (time, spectrum) = (self.orbit.rate, self.lines.rate);
-        let scale = time.abs().max(spectrum.abs());
-        if scale > 0.0 {
-            (1.0 - (time - spectrum).abs() / scale).max(0.0)
+        let agree = |time: f64| agreement(time, self.lines.rate);
+        agree(self.orbit.rate).max(self.turning.map_or(0.0, agree))
+    }
+
+    /// Whether the swept area and the strongest line tell of one and the same rate.
+    pub(super) fn is_single_line(&self) -> bool {
+        agreement(self.orbit.rate, self.lines.rate) >= SINGLE_LINE
+    }
+
+    /// The swept area is exact for a single line; of several lines it gives the mean, and then the strongest line says
+    /// more.
+    fn rate(&self) -> f64 {
+        if self.is_single_line() {
+            self.orbit.rate
         } else {
-            0.0
+            self.lines.rate
         }
+    }
+}
+
+/// 1 for equal rates, 0 for rates that differ by their own size.
+fn agreement(one: f64, other: f64) -> f64 {
+    let scale = one.abs().max(other.abs());
+    if scale > 0.0 {
+        (1.0 - (one - other).abs() / scale).max(0.0)
+    } else {
+        0.0
     }
 }
 
@@ -59,19 +84,49 @@ pub(super) struct Verdict {
     pub(super) window: f64,
 }
 
-/// `sense` is +1 or -1, the sign of the rotation; `previous` is the kind that stands, for the hysteresis.
-pub(super) fn judge(
-    long: &View,
-    short: Option<&View>,
-    clearance: f64,
-    sense: f64,
-    previous: WhirlKind,
-    settings: &WhirlSettings,
-) -> Verdict {
-    let leaving = 1.0 - settings.hysteresis;
+/// The thresholds of a kind as they stand for a place: what is left needs less than what is entered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Gates {
+    /// RMS radius (m) below which there is no orbit.
+    pub(super) radius: f64,
+    /// Minor over major axis below which the motion is a line.
+    pub(super) axis_ratio: f64,
+    direction: f64,
+    turns: f64,
+    repetition: f64,
+    out_of_chaos: bool,
+}
+
+impl Gates {
+    /// `previous` is the kind that stands.
+    pub(super) fn new(clearance: f64, previous: WhirlKind, settings: &WhirlSettings) -> Self {
+        let leaving = 1.0 - settings.hysteresis;
+        let when = |stands: bool| if stands { leaving } else { 1.0 };
+        let orbits = when(previous != WhirlKind::None);
+        let whirls = when(matches!(previous, WhirlKind::Forward | WhirlKind::Backward));
+        Self {
+            radius: settings.min_orbit_ratio * clearance * orbits,
+            axis_ratio: settings.min_axis_ratio * orbits,
+            direction: settings.steady_direction * whirls,
+            turns: MIN_TURNS * whirls,
+            repetition: settings.min_repetition * when(previous == WhirlKind::None),
+            out_of_chaos: previous == WhirlKind::Chaotic,
+        }
+    }
+
+    /// Whether the direction is steady enough for a whirl.
+    pub(super) fn is_directed(&self, lines: &Lines) -> bool {
+        lines.direction.abs() >= self.direction
+    }
+}
+
+/// `sense` is +1 or -1, the sign of the rotation.
+pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, sense: f64) -> Verdict {
+    // Out of chaos only the long window leads: by chance a few turns of it look like one whirl. So do parts of a motion
+    // that repeats itself without going round.
+    let long_leads = gates.out_of_chaos || long.repetition >= gates.repetition;
     let view = match short {
-        // Out of chaos only the long window leads: by chance a few turns of it look like one whirl.
-        Some(view) if view.is_clean(settings) && previous != WhirlKind::Chaotic => view,
+        Some(view) if view.is_clean(gates.axis_ratio) && !long_leads => view,
         _ => long,
     };
     let verdict = |kind, rate, confidence: f64| Verdict {
@@ -81,32 +136,32 @@ pub(super) fn judge(
         confidence: confidence.clamp(0.0, 1.0),
         window: view.duration,
     };
-    let factor = if previous == WhirlKind::None { 1.0 } else { leaving };
-    let smallest = settings.min_orbit_ratio * clearance * factor;
     // The short window knows first that an orbit has died down.
     let radius = short
         .map_or(f64::MAX, |short| short.orbit.radius)
         .min(long.orbit.radius);
-    if radius < smallest {
+    if radius < gates.radius {
         return Verdict {
             radius,
-            ..verdict(WhirlKind::None, 0.0, 1.0 - 0.5 * radius / smallest)
+            ..verdict(WhirlKind::None, 0.0, 1.0 - 0.5 * radius / gates.radius)
         };
     }
-    if view.orbit.axis_ratio < settings.min_axis_ratio {
-        return verdict(
-            WhirlKind::None,
-            0.0,
-            1.0 - 0.5 * view.orbit.axis_ratio / settings.min_axis_ratio,
-        );
+    if view.orbit.axis_ratio < gates.axis_ratio {
+        let confidence = 1.0 - 0.5 * view.orbit.axis_ratio / gates.axis_ratio;
+        return verdict(WhirlKind::None, 0.0, confidence);
     }
     let direction = view.lines.direction;
-    let stands = matches!(previous, WhirlKind::Forward | WhirlKind::Backward);
-    let steady = settings.steady_direction * if stands { leaving } else { 1.0 };
-    if direction.abs() < steady {
-        return verdict(WhirlKind::Chaotic, 0.0, 1.0 - 0.5 * direction.abs() / steady);
+    if !gates.is_directed(&view.lines) {
+        // A pipe that rocks up both sides of the hole, or is thrown about in the same way at every turn, has no direction
+        // either, but there is nothing chaotic in it.
+        return if view.repetition >= gates.repetition {
+            verdict(WhirlKind::None, 0.0, view.repetition)
+        } else {
+            let confidence = 1.0 - 0.5 * direction.abs() / gates.direction;
+            verdict(WhirlKind::Chaotic, 0.0, confidence)
+        };
     }
-    if view.orbit.rate.abs().max(view.lines.rate.abs()) * view.duration < MIN_TURNS * TAU {
+    if view.orbit.rate.abs().max(view.lines.rate.abs()) * view.duration < gates.turns * TAU {
         return verdict(WhirlKind::None, 0.0, 0.5);
     }
     let kind = if direction * sense > 0.0 {
@@ -114,13 +169,5 @@ pub(super) fn judge(
     } else {
         WhirlKind::Backward
     };
-    let agreement = view.agreement();
-    // The time estimate is the exacter one for a single line; of several lines it is the mean, and then the strongest
-    // line says more.
-    let rate = if agreement >= SINGLE_LINE {
-        view.orbit.rate
-    } else {
-        view.lines.rate
-    };
-    verdict(kind, rate, direction.abs() * agreement)
+    verdict(kind, view.rate(), direction.abs() * view.agreement())
 }

@@ -20,13 +20,15 @@ impl ContactStatistics {
         }
     }
 
-    /// Takes the normal forces (N) of a step of `dt` (s), one per station.
-    pub fn push(&mut self, dt: f64, normal: impl IntoIterator<Item = f64>) {
+    /// Takes the normal force (N) of one touching station in a step of `dt` (s).
+    pub fn touch(&mut self, station: usize, dt: f64, normal: f64) {
+        self.peak[station] = self.peak[station].max(normal);
+        self.square_integral[station] += normal * normal * dt;
+    }
+
+    /// Ends a step of `dt` (s); stations that were not named did not touch.
+    pub fn advance(&mut self, dt: f64) {
         self.duration += dt;
-        for ((peak, square), force) in self.peak.iter_mut().zip(&mut self.square_integral).zip(normal) {
-            *peak = peak.max(force);
-            *square += force * force * dt;
-        }
     }
 
     /// Writes the peak and the root mean square (N) of the interval so far; zeros when nothing was pushed.
@@ -49,10 +51,12 @@ impl ContactStatistics {
     }
 }
 
-/// Root mean square of one quantity over an interval.
+/// Root mean square, peak and impulse of one quantity over an interval.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct RootMeanSquare {
     square_integral: f64,
+    integral: f64,
+    peak: f64,
     duration: f64,
 }
 
@@ -64,8 +68,21 @@ impl RootMeanSquare {
 
     /// Takes the square of the value of a step of `dt` (s), for magnitudes of vectors.
     pub fn push_square(&mut self, dt: f64, square: f64) {
+        let size = square.sqrt();
         self.square_integral += square * dt;
+        self.integral += size * dt;
+        self.peak = self.peak.max(size);
         self.duration += dt;
+    }
+
+    /// Largest magnitude of the interval so far.
+    pub fn peak(&self) -> f64 {
+        self.peak
+    }
+
+    /// Integral of the magnitude over the interval so far: of an acceleration, the speed that it could have changed.
+    pub fn impulse(&self) -> f64 {
+        self.integral
     }
 
     /// Of the interval so far; 0 when nothing was pushed.
@@ -91,7 +108,11 @@ mod tests {
     fn a_short_collision_keeps_its_peak_and_its_share_of_the_rms() {
         let mut statistics = ContactStatistics::new(2);
         for step in 0..20 {
-            statistics.push(1e-3, [if step == 7 { 1000.0 } else { 0.0 }, 50.0]);
+            if step == 7 {
+                statistics.touch(0, 1e-3, 1000.0);
+            }
+            statistics.touch(1, 1e-3, 50.0);
+            statistics.advance(1e-3);
         }
         let (mut peak, mut rms) = ([0.0; 2], [0.0; 2]);
         statistics.write(&mut peak, &mut rms);
@@ -112,5 +133,6 @@ mod tests {
         rms.push(3.0, 2.0);
         rms.push(1.0, -4.0);
         assert!((rms.value() - 7f64.sqrt()).abs() < 1e-12);
+        assert_eq!((rms.peak(), rms.impulse()), (4.0, 10.0));
     }
 }

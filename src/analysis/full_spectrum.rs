@@ -6,10 +6,11 @@
 
 use std::f64::consts::TAU;
 
-use super::orbit_window::MAX_POINTS;
+use super::orbit_window::{LONG_POINTS, SHORT_POINTS};
 
-/// Twice the points: the padding halves the distance between lines, which the peak's parabola needs.
-const SIZE: usize = 2 * MAX_POINTS;
+/// Lines of the transform; windows with few points take half of it.
+const SIZE: usize = LONG_POINTS;
+const HALF_SIZE: usize = SHORT_POINTS;
 
 /// What the lines say.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -29,51 +30,64 @@ pub(super) struct Lines {
 /// Tables and scratch of the transform.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FullSpectrum {
+    /// By stage, so that each is read in order.
     twiddle: Vec<[f64; 2]>,
+    /// Bit-reversed index of each point.
+    reversed: Vec<usize>,
     line: Vec<[f64; 2]>,
     power: Vec<f64>,
+    /// Weight of each line in the pace.
+    emphasis: Vec<f64>,
 }
 
 impl FullSpectrum {
     pub(super) fn new() -> Self {
-        let twiddle = (0..SIZE / 2)
-            .map(|index| {
-                let (sin, cos) = (-TAU * index as f64 / SIZE as f64).sin_cos();
+        let mut twiddle = Vec::with_capacity(SIZE);
+        let mut half = 1;
+        while half < SIZE {
+            twiddle.extend((0..half).map(|index| {
+                let (sin, cos) = (-0.5 * TAU * index as f64 / half as f64).sin_cos();
                 [cos, sin]
-            })
-            .collect();
+            }));
+            half *= 2;
+        }
         Self {
             twiddle,
+            reversed: (0..SIZE)
+                .map(|index| index.reverse_bits() >> (usize::BITS - SIZE.trailing_zeros()))
+                .collect(),
             line: vec![[0.0; 2]; SIZE],
             power: vec![0.0; SIZE],
+            emphasis: (0..SIZE).map(|index| index as f64 * (index as f64).sqrt()).collect(),
         }
     }
 
     /// Lines of centred points that are `spacing` (s) apart, with a Hann window.
     pub(super) fn lines(&mut self, position: &[[f64; 2]], spacing: f64) -> Lines {
-        let count = position.len().min(MAX_POINTS);
+        let count = position.len().min(SIZE);
         if count < 8 {
             return Lines::default();
         }
-        self.fill(&position[..count]);
-        self.transform();
-        for (power, [re, im]) in self.power.iter_mut().zip(&self.line) {
+        let size = if count > HALF_SIZE { SIZE } else { HALF_SIZE };
+        self.fill(&position[..count], size);
+        self.transform(size);
+        for (power, [re, im]) in self.power[..size].iter_mut().zip(&self.line) {
             *power = re * re + im * im;
         }
         // What is left of the centre leaks into the lines around zero.
-        let first = SIZE.div_ceil(2 * count);
-        let half = SIZE / 2;
+        let first = size.div_ceil(count);
+        let half = size / 2;
         let (mut forward, mut backward, mut peak, mut peak_power) = (0.0, 0.0, first, 0.0);
         let (mut pace, mut pace_power) = (first, 0.0);
         for index in first..half {
-            let (plus, minus) = (self.power[index], self.power[SIZE - index]);
+            let (plus, minus) = (self.power[index], self.power[size - index]);
             forward += plus;
             backward += minus;
-            if plus + minus > peak_power {
-                (peak, peak_power) = (index, plus + minus);
+            let both = plus + minus;
+            if both > peak_power {
+                (peak, peak_power) = (index, both);
             }
-            let frequency = index as f64;
-            let weighed = (plus + minus) * frequency * frequency.sqrt();
+            let weighed = both * self.emphasis[index];
             if weighed > pace_power {
                 (pace, pace_power) = (index, weighed);
             }
@@ -83,24 +97,24 @@ impl FullSpectrum {
             return Lines::default();
         }
         // A Hann window's main lobe reaches two resolution steps to each side.
-        let lobe = (2 * SIZE).div_ceil(count);
+        let lobe = (2 * size).div_ceil(count);
         let around = peak.saturating_sub(lobe).max(first)..=(peak + lobe).min(half - 1);
-        let within: f64 = around.map(|index| self.power[index] + self.power[SIZE - index]).sum();
-        let is_forward = self.power[peak] >= self.power[SIZE - peak];
-        let index = peak as f64 + self.peak_offset(peak, is_forward);
-        let rate = TAU * index / (SIZE as f64 * spacing);
+        let within: f64 = around.map(|index| self.power[index] + self.power[size - index]).sum();
+        let is_forward = self.power[peak] >= self.power[size - peak];
+        let step = TAU / (size as f64 * spacing);
+        let rate = step * (peak as f64 + self.peak_offset(peak, size, is_forward));
         Lines {
             direction: (forward - backward) / total,
             rate: if is_forward { rate } else { -rate },
             concentration: within / total,
-            pace: TAU * pace as f64 / (SIZE as f64 * spacing),
+            pace: step * pace as f64,
         }
     }
 
     /// Offset of the peak from its index: the vertex of a parabola through the logarithms of three lines.
-    fn peak_offset(&self, peak: usize, is_forward: bool) -> f64 {
+    fn peak_offset(&self, peak: usize, size: usize, is_forward: bool) -> f64 {
         let log = |index: usize| {
-            let at = if is_forward { index } else { (SIZE - index) % SIZE };
+            let at = if is_forward { index } else { (size - index) % size };
             self.power[at].max(f64::MIN_POSITIVE).ln()
         };
         let (left, middle, right) = (log(peak - 1), log(peak), log(peak + 1));
@@ -113,34 +127,45 @@ impl FullSpectrum {
     }
 
     /// Windowed points in bit-reversed order, zeros behind.
-    fn fill(&mut self, position: &[[f64; 2]]) {
-        let shift = usize::BITS - SIZE.trailing_zeros();
-        self.line.fill([0.0; 2]);
+    fn fill(&mut self, position: &[[f64; 2]], size: usize) {
+        let shift = SIZE.trailing_zeros() - size.trailing_zeros();
+        self.line[..size].fill([0.0; 2]);
         // cos of the window by rotation, one multiplication per point instead of one cosine.
         let (step_sin, step_cos) = (TAU / position.len() as f64).sin_cos();
         let (mut sin, mut cos) = (0.5 * TAU / position.len() as f64).sin_cos();
-        for (index, [y, z]) in position.iter().enumerate() {
+        for ([y, z], index) in position.iter().zip(&self.reversed) {
             let weight = 0.5 * (1.0 - cos);
-            self.line[index.reverse_bits() >> shift] = [weight * y, weight * z];
+            self.line[index >> shift] = [weight * y, weight * z];
             (cos, sin) = (cos * step_cos - sin * step_sin, sin * step_cos + cos * step_sin);
         }
     }
 
-    fn transform(&mut self) {
-        let mut half = 1;
-        while half < SIZE {
-            let stride = SIZE / (2 * half);
-            for block in self.line.chunks_exact_mut(2 * half) {
+    fn transform(&mut self, size: usize) {
+        let lines = &mut self.line[..size];
+        // The first two stages turn by quarters only.
+        for quad in lines.chunks_exact_mut(4) {
+            let (a, b) = sum_and_difference(quad[0], quad[1]);
+            let (c, d) = sum_and_difference(quad[2], quad[3]);
+            (quad[0], quad[2]) = sum_and_difference(a, c);
+            (quad[1], quad[3]) = sum_and_difference(b, [d[1], -d[0]]);
+        }
+        let mut half = 4;
+        while half < size {
+            let twiddle = &self.twiddle[half - 1..2 * half - 1];
+            for block in lines.chunks_exact_mut(2 * half) {
                 let (lower, upper) = block.split_at_mut(half);
-                for ((a, b), [cos, sin]) in lower.iter_mut().zip(upper).zip(self.twiddle.iter().step_by(stride)) {
+                for ((a, b), [cos, sin]) in lower.iter_mut().zip(upper).zip(twiddle) {
                     let turned = [b[0] * cos - b[1] * sin, b[0] * sin + b[1] * cos];
-                    *b = [a[0] - turned[0], a[1] - turned[1]];
-                    *a = [a[0] + turned[0], a[1] + turned[1]];
+                    (*a, *b) = sum_and_difference(*a, turned);
                 }
             }
             half *= 2;
         }
     }
+}
+
+fn sum_and_difference(a: [f64; 2], b: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+    ([a[0] + b[0], a[1] + b[1]], [a[0] - b[0], a[1] - b[1]])
 }
 
 #[cfg(test)]
@@ -159,24 +184,26 @@ mod tests {
     #[test]
     fn transform_equals_the_sum_it_stands_for() {
         let mut spectrum = FullSpectrum::new();
-        let position: Vec<_> = (0..MAX_POINTS)
-            .map(|k| [(k as f64 * 0.37).sin(), (k as f64 * 0.11).cos()])
-            .collect();
-        spectrum.fill(&position);
-        spectrum.transform();
-        for line in [0usize, 1, 7, 100, 255] {
-            let mut sum = [0.0; 2];
-            for (k, [y, z]) in position.iter().enumerate() {
-                let weight = 0.5 * (1.0 - (TAU * (k as f64 + 0.5) / MAX_POINTS as f64).cos());
-                let (sin, cos) = (-TAU * (line * k) as f64 / SIZE as f64).sin_cos();
-                sum[0] += weight * (y * cos - z * sin);
-                sum[1] += weight * (y * sin + z * cos);
+        for size in [HALF_SIZE, SIZE] {
+            let position: Vec<_> = (0..size)
+                .map(|k| [(k as f64 * 0.37).sin(), (k as f64 * 0.11).cos()])
+                .collect();
+            spectrum.fill(&position, size);
+            spectrum.transform(size);
+            for line in [0, 1, 7, size / 2, size - 1] {
+                let mut sum = [0.0; 2];
+                for (k, [y, z]) in position.iter().enumerate() {
+                    let weight = 0.5 * (1.0 - (TAU * (k as f64 + 0.5) / size as f64).cos());
+                    let (sin, cos) = (-TAU * (line * k) as f64 / size as f64).sin_cos();
+                    sum[0] += weight * (y * cos - z * sin);
+                    sum[1] += weight * (y * sin + z * cos);
+                }
+                let got = spectrum.line[line];
+                assert!(
+                    (got[0] - sum[0]).abs() < 1e-10 && (got[1] - sum[1]).abs() < 1e-10,
+                    "{line} of {size}: {got:?} {sum:?}"
+                );
             }
-            let got = spectrum.line[line];
-            assert!(
-                (got[0] - sum[0]).abs() < 1e-10 && (got[1] - sum[1]).abs() < 1e-10,
-                "{line}: {got:?} {sum:?}"
-            );
         }
     }
 
@@ -184,7 +211,7 @@ mod tests {
     fn circles_give_their_rate_and_direction() {
         let mut spectrum = FullSpectrum::new();
         for rate in [4.0, -4.0, 15.5, -33.0] {
-            for count in [70, 128] {
+            for count in [40, 64, 70, 128] {
                 let lines = spectrum.lines(&circle(rate, 2.0, count, 0.045), 0.045);
                 assert!((lines.rate / rate - 1.0).abs() < 0.02, "{lines:?} for {rate}");
                 assert!(

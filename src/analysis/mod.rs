@@ -2,26 +2,37 @@
 //!
 //! # Layout
 //! - [`WhirlAnalysis`] takes samples of every watched place and keeps a [`WhirlReport`] and a [`WhirlWarningLevel`].
-//!   - `orbit_window`: the last seconds of one place. `orbit`: centre, axes, radius and phase rate of the motion in a
-//!     window. `full_spectrum`: its forward and backward lines.
-//!   - `classify`: from these to a kind of whirl. `severity`: from kind, reach and contact to a level.
-//! - [`StickSlip`] watches the bit's speed.
+//!   - `place`: one watched place. `orbit_window`: its last seconds. `orbit`: centre, axes, radius and phase rate of the
+//!     motion in a window. `full_spectrum`: its forward and backward lines.
+//!   - `classify`: from these to a kind of whirl. `severity`: from kind, reach and contact to a level. `tool_level`: from
+//!     the places' levels to the one warning.
+//! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact; `held_level`: how they rise and fall.
+//! - [`IncidentLog`] makes a table of all this over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] sum up what happens between two outputs.
 //! - [`settings`]: every threshold, with its reason.
 
 mod classify;
 mod contact_statistics;
 mod full_spectrum;
+mod held_level;
+mod incidents;
 mod orbit;
 mod orbit_window;
+mod place;
 mod report;
 pub mod settings;
 mod severity;
+mod shock;
 mod stick_slip;
+mod tool_level;
 mod whirl;
 
 pub use contact_statistics::{ContactStatistics, RootMeanSquare};
-pub use report::{Severity, WhirlKind, WhirlReport, WhirlWarningLevel};
-pub use settings::{LevelThresholds, StickSlipSettings, WhirlSettings};
-pub use stick_slip::StickSlip;
-pub use whirl::{PlaceSample, WatchedPlace, WhirlAnalysis};
+pub use held_level::{HeldLevel, HeldThresholds};
+pub use incidents::{Incident, IncidentKind, IncidentLog, IncidentPlace, Observation};
+pub use place::{PlaceSample, WatchedPlace};
+pub use report::{Severity, ShockLevel, WhirlKind, WhirlReport, WhirlWarningLevel};
+pub use settings::{InputTrust, LevelThresholds, WhirlSettings};
+pub use shock::{ShockSettings, ShockWatch, Shocks};
+pub use stick_slip::{StickSlip, StickSlipSettings};
+pub use whirl::WhirlAnalysis;

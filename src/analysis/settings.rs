@@ -18,11 +18,14 @@ pub struct WhirlSettings {
     /// whirl turns: the new direction leads once it fills more than half of the window. Shorter windows take chance for
     /// whirl: at 1.6 turns one broad-band motion in ten is misnamed, at 2 one in twenty.
     pub short_window_turns: f64,
-    /// Time between two evaluations of the same place (s). Places take turns, so that the cost is spread over the
-    /// samples.
+    /// Longest time between two evaluations of the same place (s); a tool faster than 40 r/min is looked at 30 times per
+    /// turn. Places take turns, so that the cost is spread over the samples.
     pub evaluation_interval: f64,
     /// Evaluations in a row that must agree before the kind changes.
     pub confirmations: u32,
+    /// Turns of a new whirl for which they must agree. By chance a broad-band motion looks like one whirl, but not for
+    /// long.
+    pub confirmation_turns: f64,
     /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 0.5
     /// rad/s is 5 r/min.
     pub min_rotary_speed: f64,
@@ -36,10 +39,17 @@ pub struct WhirlSettings {
     /// from which the direction is steady. 1 is a pure whirl, 0 has no direction. Broad-band motion over four turns
     /// scatters by about 0.2 around 0.
     pub steady_direction: f64,
+    /// How much a motion without direction must repeat itself, after one turn of the tool, one and a half or two, to be
+    /// no chaos: correlation from which it counts as the same motion again. Periodic motion with noise 20 dB below it has
+    /// 0.99, broad-band motion scatters by 0.2 around 0.
+    pub min_repetition: f64,
     /// Part of a threshold by which a value must fall below it to count as left, 0 to 1.
     pub hysteresis: f64,
     /// Longest gap between samples that is bridged by straight lines (s); after a longer one the window starts anew.
     pub max_bridged_gap: f64,
+    /// How far the motion is trusted by the state of the inputs behind it, as factor on the confidence; see
+    /// [`InputTrust`].
+    pub input_trust: InputTrust,
     /// Confidence from which a place may raise the level.
     pub min_confidence: f64,
     /// Relative difference to the rate of rolling without slip, `- spin * d / (D - d)`, within which backward whirl
@@ -59,6 +69,33 @@ pub struct WhirlSettings {
     /// Time for which CRITICAL stands at least (s), so that a person sees it; a value longer
     /// than any run means until acknowledged.
     pub latch: f64,
+}
+
+/// Factors on the confidence, 0 to 1, when an input is not as it should be; fresh inputs have 1. The twin goes on with the
+/// last good value, so its motion is that of a tool driven so; whether the real one still is, is the less certain the
+/// older the value.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct InputTrust {
+    /// Late by a sample or two: hardly a doubt.
+    pub slow: f64,
+    /// The newest sample was refused, the one before is held: something is wrong, but it is recent.
+    pub rejected: f64,
+    /// Held for seconds or already on the way to the safe value: with 0.6, only a motion of confidence 0.84 still raises
+    /// a level.
+    pub stale: f64,
+    /// The configured start values act.
+    pub not_received: f64,
+}
+
+impl Default for InputTrust {
+    fn default() -> Self {
+        Self {
+            slow: 0.9,
+            rejected: 0.8,
+            stale: 0.6,
+            not_received: 0.6,
+        }
+    }
 }
 
 /// When a place reaches a level: whirl of any kind and *all* of these for `duration`.
@@ -83,12 +120,15 @@ impl Default for WhirlSettings {
             short_window_turns: 2.0,
             evaluation_interval: 0.05,
             confirmations: 2,
+            confirmation_turns: 0.3,
             min_rotary_speed: 0.5,
             min_orbit_ratio: 0.1,
             min_axis_ratio: 0.25,
             steady_direction: 0.6,
+            min_repetition: 0.8,
             hysteresis: 0.15,
             max_bridged_gap: 0.1,
+            input_trust: InputTrust::default(),
             min_confidence: 0.5,
             rolling_tolerance: 0.15,
             forward_limit: Severity::Warning,
@@ -115,25 +155,6 @@ impl Default for WhirlSettings {
             },
             hold_off: 5.0,
             latch: 30.0,
-        }
-    }
-}
-
-/// How the stick-slip index is formed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct StickSlipSettings {
-    /// s. Two turns at 40 r/min hold four periods of the joints' ripple.
-    pub window: f64,
-    /// Mean bit speed below which the index is 0 (rad/s): near standstill the quotient means nothing. A quarter of 40
-    /// r/min.
-    pub gate_speed: f64,
-}
-
-impl Default for StickSlipSettings {
-    fn default() -> Self {
-        Self {
-            window: 3.0,
-            gate_speed: 1.05,
         }
     }
 }

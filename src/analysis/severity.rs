@@ -22,6 +22,8 @@ pub(super) struct Evidence {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct PlaceSeverity {
     pub(super) level: Severity,
+    /// The kind that was seen last while the level's conditions were met.
+    pub(super) kind: WhirlKind,
     /// How long the conditions of WATCH, WARNING and CRITICAL have been met (s).
     met_for: [f64; 3],
     /// How long those of the present level have not (s).
@@ -33,14 +35,27 @@ pub(super) struct PlaceSeverity {
 const LEVELS: [Severity; 3] = [Severity::Watch, Severity::Warning, Severity::Critical];
 
 impl PlaceSeverity {
-    /// Takes the evidence at model time `time` (s), `elapsed` (s) after the one before.
-    pub(super) fn update(&mut self, time: f64, elapsed: f64, evidence: &Evidence, settings: &WhirlSettings) {
+    /// Takes the evidence at model time `time` (s), `elapsed` (s) after the one before. `input_trust`, 0 to 1, is how far the
+    /// inputs behind the motion can be trusted: what they make doubtful raises no level, but does not end one either.
+    pub(super) fn update(
+        &mut self,
+        time: f64,
+        elapsed: f64,
+        evidence: &Evidence,
+        input_trust: f64,
+        settings: &WhirlSettings,
+    ) {
         let mut raised = Severity::Ok;
         let mut held = Severity::Ok;
         for (index, level) in LEVELS.into_iter().enumerate() {
             let stands = self.level >= level;
-            let factor = if stands { 1.0 - settings.hysteresis } else { 1.0 };
-            let met = meets(level, evidence, factor, settings);
+            let (factor, trust) = if stands {
+                (1.0 - settings.hysteresis, 1.0)
+            } else {
+                (1.0, input_trust)
+            };
+            let met = evidence.confidence * trust >= settings.min_confidence * factor
+                && meets(level, evidence, factor, settings);
             let met_for = if met { self.met_for[index] + elapsed } else { 0.0 };
             self.met_for[index] = met_for;
             if met && stands {
@@ -49,6 +64,9 @@ impl PlaceSeverity {
             if met_for > 0.0 && met_for >= thresholds(level, settings).duration {
                 raised = level;
             }
+        }
+        if evidence.kind != WhirlKind::None && raised.max(held) > Severity::Ok {
+            self.kind = evidence.kind;
         }
         if raised > self.level {
             if raised == Severity::Critical {
@@ -83,7 +101,7 @@ fn thresholds(level: Severity, settings: &WhirlSettings) -> &LevelThresholds {
 }
 
 fn meets(level: Severity, evidence: &Evidence, factor: f64, settings: &WhirlSettings) -> bool {
-    if evidence.kind == WhirlKind::None || evidence.confidence < settings.min_confidence * factor {
+    if evidence.kind == WhirlKind::None {
         return false;
     }
     if evidence.kind == WhirlKind::Forward && level > settings.forward_limit {
@@ -126,7 +144,7 @@ mod tests {
             .iter()
             .enumerate()
             .map(|(index, evidence)| {
-                place.update(from + index as f64 * STEP, STEP, evidence, &settings);
+                place.update(from + index as f64 * STEP, STEP, evidence, 1.0, &settings);
                 place.level
             })
             .collect()

@@ -4,14 +4,14 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::classify::{Verdict, View, judge};
-use super::full_spectrum::FullSpectrum;
-use super::orbit::measure_and_stretch;
+use super::classify::{Gates, View, judge};
+use super::full_spectrum::{FullSpectrum, Lines};
+use super::orbit::{measure_and_stretch, repetition, turning};
 use super::orbit_window::{OrbitWindow, Points};
+use super::place::{Circumstances, Place};
 use super::settings::WhirlSettings;
-use super::severity::{Evidence, PlaceSeverity};
-use super::{Severity, WhirlKind, WhirlReport, WhirlWarningLevel};
-use crate::mechanics::Body;
+use super::severity::Evidence;
+use super::{PlaceSample, Severity, WatchedPlace, WhirlReport, WhirlWarningLevel};
 
 /// Part of the long window that must be filled before anything is said.
 const MIN_FILL: f64 = 0.5;
@@ -20,74 +20,15 @@ const MIN_FILL: f64 = 0.5;
 /// direction either until it fills a good part of the window.
 const CHAOS_PART: f64 = 0.25;
 
+/// Evaluations of a place per turn of the tool: three per turn of a whirl at ten times its speed.
+const EVALUATIONS_PER_TURN: f64 = 30.0;
+
+/// After how many turns of the tool a motion may repeat itself: one and two, and one and a half, since a joint's cross
+/// drives the next link twice per turn and pipes are seen to answer at two thirds of the tool's rate.
+const REPETITION_TURNS: [f64; 3] = [1.0, 1.5, 2.0];
+
 /// Fewest samples of a short window.
 const MIN_SHORT_SAMPLES: usize = 32;
-
-/// A place whose orbit is watched.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WatchedPlace {
-    /// Station index from the top.
-    pub station: usize,
-    /// Which pipe moves: the flexible pipe in the guide, or the guide in the hole.
-    pub body: Body,
-    /// Along the path from the kick-off (m).
-    pub measured_depth: f64,
-    /// rad.
-    pub inclination: f64,
-    /// Half the difference of the diameters (m), Eq. 27 or 31.
-    pub clearance: f64,
-    /// Outer diameter of the moving body where it touches (m), for the rate of rolling without slip.
-    pub body_diameter: f64,
-}
-
-impl WatchedPlace {
-    /// Whirl rate over rotary speed of rolling without slip, `-d / (D - d)`. The guide is not driven, so its rate is not
-    /// tied to the rotary speed.
-    pub fn rolling_ratio(&self) -> Option<f64> {
-        (self.body == Body::Pipe && self.clearance > 0.0).then(|| -self.body_diameter / (2.0 * self.clearance))
-    }
-}
-
-/// One sample of one watched place.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct PlaceSample {
-    /// Horizontal displacement of the body from the gap's centre (m).
-    pub y: f64,
-    /// Displacement towards the low side (m).
-    pub z: f64,
-    /// Largest normal force since the sample before (N).
-    pub normal_force: f64,
-    /// Part of the time since the sample before in contact, 0 to 1; 0 or 1 where only the instant is known.
-    pub contact_share: f64,
-}
-
-impl PlaceSample {
-    fn between(&self, next: &Self, part: f64) -> Self {
-        let mix = |a: f64, b: f64| a + (b - a) * part;
-        Self {
-            y: mix(self.y, next.y),
-            z: mix(self.z, next.z),
-            normal_force: mix(self.normal_force, next.normal_force),
-            contact_share: mix(self.contact_share, next.contact_share),
-        }
-    }
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Place {
-    place: WatchedPlace,
-    window: OrbitWindow,
-    last: PlaceSample,
-    kind: WhirlKind,
-    candidate: WhirlKind,
-    agreeing: u32,
-    whirl_rate: f64,
-    whirl_ratio: f64,
-    orbit_radius: f64,
-    used_window: f64,
-    evidence: Evidence,
-    severity: PlaceSeverity,
-}
 
 /// Watches the orbits of many places. Everything is allocated by [`WhirlAnalysis::new`]; the same samples give the
 /// same bits.
@@ -107,7 +48,7 @@ pub struct WhirlAnalysis {
     next_place: usize,
     /// Part of a place that is due, carried from sample to sample.
     due: f64,
-    input_quality: f64,
+    input_trust: f64,
     level: WhirlWarningLevel,
     #[serde(skip, default = "Points::new")]
     points: Points,
@@ -121,20 +62,7 @@ impl WhirlAnalysis {
         let capacity = ((settings.max_window / sample_interval).ceil() as usize).max(MIN_SHORT_SAMPLES);
         let places = places
             .into_iter()
-            .map(|place| Place {
-                place,
-                window: OrbitWindow::new(capacity),
-                last: PlaceSample::default(),
-                kind: WhirlKind::None,
-                candidate: WhirlKind::None,
-                agreeing: 0,
-                whirl_rate: 0.0,
-                whirl_ratio: 0.0,
-                orbit_radius: 0.0,
-                used_window: 0.0,
-                evidence: Evidence::default(),
-                severity: PlaceSeverity::default(),
-            })
+            .map(|place| Place::new(place, OrbitWindow::new(settings.max_window, sample_interval)))
             .collect();
         Self {
             settings: *settings,
@@ -147,7 +75,7 @@ impl WhirlAnalysis {
             last_time: None,
             next_place: 0,
             due: 0.0,
-            input_quality: 1.0,
+            input_trust: 1.0,
             level: WhirlWarningLevel::default(),
             points: Points::new(),
             spectrum: FullSpectrum::new(),
@@ -180,7 +108,7 @@ impl WhirlAnalysis {
         for (place, sample) in self.places.iter_mut().zip(samples) {
             place.last = *sample;
         }
-        self.due += self.places.len() as f64 * self.sample_interval / self.settings.evaluation_interval;
+        self.due += self.places.len() as f64 * self.sample_interval / self.evaluation_interval();
         let mut evaluated = 0;
         while self.due >= 1.0 && evaluated < self.places.len() {
             self.due -= 1.0;
@@ -189,14 +117,28 @@ impl WhirlAnalysis {
             self.next_place = (self.next_place + 1) % self.places.len();
         }
         if evaluated > 0 {
-            self.update_level(time);
+            self.level.update(time, &self.places, self.input_trust);
         }
     }
 
-    /// How far the inputs behind the motion can be trusted, 0 to 1; scales every confidence from the next evaluation
-    /// on.
-    pub fn set_input_quality(&mut self, quality: f64) {
-        self.input_quality = quality.clamp(0.0, 1.0);
+    /// How far the inputs behind the motion can be trusted, 0 to 1: lowers the confidence of what is reported from now on, and
+    /// what it makes doubtful raises no level.
+    pub fn set_input_trust(&mut self, trust: f64) {
+        let trust = trust.clamp(0.0, 1.0);
+        if trust != self.input_trust {
+            self.input_trust = trust;
+            // Listeners are told at once that the standing warning is to be read differently.
+            self.level.sequence += 1;
+            let place = self.places.get(self.level.entry);
+            self.level.confidence = place.map_or(0.0, |place| place.evidence.confidence) * trust;
+        }
+    }
+
+    /// After a return to an older state: the sequence goes on from `newest`, so that listeners see the change.
+    pub fn continue_sequence(&mut self, newest: u64) {
+        if newest > self.level.sequence {
+            self.level.sequence = newest + 1;
+        }
     }
 
     /// Replaces the thresholds and window lengths; the longest window keeps its memory, so it cannot grow.
@@ -225,6 +167,7 @@ impl WhirlAnalysis {
             out.extend(values);
         }
         let places = self.places.iter();
+        fill(&mut out.station, places.clone().map(|at| at.place.station));
         fill(
             &mut out.measured_depth,
             places.clone().map(|at| at.place.measured_depth),
@@ -240,7 +183,16 @@ impl WhirlAnalysis {
             places.clone().map(|at| at.evidence.clearance_ratio),
         );
         fill(&mut out.contact_duty, places.clone().map(|at| at.evidence.contact_duty));
-        fill(&mut out.confidence, places.clone().map(|at| at.evidence.confidence));
+        let trust = self.input_trust;
+        fill(
+            &mut out.confidence,
+            places.clone().map(|at| at.evidence.confidence * trust),
+        );
+        fill(&mut out.severity, places.clone().map(|at| at.severity.level));
+        fill(&mut out.level_kind, places.clone().map(Place::level_kind));
+        fill(&mut out.rolling, places.clone().map(|at| at.evidence.rolling));
+        fill(&mut out.rolling_share, places.clone().map(Place::rolling_share));
+        fill(&mut out.peak_force, places.clone().map(|at| at.evidence.peak_force));
     }
 
     /// The level that the warning logic stands at.
@@ -253,15 +205,15 @@ impl WhirlAnalysis {
         self.places.iter_mut().for_each(|place| place.severity.acknowledge());
     }
 
-    /// Forgets everything but the settings; the warnings' sequence goes on, so that listeners see the change.
+    /// Forgets everything but the settings and the inputs' trust; the warnings' sequence goes on, so that listeners see the
+    /// change.
     pub fn reset(&mut self) {
         let sequence = self.level.sequence;
         self.restart_windows();
-        for place in &mut self.places {
-            place.evidence = Evidence::default();
-            place.severity = PlaceSeverity::default();
-        }
+        self.places.iter_mut().for_each(Place::reset);
         self.last_time = None;
+        self.rotary_speed = 0.0;
+        (self.next_place, self.due) = (0, 0.0);
         let changed = u64::from(self.level.severity != Severity::Ok);
         self.level = WhirlWarningLevel {
             sequence: sequence + changed,
@@ -293,17 +245,7 @@ impl WhirlAnalysis {
 
     fn restart_windows(&mut self) {
         self.drive_filled = 0;
-        for place in &mut self.places {
-            place.window.clear();
-            place.kind = WhirlKind::None;
-            place.candidate = WhirlKind::None;
-            place.agreeing = 0;
-            place.whirl_rate = 0.0;
-            place.whirl_ratio = 0.0;
-            place.orbit_radius = 0.0;
-            place.evidence.kind = WhirlKind::None;
-            place.evidence.confidence = 0.0;
-        }
+        self.places.iter_mut().for_each(Place::restart);
     }
 
     /// Mean rotary speed over the newest `window` (s); that of the newest sample when there is no other.
@@ -327,158 +269,104 @@ impl WhirlAnalysis {
         window.max(settings.min_window).min(settings.max_window)
     }
 
+    fn evaluation_interval(&self) -> f64 {
+        let turn = TAU / self.rotary_speed.abs().max(self.settings.min_rotary_speed);
+        self.settings.evaluation_interval.min(turn / EVALUATIONS_PER_TURN)
+    }
+
     fn evaluate(&mut self, index: usize, time: f64) {
-        let wanted = (self.long_window() / self.sample_interval).round() as usize;
-        let filled = self.places[index].window.filled().min(wanted);
+        self.look(index);
+        let place = &mut self.places[index];
+        let elapsed = (time - place.evaluated).clamp(0.0, 2.0 * self.settings.evaluation_interval);
+        place.evaluated = time;
+        place
+            .severity
+            .update(time, elapsed, &place.evidence, self.input_trust, &self.settings);
+    }
+
+    fn look(&mut self, index: usize) {
+        let (long_window, interval) = (self.long_window(), self.sample_interval);
+        let wanted = (long_window / interval).round() as usize;
+        let place = &self.places[index];
+        let filled = place.window.filled().min(wanted);
         if (filled as f64) < MIN_FILL * wanted as f64 {
-            self.judge_severity(index, time);
             return;
         }
-        let long = self.view(index, filled, false);
-        let (reach, peak_force, contact_duty) = (self.points.reach, self.points.peak_force, self.points.contact_duty);
-        let pace = long.lines.pace;
-        let short_samples = if pace > 0.0 {
-            let window = self.settings.short_window_turns * TAU / pace;
-            ((window / self.sample_interval) as usize).max(MIN_SHORT_SAMPLES)
+        let clearance = place.place.clearance;
+        let gates = Gates::new(clearance, place.kind, &self.settings);
+        let touches = place.window.touches(filled);
+        place.window.long_points(filled, interval, &mut self.points);
+        let mut long = self.view(false, &gates);
+        let moves = long.orbit.radius >= gates.radius;
+        if moves && !gates.is_directed(&long.lines) {
+            long.repetition = self.repetition();
+        }
+        let short_samples = if long.lines.pace > 0.0 {
+            let window = self.settings.short_window_turns * TAU / long.lines.pace;
+            ((window / interval) as usize).max(MIN_SHORT_SAMPLES)
         } else {
             filled
         };
         // A short window almost as long as the long one would say the same again.
-        let short = (short_samples < filled * 4 / 5).then(|| self.view(index, short_samples, true));
+        let short = (moves && short_samples < filled * 4 / 5).then(|| {
+            let window = &self.places[index].window;
+            window.short_points(short_samples, interval, &mut self.points);
+            self.view(true, &gates)
+        });
         let sense = if self.rotary_speed < 0.0 { -1.0 } else { 1.0 };
-        let place = &self.places[index];
-        let clearance = place.place.clearance;
-        let verdict = judge(&long, short.as_ref(), clearance, sense, place.kind, &self.settings);
+        let verdict = judge(&long, short.as_ref(), &gates, sense);
         let rotary_speed = self.mean_rotary_speed(verdict.window);
-        let fill = filled as f64 / wanted as f64;
-        let confidence = verdict.confidence * fill.min(1.0) * self.input_quality;
-        let evidence = Evidence {
-            clearance_ratio: if clearance > 0.0 { reach / clearance } else { 0.0 },
-            contact_duty,
-            peak_force,
-            confidence,
-            ..place.evidence
-        };
         let turns = rotary_speed.abs() >= self.settings.min_rotary_speed;
-        self.accept(
-            index,
-            &verdict,
-            evidence,
-            if turns { Some(rotary_speed) } else { None },
+        let evidence = Evidence {
+            clearance_ratio: if clearance > 0.0 {
+                touches.reach / clearance
+            } else {
+                0.0
+            },
+            contact_duty: touches.contact_duty.min(1.0),
+            peak_force: touches.peak_force,
+            confidence: verdict.confidence * (filled as f64 / wanted as f64).min(1.0),
+            ..Evidence::default()
+        };
+        let circumstances = Circumstances {
+            rotary_speed: turns.then_some(rotary_speed),
             sense,
-        );
-        self.judge_severity(index, time);
+            chaos_time: CHAOS_PART * long_window,
+            evaluation_interval: self.evaluation_interval(),
+        };
+        self.places[index].accept(&verdict, evidence, &circumstances, &self.settings);
     }
 
-    fn view(&mut self, index: usize, samples: usize, detrend: bool) -> View {
-        self.places[index]
-            .window
-            .points(samples, self.sample_interval, &mut self.points);
-        let orbit = measure_and_stretch(&mut self.points, detrend, self.settings.min_axis_ratio);
-        let lines = self.spectrum.lines(&self.points.position, self.points.spacing);
-        View {
+    /// Both estimators' results for the points.
+    fn view(&mut self, detrend: bool, gates: &Gates) -> View {
+        let orbit = measure_and_stretch(&mut self.points, detrend, gates.radius, gates.axis_ratio);
+        let lines = if orbit.radius < gates.radius {
+            Lines::default()
+        } else {
+            self.spectrum.lines(&self.points.position, self.points.spacing)
+        };
+        let mut view = View {
             orbit,
             lines,
-            duration: self.points.position.len() as f64 * self.points.spacing,
+            turning: None,
+            repetition: 0.0,
+            duration: self.points.duration(),
+        };
+        if gates.is_directed(&lines) && !view.is_single_line() {
+            view.turning = Some(turning(&self.points));
         }
+        view
     }
 
-    /// Takes over a verdict; its kind only when enough evaluations in a row agree.
-    fn accept(&mut self, index: usize, verdict: &Verdict, evidence: Evidence, speed: Option<f64>, sense: f64) {
-        let confirmations = self.settings.confirmations;
-        let chaos_evaluations = (CHAOS_PART * self.long_window() / self.settings.evaluation_interval) as u32;
-        let tolerance = self.settings.rolling_tolerance;
-        let place = &mut self.places[index];
-        if verdict.kind == place.candidate {
-            place.agreeing = place.agreeing.saturating_add(1);
-        } else {
-            place.candidate = verdict.kind;
-            place.agreeing = 1;
+    fn repetition(&self) -> f64 {
+        let speed = self.mean_rotary_speed(self.points.duration()).abs();
+        if speed < self.settings.min_rotary_speed {
+            return 0.0;
         }
-        let needed = match verdict.kind {
-            WhirlKind::Chaotic => confirmations.max(chaos_evaluations),
-            _ => confirmations,
-        };
-        if place.agreeing >= needed {
-            place.kind = verdict.kind;
-        }
-        let rate = if place.kind == verdict.kind {
-            verdict.rate * sense
-        } else {
-            place.whirl_rate
-        };
-        place.whirl_rate = rate;
-        place.whirl_ratio = speed.map_or(0.0, |speed| rate / speed.abs());
-        place.orbit_radius = verdict.radius;
-        place.used_window = verdict.window;
-        place.evidence = Evidence {
-            kind: place.kind,
-            // While the kind is in dispute the doubt shows.
-            confidence: if place.kind == verdict.kind {
-                evidence.confidence
-            } else {
-                0.5 * evidence.confidence
-            },
-            rolling: place.kind == WhirlKind::Backward
-                && place
-                    .place
-                    .rolling_ratio()
-                    .is_some_and(|rolling| (place.whirl_ratio - rolling).abs() <= tolerance * rolling.abs()),
-            ..evidence
-        };
-    }
-
-    fn judge_severity(&mut self, index: usize, time: f64) {
-        let elapsed = self.settings.evaluation_interval;
-        let place = &mut self.places[index];
-        place.severity.update(time, elapsed, &place.evidence, &self.settings);
-    }
-
-    /// The worst place leads; it keeps the lead against others of the same level, so that the warning does not jump.
-    fn update_level(&mut self, time: f64) {
-        let worst = self
-            .places
-            .iter()
-            .map(|place| place.severity.level)
-            .max()
-            .unwrap_or_default();
-        let entry = if worst == Severity::Ok {
-            0
-        } else if self
-            .places
-            .get(self.level.entry)
-            .is_some_and(|place| place.severity.level == worst)
-        {
-            self.level.entry
-        } else {
-            let mut leader = 0;
-            let mut force = f64::NEG_INFINITY;
-            for (index, place) in self.places.iter().enumerate() {
-                if place.severity.level == worst && place.evidence.peak_force > force {
-                    (leader, force) = (index, place.evidence.peak_force);
-                }
-            }
-            leader
-        };
-        let Some(place) = self.places.get(entry) else { return };
-        let kind = match (worst, place.kind) {
-            (Severity::Ok, _) => WhirlKind::None,
-            // Held or latched: the kind that led here still names the warning.
-            (_, WhirlKind::None) => self.level.kind,
-            (_, kind) => kind,
-        };
-        let severity_changed = worst != self.level.severity;
-        let changed = severity_changed || kind != self.level.kind || entry != self.level.entry;
-        self.level = WhirlWarningLevel {
-            severity: worst,
-            kind,
-            entry,
-            whirl_ratio: place.whirl_ratio,
-            clearance_ratio: place.evidence.clearance_ratio,
-            contact_duty: place.evidence.contact_duty,
-            window: place.used_window,
-            since: if severity_changed { time } else { self.level.since },
-            sequence: self.level.sequence + u64::from(changed),
-        };
+        let turn = TAU / speed / self.points.spacing;
+        REPETITION_TURNS
+            .map(|turns| repetition(&self.points.position, turns * turn))
+            .into_iter()
+            .fold(0.0, f64::max)
     }
 }

@@ -1,11 +1,12 @@
 //! `flexdrill replay`: a bag or a field log through the model as fast as it goes.
 
+mod incidents;
 mod inputs;
 mod player;
 mod recording;
 mod summary;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -34,6 +35,9 @@ pub(super) struct ReplayArgs {
     /// At most so much model time (s).
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
+    /// Also write the incidents (whirl, stick-slip, shock) as JSON.
+    #[arg(long, value_name = "FILE.json")]
+    incidents: Option<PathBuf>,
     #[command(flatten)]
     source: source::SourceArgs,
 }
@@ -45,19 +49,28 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         if args.config.is_some() || args.source.is_given() {
             return Err(WrongUse::new("a recording of flexdrill brings its own configuration and inputs: leave out --config, --from, --to and --mapping, or use another bag").into());
         }
-        return recording::Script::read(&args.input)?.replay(&args.out, args.duration);
+        let done = recording::Script::read(&args.input)?.replay(&args.out, args.duration)?;
+        return finish(done, args.incidents.as_deref());
     }
     let (config, name) = load_config(args.config.as_deref())?;
     println!("configuration {name}, hash {}", &config.hash()[..12]);
     let samples = args.source.read(&args.input)?;
-    inputs::replay(config, &samples, &args.out, args.duration)
+    let done = inputs::replay(config, &samples, &args.out, args.duration)?;
+    finish(done, args.incidents.as_deref())
 }
 
-fn finish(player: Player, progress: &Progress) -> anyhow::Result<()> {
+/// Ends the bag, says what the replay came to, and writes the incidents to `json`.
+fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow::Result<()> {
     progress.done();
     let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);
-    let (recording, tally) = player.finish()?;
+    let joints = incidents::joints_of(&player);
+    let (recording, mut tally) = player.finish()?;
     println!("wrote {} messages to {}", recording.messages, recording.path.display());
     tally.print(wall, time_step);
+    let found = tally.incidents();
+    print!("{}", incidents::table(&found, &joints));
+    if let Some(path) = json {
+        incidents::write_json(path, &found, &joints)?;
+    }
     Ok(())
 }

@@ -26,6 +26,7 @@ mod sized;
 mod solver;
 mod start;
 mod tool;
+mod vibration;
 mod warnings;
 mod well;
 mod whirl;
@@ -51,10 +52,11 @@ pub use run::Run;
 pub use solver::{Solver, TimeScheme};
 pub use start::{Initial, Start};
 pub use tool::{Bit, Damping, Joint, Material, Tool};
+pub use vibration::{Shock, Steps, StickSlip};
 pub use well::{Section, Well};
-pub use whirl::{Level, Levels, Watched, Whirl};
+pub use whirl::{InputTrust, Level, Levels, Watched, Whirl};
 
-use crate::analysis::{StickSlipSettings, WhirlSettings};
+use crate::analysis::WhirlSettings;
 use crate::inputs::units::{kn_to_n, rpm_to_rad_per_s};
 use crate::mechanics::{LiveParameters, ToolDescription};
 use crate::twin::{Inputs, SimulationSettings};
@@ -120,6 +122,12 @@ pub struct Schema {
     /// Analysis and warnings.
     #[serde(default)]
     pub whirl: Whirl,
+    /// Speed ripple of the bit.
+    #[serde(default)]
+    pub stick_slip: StickSlip,
+    /// Collisions.
+    #[serde(default)]
+    pub shock: Shock,
     /// Publishing.
     #[serde(default)]
     pub outputs: Outputs,
@@ -264,7 +272,8 @@ impl Config {
             rotary_speed_slew: rpm_to_rad_per_s(speed.slew_rpm_per_s),
             weight_on_bit_slew: kn_to_n(weight.slew_kn_per_s),
             whirl: self.whirl_settings(),
-            stick_slip: StickSlipSettings::default(),
+            stick_slip: self.stick_slip.describe(),
+            shock: self.shock.describe(),
             watched: self.whirl.places(self.mesh().last_station()),
             whirl_sample_interval: 1.0 / self.whirl.sample_rate,
         }
@@ -356,6 +365,8 @@ impl Schema {
         c.below("solver", |c| self.solver.check(c));
         c.below("inputs", |c| self.inputs.check(c));
         c.below("whirl", |c| self.whirl.check(c, &mesh));
+        c.below("stick_slip", |c| self.stick_slip.check(c));
+        c.below("shock", |c| self.shock.check(c));
         c.below("outputs", |c| self.outputs.check(c));
     }
 }

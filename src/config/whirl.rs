@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use super::place::Mesh;
-use crate::analysis::{LevelThresholds, Severity, WhirlSettings};
+use crate::analysis::{self, LevelThresholds, Severity, WhirlSettings};
 use crate::inputs::units::{kn_to_n, n_to_kn, rpm_to_rad_per_s};
 use crate::mechanics::Body;
 
@@ -26,6 +26,13 @@ pub struct Whirl {
     pub min_orbit_ratio: f64,
     /// Part of direction, 0 to 1, from which an orbit is forward or backward and below which it is chaotic. Default 0.6.
     pub steady_direction: f64,
+    /// Correlation, 0 to 1, from which a motion without direction counts as the same again, turn by turn, and is not
+    /// chaotic. Default 0.8.
+    pub min_repetition: f64,
+    /// Relative difference to the rate of rolling without slip within which backward whirl counts as rolling. Default 0.15.
+    pub rolling_tolerance: f64,
+    /// Factors on the confidence while an input is not as it should be.
+    pub input_trust: InputTrust,
     /// Below this confidence nothing raises a level. Default 0.5.
     pub min_confidence: f64,
     /// A level is left below threshold x (1 - hysteresis). Default 0.15.
@@ -51,6 +58,9 @@ impl Default for Whirl {
             gate_speed_rpm: 5.0,
             min_orbit_ratio: settings.min_orbit_ratio,
             steady_direction: settings.steady_direction,
+            min_repetition: settings.min_repetition,
+            rolling_tolerance: settings.rolling_tolerance,
+            input_trust: InputTrust::default(),
             min_confidence: settings.min_confidence,
             hysteresis: settings.hysteresis,
             hold_off: settings.hold_off,
@@ -72,6 +82,55 @@ pub enum Watched {
     All,
     /// These stations, 0-based from the top.
     Stations(Vec<usize>),
+}
+
+/// Factors on the confidence, 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct InputTrust {
+    /// Late by a sample or two. Default 0.9.
+    pub slow: f64,
+    /// The newest sample was refused. Default 0.8.
+    pub rejected: f64,
+    /// Held for long or on the way to the safe value. Default 0.6.
+    pub stale: f64,
+    /// The configured start values act. Default 0.6.
+    pub not_received: f64,
+}
+
+impl Default for InputTrust {
+    fn default() -> Self {
+        let trust = analysis::InputTrust::default();
+        Self {
+            slow: trust.slow,
+            rejected: trust.rejected,
+            stale: trust.stale,
+            not_received: trust.not_received,
+        }
+    }
+}
+
+impl InputTrust {
+    fn check(&self, c: &mut Checker) {
+        for (key, value) in [
+            ("slow", self.slow),
+            ("rejected", self.rejected),
+            ("stale", self.stale),
+            ("not_received", self.not_received),
+        ] {
+            let reason = "a factor on the confidence; 0 lets no level rise";
+            c.number(key, value, Bound::within(0.0, 1.0), "", reason);
+        }
+    }
+
+    fn describe(&self) -> analysis::InputTrust {
+        analysis::InputTrust {
+            slow: self.slow,
+            rejected: self.rejected,
+            stale: self.stale,
+            not_received: self.not_received,
+        }
+    }
 }
 
 /// Thresholds of the three levels.
@@ -176,6 +235,23 @@ impl Whirl {
             "",
             "broad-band motion scatters by 0.2",
         );
+        let reason = "broad-band motion reaches 0.5 by chance; noise keeps periodic motion from 1";
+        c.number(
+            "min_repetition",
+            self.min_repetition,
+            Bound::within(0.1, 1.0),
+            "",
+            reason,
+        );
+        let reason = "wider would call sliding rolling";
+        c.number(
+            "rolling_tolerance",
+            self.rolling_tolerance,
+            Bound::within(0.0, 0.5),
+            "",
+            reason,
+        );
+        c.below("input_trust", |c| self.input_trust.check(c));
         c.number(
             "min_confidence",
             self.min_confidence,
@@ -207,6 +283,9 @@ impl Whirl {
             min_rotary_speed: rpm_to_rad_per_s(self.gate_speed_rpm),
             min_orbit_ratio: self.min_orbit_ratio,
             steady_direction: self.steady_direction,
+            min_repetition: self.min_repetition,
+            rolling_tolerance: self.rolling_tolerance,
+            input_trust: self.input_trust.describe(),
             min_confidence: self.min_confidence,
             hysteresis: self.hysteresis,
             hold_off: self.hold_off,

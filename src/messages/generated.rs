@@ -199,7 +199,8 @@ pub mod flexdrill {
         pub rotary_speed: f64,
         /// Weight on bit as applied to the model (N).
         pub weight_on_bit: f64,
-        /// (max - min) / (2 mean) of the rotary speed over its window; 0 while the tool hardly turns.
+        /// (max - min) / (2 mean) of the rotary speed over its window; 0 while the drive hardly turns, at least 1 while the bit
+        /// stands and the drive turns.
         pub stick_slip_index: f64,
         /// Root mean square over the publishing interval of spin acceleration times bit radius (m/s2).
         pub tangential_acceleration: f64,
@@ -207,6 +208,23 @@ pub mod flexdrill {
         pub axial_acceleration: f64,
         /// Root mean square over the publishing interval of the lateral acceleration one station above the bit (m/s2).
         pub lateral_acceleration: f64,
+        /// Largest lateral acceleration one station above the bit in the publishing interval (m/s2).
+        pub lateral_acceleration_peak: f64,
+        /// Integral of the size of the lateral acceleration one station above the bit over the publishing interval (m/s).
+        pub lateral_impulse: f64,
+        /// Level that the stick-slip index has reached: OK, WATCH, WARNING or CRITICAL.
+        pub stick_slip_severity: u8,
+    }
+
+    impl BitState {
+        /// Nothing to do.
+        pub const OK: u8 = 0;
+        /// Keep an eye on it.
+        pub const WATCH: u8 = 1;
+        /// Act soon.
+        pub const WARNING: u8 = 2;
+        /// Act now.
+        pub const CRITICAL: u8 = 3;
     }
 
     impl Message for BitState {
@@ -214,7 +232,7 @@ pub mod flexdrill {
         const NAME: &'static str = "BitState";
         const ROS_TYPE: &'static str = "flexdrill/msg/BitState";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::BitState_";
-        const RIHS01: &'static str = "RIHS01_464083ad5e78e39b4dfb960b3816401dfe31a1526e9fe2eee8497e8a4850063e";
+        const RIHS01: &'static str = "RIHS01_689e5e56898732a1224f82b9c4b2e861660c3263671dbebf76d104ecca570b25";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/BitState.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -268,6 +286,19 @@ pub mod flexdrill {
         pub guide_wall_normal_peak: Vec<f64>,
         /// Root mean square of the normal force over the publishing interval (N).
         pub guide_wall_normal_rms: Vec<f64>,
+        /// Shock: largest impulse of the normal force in a short interval (20 ms by default) in the publishing interval, less that of
+        /// the resting force (N s).
+        pub pipe_guide_shock: Vec<f64>,
+        /// The same between guide pipe and wall (N s).
+        pub guide_wall_shock: Vec<f64>,
+        /// Level of shock of the tool: SHOCK_OK, SHOCK_WATCH, SHOCK_WARNING or SHOCK_CRITICAL.
+        pub shock_severity: u8,
+        /// Largest shock since that level was reached (N s).
+        pub shock_impulse: f64,
+        /// Entry of its station in the arrays.
+        pub shock_station: u32,
+        /// Its layer: INNER or OUTER.
+        pub shock_layer: u8,
     }
 
     impl ContactForces {
@@ -279,6 +310,14 @@ pub mod flexdrill {
         pub const OUTER: u8 = 2;
         /// Both layers touch.
         pub const BOTH: u8 = 3;
+        /// Nothing to do.
+        pub const SHOCK_OK: u8 = 0;
+        /// Keep an eye on it.
+        pub const SHOCK_WATCH: u8 = 1;
+        /// Act soon.
+        pub const SHOCK_WARNING: u8 = 2;
+        /// Act now.
+        pub const SHOCK_CRITICAL: u8 = 3;
     }
 
     impl Message for ContactForces {
@@ -286,7 +325,7 @@ pub mod flexdrill {
         const NAME: &'static str = "ContactForces";
         const ROS_TYPE: &'static str = "flexdrill/msg/ContactForces";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::ContactForces_";
-        const RIHS01: &'static str = "RIHS01_edb3b8d6e322b6d2b28d9cdcd431d3ff833dbe615eb0273efcc0db95fc182a6f";
+        const RIHS01: &'static str = "RIHS01_e57eb3ac0cfce2e19834ef628c2c524459b4322030fac85664ff561df40ee3bc";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/ContactForces.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -531,18 +570,23 @@ pub mod flexdrill {
         pub clearance_ratio: Vec<f64>,
         /// Part of the window in contact (0 to 1).
         pub contact_duty: Vec<f64>,
-        /// Confidence in the kind (0 to 1).
+        /// Confidence in the kind (0 to 1), lowered while an input is not as it should be.
         pub confidence: Vec<f64>,
+        /// Level at this place: OK, WATCH, WARNING or CRITICAL of WhirlWarning.
+        pub severity: Vec<u8>,
+        /// Backward whirl of the driven pipe: rate over that of rolling without slip, - spin d / (D - d). 1 rolls, less slides, 0 is
+        /// no such whirl.
+        pub rolling_share: Vec<f64>,
     }
 
     impl WhirlState {
-        /// No orbit worth the name.
+        /// No whirl: at rest, along a line, or a motion that repeats itself turn by turn without going round.
         pub const NONE: u8 = 0;
         /// The orbit turns in the sense of the rotation.
         pub const FORWARD: u8 = 1;
         /// The orbit turns against the rotation.
         pub const BACKWARD: u8 = 2;
-        /// Large motion without a steady direction.
+        /// Large motion without a steady direction that does not repeat itself.
         pub const CHAOTIC: u8 = 3;
         /// The flexible pipe.
         pub const PIPE: u8 = 0;
@@ -555,7 +599,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhirlState";
         const ROS_TYPE: &'static str = "flexdrill/msg/WhirlState";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhirlState_";
-        const RIHS01: &'static str = "RIHS01_82508eb983209d898b358cf43079706bfd1c22da501df06a213c44101aeb8155";
+        const RIHS01: &'static str = "RIHS01_fd06b5a97868bdcc00430ab196f0c8415f2ddd97c94def68543d5e5dc67d7c57";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/WhirlState.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -593,10 +637,17 @@ pub mod flexdrill {
         pub since: super::builtin_interfaces::Time,
         /// The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED.
         pub input_quality: u8,
-        /// Number of changes of the level so far.
+        /// Number of changes so far, of the level, its place and kind, or of the trust in the inputs.
         pub sequence: u64,
         /// The same for a person, in one sentence.
         pub message: std::string::String,
+        /// Evidence: largest normal force in the window (N).
+        pub peak_force: f64,
+        /// Evidence: rate over that of rolling without slip, - spin d / (D - d), of backward whirl of the driven pipe. 1 rolls, less
+        /// slides, 0 is no such whirl.
+        pub rolling_share: f64,
+        /// Confidence in the kind (0 to 1), lowered while an input is not as it should be.
+        pub confidence: f64,
     }
 
     impl WhirlWarning {
@@ -608,13 +659,13 @@ pub mod flexdrill {
         pub const WARNING: u8 = 2;
         /// Act now.
         pub const CRITICAL: u8 = 3;
-        /// No orbit worth the name.
+        /// No whirl: at rest, along a line, or a motion that repeats itself turn by turn without going round.
         pub const NONE: u8 = 0;
         /// The orbit turns in the sense of the rotation.
         pub const FORWARD: u8 = 1;
         /// The orbit turns against the rotation.
         pub const BACKWARD: u8 = 2;
-        /// Large motion without a steady direction.
+        /// Large motion without a steady direction that does not repeat itself.
         pub const CHAOTIC: u8 = 3;
         /// The flexible pipe.
         pub const PIPE: u8 = 0;
@@ -637,7 +688,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhirlWarning";
         const ROS_TYPE: &'static str = "flexdrill/msg/WhirlWarning";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhirlWarning_";
-        const RIHS01: &'static str = "RIHS01_bae03bfb3ff07c1dcbede1f4e6500b679b80dfcec77b1f4fce90c626bf75d461";
+        const RIHS01: &'static str = "RIHS01_e126acd535b1644030bb7451f1304582f3337b6805bc5350c2870b8d9639324a";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/WhirlWarning.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::simulation::SimulationSettings;
 use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot};
 use crate::analysis::{
-    ContactStatistics, PlaceSample, RootMeanSquare, StickSlip, WatchedPlace, WhirlAnalysis, WhirlSettings,
+    ContactStatistics, PlaceSample, RootMeanSquare, ShockWatch, StickSlip, WatchedPlace, WhirlAnalysis, WhirlSettings,
 };
 use crate::mechanics::assembly::inner_lateral;
 use crate::mechanics::gap::{Touch, gap};
@@ -22,6 +22,7 @@ pub(super) struct Observer {
     axial: RootMeanSquare,
     lateral: RootMeanSquare,
     stick_slip: StickSlip,
+    shock: ShockWatch,
     whirl: WhirlAnalysis,
     places: Vec<(usize, Body)>,
     samples: Vec<PlaceSample>,
@@ -59,6 +60,7 @@ impl Observer {
             axial: RootMeanSquare::default(),
             lateral: RootMeanSquare::default(),
             stick_slip: StickSlip::new(settings.stick_slip),
+            shock: ShockWatch::new(&settings.shock, stations),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, watched),
             samples: vec![PlaceSample::default(); places.len()],
             places,
@@ -82,9 +84,20 @@ impl Observer {
         self.whirl.set_settings(settings);
     }
 
+    /// Trust in the inputs, 0 to 1.
+    pub(super) fn set_input_trust(&mut self, trust: f64) {
+        self.whirl.set_input_trust(trust);
+    }
+
+    /// Takes the place of one that was further: its warnings go on counting from there.
+    pub(super) fn follow(&mut self, before: &Self) {
+        self.whirl.continue_sequence(before.whirl.level().sequence);
+    }
+
     pub(super) fn reset(&mut self) {
         self.end_interval();
         self.stick_slip.reset();
+        self.shock.reset();
         self.whirl.reset();
         self.samples.fill(PlaceSample::default());
         self.last_iterations = 0;
@@ -96,14 +109,25 @@ impl Observer {
         self.tangential.restart();
         self.axial.restart();
         self.lateral.restart();
+        self.shock.restart();
     }
 
     pub(super) fn after_step(&mut self, stepper: &Stepper, applied: &Applied, step: u64, dt: f64, iterations: u32) {
         self.last_iterations = iterations;
         let (model, state, forces) = (stepper.model(), stepper.state(), &stepper.newton().assembler);
-        let normal = |touch: &Option<Touch>| touch.map_or(0.0, |touch| touch.normal);
-        self.inner.push(dt, forces.inner.iter().map(normal));
-        self.outer.push(dt, forces.outer.iter().map(normal));
+        for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
+            .into_iter()
+            .enumerate()
+        {
+            for (station, touch) in touches.iter().enumerate() {
+                if let Some(touch) = touch {
+                    statistics.touch(station, dt, touch.normal);
+                    self.shock.push(layer, station, dt, touch.normal);
+                }
+            }
+            statistics.advance(dt);
+        }
+        self.shock.advance(step as f64 * dt, dt);
 
         let bottom = &model.stations[model.last()];
         let spin = bottom.pipe_above + Direction::Psi as usize;
@@ -113,7 +137,7 @@ impl Observer {
         // The bit itself is held sideways by the hole.
         let above = translation(&state.a, model.stations[model.last() - 1].pipe_below);
         self.lateral.push_square(dt, above.y * above.y + above.z * above.z);
-        self.stick_slip.push(dt, state.v[spin]);
+        self.stick_slip.push(dt, state.v[spin], applied.rotary_speed);
 
         let share = 1.0 / self.decimation as f64;
         for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.places) {
@@ -148,6 +172,7 @@ impl Observer {
             axial: stations(),
             normal_peak: stations(),
             normal_rms: stations(),
+            shock: stations(),
         };
         let mut out = Snapshot {
             joints: Joints {
@@ -203,6 +228,9 @@ impl Observer {
         fill_layer(&mut contacts.guide_wall, &forces.outer, &self.outer, |s| {
             gap(gap_lateral(model, state, s, Body::Guide), model.outer_clearance)
         });
+        self.shock.write(0, &mut contacts.pipe_guide.shock);
+        self.shock.write(1, &mut contacts.guide_wall.shock);
+        out.shock = self.shock.level();
         for (s, station) in model.stations.iter().enumerate() {
             contacts.state[s] = u8::from(forces.inner[s].is_some()) + 2 * u8::from(forces.outer[s].is_some());
             let guide = translation(&state.q, station.guide);
@@ -219,6 +247,9 @@ impl Observer {
             tangential_acceleration: self.tangential.value(),
             axial_acceleration: self.axial.value(),
             lateral_acceleration: self.lateral.value(),
+            lateral_acceleration_peak: self.lateral.peak(),
+            lateral_impulse: self.lateral.impulse(),
+            stick_slip: self.stick_slip.severity(),
         };
         self.whirl.report(&mut out.whirl);
         out.warning = self.whirl.level();

@@ -6,6 +6,7 @@
 use super::schedule::Due;
 use super::{BuildError, Inputs, Schedule, Simulation, SimulationSettings, Snapshot};
 use crate::analysis::WhirlSettings;
+use crate::inputs::InputState;
 use crate::mechanics::phases::PhaseTimes;
 use crate::mechanics::{LiveParameters, StepOutcome};
 
@@ -65,6 +66,8 @@ pub trait Model {
     fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64);
     /// See [`Simulation::set_whirl`].
     fn set_whirl(&mut self, whirl: &WhirlSettings);
+    /// See [`Simulation::set_input_trust`].
+    fn set_input_trust(&mut self, trust: f64);
     /// See [`Simulation::reset`].
     fn reset(&mut self);
     /// See [`Simulation::phase_times`].
@@ -100,6 +103,9 @@ impl Model for Simulation {
     }
     fn set_whirl(&mut self, whirl: &WhirlSettings) {
         self.set_whirl(whirl);
+    }
+    fn set_input_trust(&mut self, trust: f64) {
+        self.set_input_trust(trust);
     }
     fn reset(&mut self) {
         self.reset();
@@ -166,6 +172,14 @@ impl<M: Model> Run<M> {
         if applied.whirl != self.applied.whirl {
             self.simulation.set_whirl(&applied.whirl);
         }
+        let trust = &applied.whirl.input_trust;
+        self.simulation.set_input_trust(match applied.input_quality {
+            quality if quality == InputState::NotReceived as u8 => trust.not_received,
+            quality if quality == InputState::Slow as u8 => trust.slow,
+            quality if quality == InputState::Stale as u8 => trust.stale,
+            quality if quality == InputState::Rejected as u8 => trust.rejected,
+            _ => 1.0,
+        });
         self.applied = *applied;
     }
 

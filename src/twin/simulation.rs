@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::observe::Observer;
 use super::snapshot::Applied;
 use super::{Snapshot, SolverCounters};
-use crate::analysis::{StickSlipSettings, WhirlSettings};
+use crate::analysis::{ShockSettings, StickSlipSettings, WhirlSettings};
 use crate::mechanics::phases::{Clock, Phase, PhaseTimes};
 use crate::mechanics::{
     Body, Forcing, LiveParameters, ModelError, Scheme, SolverKind, StartError, State, StepOutcome, Stepper,
@@ -42,6 +42,8 @@ pub struct SimulationSettings {
     pub whirl: WhirlSettings,
     /// How the stick-slip index is formed.
     pub stick_slip: StickSlipSettings,
+    /// How lateral shock is measured and judged.
+    pub shock: ShockSettings,
     /// Stations and pipes whose orbits are watched; empty watches both pipes at every joint.
     pub watched: Vec<(usize, Body)>,
     /// Time between samples of the whirl analysis (s), rounded to whole steps.
@@ -229,6 +231,11 @@ impl Simulation {
         self.stepper.newton().assembler.stopwatch.times()
     }
 
+    /// How far the inputs can be trusted, 0 to 1. It changes what is said of the motion, not the motion.
+    pub fn set_input_trust(&mut self, trust: f64) {
+        self.observer.set_input_trust(trust);
+    }
+
     /// Steps taken.
     pub fn step(&self) -> u64 {
         self.step
@@ -292,7 +299,8 @@ impl Simulation {
         if !checkpoint.observer.fits(&self.observer) || !self.stepper.restore(&checkpoint.stepper) {
             return Err(BuildError::OtherTool);
         }
-        self.observer = checkpoint.observer;
+        let before = std::mem::replace(&mut self.observer, checkpoint.observer);
+        self.observer.follow(&before);
         self.applied = checkpoint.applied;
         self.step = checkpoint.step;
         Ok(())

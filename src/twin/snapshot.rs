@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::{WhirlReport, WhirlWarningLevel};
+use crate::analysis::{Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
 use crate::mechanics::{EnergyAudit, StepFailure};
 
 /// State of the tool at the end of a step, with statistics over the publishing interval.
@@ -28,6 +28,8 @@ pub struct Snapshot {
     pub whirl: WhirlReport,
     /// The level that the warning logic stands at.
     pub warning: WhirlWarningLevel,
+    /// The level of lateral shock.
+    pub shock: ShockLevel,
     /// Counters of the solver since the start.
     pub solver: SolverCounters,
     /// Energy since the start (J).
@@ -108,6 +110,8 @@ pub struct ContactLayer {
     pub normal_peak: Vec<f64>,
     /// Root mean square of the normal force since the last contact output (N).
     pub normal_rms: Vec<f64>,
+    /// Largest impulse of a short interval above the resting force since the last contact output (N s).
+    pub shock: Vec<f64>,
 }
 
 /// The bit.
@@ -119,7 +123,7 @@ pub struct Bit {
     pub rotary_speed: f64,
     /// N, as applied.
     pub weight_on_bit: f64,
-    /// (max - min) / (2 mean) over its window; 0 while the mean speed is below the gate.
+    /// (max - min) / (2 mean) over its window; 0 while the drive is below the gate.
     pub stick_slip_index: f64,
     /// Root mean square over the publishing interval (m/s2): spin acceleration times bit radius.
     pub tangential_acceleration: f64,
@@ -128,6 +132,12 @@ pub struct Bit {
     /// Root mean square over the publishing interval of the lateral acceleration one station above the bit, which is
     /// itself held by the hole (m/s2).
     pub lateral_acceleration: f64,
+    /// Largest magnitude of the same over the publishing interval (m/s2).
+    pub lateral_acceleration_peak: f64,
+    /// Integral of its magnitude over the publishing interval (m/s).
+    pub lateral_impulse: f64,
+    /// Level that the stick-slip index has reached.
+    pub stick_slip: Severity,
 }
 
 /// Lines in the world frame (X horizontal in the build's direction, Y horizontal, Z down), m.

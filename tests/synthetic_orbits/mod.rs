@@ -121,7 +121,7 @@ impl Bench {
 
     /// Lets time pass without samples.
     pub fn skip(&mut self, seconds: f64) {
-        self.step += (seconds / SAMPLE_INTERVAL) as u64;
+        self.step += (seconds / SAMPLE_INTERVAL).round() as u64;
     }
 
     /// Pushes `motion(time since now)` for `seconds`.
@@ -151,6 +151,10 @@ pub struct Labelled {
     motion: Motion,
     drift: [f64; 2],
     centre: [f64; 2],
+    /// Relative change of the rotary speed per second; whirl rates go with it.
+    ramp: f64,
+    /// Beginning and end of times without samples (s).
+    gaps: Vec<[f64; 2]>,
     /// Standard deviation per axis (m), 20 dB below the motion.
     noise: f64,
 }
@@ -162,6 +166,12 @@ enum Motion {
         radius: f64,
         rate: f64,
         switches: Vec<f64>,
+    },
+    /// To and fro along a wall: amplitude (rad) about the low side.
+    Rocking {
+        radius: f64,
+        rate: f64,
+        amplitude: f64,
     },
 }
 
@@ -178,8 +188,8 @@ impl Labelled {
         };
         let radius = CLEARANCE * random.within(0.2, 1.0);
         let turn = TAU / rotary_speed;
-        let mut drift = [0.0; 2];
-        let (family, kind, ratio, motion) = match index / 2 % 10 {
+        let (mut drift, mut ramp, mut gaps) = ([0.0; 2], 0.0, Vec::new());
+        let (family, kind, ratio, motion) = match index / 2 % 13 {
             0 => (
                 "circle at the tool's rate",
                 whirl,
@@ -284,6 +294,49 @@ impl Labelled {
                 )
             }
             8 => {
+                let ratio = sign * random.within(0.5, 4.0);
+                // Over the whole run, up to a third up or down.
+                ramp = random.within(0.1, 0.33) * random.sign() / duration(rotary_speed);
+                (
+                    "circle while the speed changes",
+                    whirl,
+                    Some(ratio),
+                    Motion::Lines(vec![circle(radius, ratio * rotary_speed, random)]),
+                )
+            }
+            9 => {
+                let ratio = sign * random.within(0.5, 4.0);
+                let mut at = random.within(0.1, 1.0);
+                while at < duration(rotary_speed) {
+                    let end = at + random.within(0.02, 0.09);
+                    gaps.push([at, end]);
+                    at = end + random.within(0.3, 1.5);
+                }
+                (
+                    "circle with gaps in the samples",
+                    whirl,
+                    Some(ratio),
+                    Motion::Lines(vec![circle(radius, ratio * rotary_speed, random)]),
+                )
+            }
+            10 if sign > 0.0 => (
+                "rocking along the wall",
+                WhirlKind::None,
+                None,
+                Motion::Rocking {
+                    radius: CLEARANCE,
+                    rate: random.within(1.0, 2.0).round() * rotary_speed,
+                    amplitude: random.within(0.3, 1.9),
+                },
+            ),
+            10 => {
+                let mut noise = circle(0.0, rotary_speed, random);
+                // Sets the noise below: it is all there is.
+                noise.major = CLEARANCE * random.within(0.05, 0.6);
+                noise.rate = 0.0;
+                ("noise at rest", WhirlKind::None, None, Motion::Lines(vec![noise]))
+            }
+            11 => {
                 // Many lines of both directions: band-limited noise that repeats only after minutes.
                 let lines = (0..60)
                     .map(|_| {
@@ -312,6 +365,8 @@ impl Labelled {
         let power = match &motion {
             Motion::Lines(lines) => lines.iter().map(Ellipse::power).sum::<f64>(),
             Motion::Turning { radius, .. } => radius * radius,
+            // About the middle of the arc, at most.
+            Motion::Rocking { radius, amplitude, .. } => (radius * amplitude.min(1.0)).powi(2),
         };
         let centre = [
             CLEARANCE * random.within(-0.3, 0.3),
@@ -325,22 +380,53 @@ impl Labelled {
             motion,
             drift,
             centre,
+            ramp,
+            gaps,
             noise: (power / 100.0 / 2.0).sqrt(),
         }
     }
 
-    /// Seconds after which the answer is read: ten turns of the tool, at least 6 s.
+    /// Seconds after which the answer is read.
     pub fn duration(&self) -> f64 {
-        (10.0 * TAU / self.rotary_speed).max(6.0)
+        duration(self.rotary_speed)
+    }
+
+    /// Rotary speed (rad/s).
+    pub fn speed_at(&self, time: f64) -> f64 {
+        self.rotary_speed * (1.0 + self.ramp * time)
+    }
+
+    /// Feeds the whole motion and returns the kind that stands at its end.
+    pub fn run(&self, bench: &mut Bench, noise: &mut Random) -> WhirlKind {
+        for step in 0..(self.duration() / SAMPLE_INTERVAL) as usize {
+            let time = step as f64 * SAMPLE_INTERVAL;
+            if self.gaps.iter().any(|[from, to]| (*from..*to).contains(&time)) {
+                bench.skip(SAMPLE_INTERVAL);
+            } else {
+                bench.push(self.speed_at(time), self.at(time, noise), 0.0);
+            }
+        }
+        bench.kind()
     }
 
     pub fn at(&self, time: f64, random: &mut Random) -> [f64; 2] {
         let mut position =
             [0, 1].map(|axis: usize| self.centre[axis] + self.drift[axis] * time + self.noise * random.normal());
         match &self.motion {
+            Motion::Rocking {
+                radius,
+                rate,
+                amplitude,
+            } => {
+                let (sin, cos) = (amplitude * (rate * time).sin()).sin_cos();
+                position[0] += radius * sin;
+                position[1] += radius * cos;
+            }
             Motion::Lines(lines) => {
+                // The angle goes with the integral of the speed.
+                let turned = time + 0.5 * self.ramp * time * time;
                 for line in lines {
-                    let [y, z] = line.at(time);
+                    let [y, z] = line.at(turned);
                     position[0] += y;
                     position[1] += z;
                 }
@@ -357,6 +443,11 @@ impl Labelled {
         }
         position
     }
+}
+
+/// Ten turns of the tool, at least 6 s.
+fn duration(rotary_speed: f64) -> f64 {
+    (10.0 * TAU / rotary_speed).max(6.0)
 }
 
 /// A circle with a random phase.

@@ -26,7 +26,12 @@ const PERIOD: f64 = 5e-3;
 const TAIL: f64 = 1.0;
 
 /// Runs the model through the samples, which are in the order of their times.
-pub(super) fn replay(config: Config, samples: &[TimedInput], out: &Path, duration: Option<f64>) -> anyhow::Result<()> {
+pub(super) fn replay(
+    config: Config,
+    samples: &[TimedInput],
+    out: &Path,
+    duration: Option<f64>,
+) -> anyhow::Result<(Player, Progress)> {
     let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
         anyhow::bail!("there is no sample of rotary speed or weight on bit to replay");
     };
@@ -82,5 +87,5 @@ pub(super) fn replay(config: Config, samples: &[TimedInput], out: &Path, duratio
     if refused > 0 {
         eprintln!("{refused} samples were refused in all");
     }
-    super::finish(player, &progress)
+    Ok((player, progress))
 }

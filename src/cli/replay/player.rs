@@ -87,6 +87,11 @@ impl Player {
         step as f64 * self.config.solver.time_step
     }
 
+    /// Stations of the joints, top to bottom.
+    pub(super) fn joint_stations(&self) -> &[usize] {
+        &self.run.simulation().stepper().model().joint_stations
+    }
+
     /// What drives the run now.
     pub(super) fn inputs(&self) -> RunInputs {
         self.run.applied()

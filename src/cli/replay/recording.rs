@@ -110,7 +110,7 @@ impl Script {
     }
 
     /// Replays it into `out`, at most `duration` s of model time.
-    pub(super) fn replay(&self, out: &Path, duration: Option<f64>) -> anyhow::Result<()> {
+    pub(super) fn replay(&self, out: &Path, duration: Option<f64>) -> anyhow::Result<(Player, Progress)> {
         let config = Config::from_text("the recorded configuration", &self.session.configuration)?;
         let start = self.session.start.to_nanoseconds();
         if self.session.version != env!("CARGO_PKG_VERSION") {
@@ -156,7 +156,7 @@ impl Script {
                 break;
             }
         }
-        super::finish(player, &progress)
+        Ok((player, progress))
     }
 
     /// Model time that the recording spans, over all resets (s).

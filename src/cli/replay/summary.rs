@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::incidents::{place_of_bit, place_of_shock};
+use crate::analysis::{Incident, IncidentLog, Observation};
 use crate::mechanics::phases::{Phase, PhaseTimes};
 use crate::twin::Snapshot;
 
@@ -41,6 +43,7 @@ pub(super) struct Tally {
     guide_wall: Peak,
     joints_at_limit: usize,
     last: Option<Last>,
+    incidents: IncidentLog,
     phases: PhaseTimes,
     /// Encoding and writing messages (ns).
     publish: u64,
@@ -88,12 +91,25 @@ impl Tally {
             .filter(|(angle, limit)| angle >= limit)
             .count();
         self.joints_at_limit = self.joints_at_limit.max(at_limit);
+        self.incidents.take(&Observation {
+            time,
+            whirl: &snapshot.whirl,
+            stick_slip: (snapshot.bit.stick_slip, snapshot.bit.stick_slip_index),
+            bit: place_of_bit(snapshot),
+            shock: snapshot.shock,
+            shock_place: place_of_shock(snapshot),
+        });
         self.last = Some(Last {
             energy_error: snapshot.energy.error,
             drive: snapshot.energy.drive,
             rejected: snapshot.solver.rejected,
             warnings: snapshot.warning.sequence,
         });
+    }
+
+    /// What reached a level, in the order of its beginning.
+    pub(super) fn incidents(&mut self) -> Vec<Incident> {
+        std::mem::take(&mut self.incidents).finish()
     }
 
     /// Prints it. `wall` is how long it took (s), `time_step` the model's (s).

@@ -237,7 +237,7 @@ fn draw_whirl(frame: &mut Frame, board: &Board, area: Rect) {
             };
             Row::new([
                 Cell::from(row.place),
-                Cell::from(Span::styled(words::whirl_kind(row.kind), color)),
+                Cell::from(Span::styled(row.word, color)),
                 Cell::from(format!("{:6.2}", row.ratio)),
                 Cell::from(format!("{:4.2}", row.clearance_ratio)),
                 Cell::from(format!("{:3.0}%", 100.0 * row.contact_duty)),
@@ -350,6 +350,7 @@ mod tests {
             contact_duty: vec![0.4, 0.0],
             confidence: vec![0.9, 0.9],
             whirl_rate: vec![-15.0, 0.0],
+            rolling_share: vec![0.6, 0.0],
             ..WhirlState::default()
         });
         board.take_warning(WhirlWarning {

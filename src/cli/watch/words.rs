@@ -169,10 +169,15 @@ pub(super) fn whirl_counts(whirl: &WhirlState) -> String {
     )
 }
 
+/// Difference to the rate of rolling without slip up to which backward whirl is shown as rolling, as by default in the twin.
+const ROLLS: f64 = 0.15;
+
 /// One row of the whirl table.
 pub(super) struct WhirlRow {
     pub(super) place: String,
     pub(super) kind: u8,
+    /// The kind in a word; backward whirl that rolls says so.
+    pub(super) word: &'static str,
     pub(super) ratio: f64,
     pub(super) clearance_ratio: f64,
     pub(super) contact_duty: f64,
@@ -195,6 +200,10 @@ pub(super) fn whirl_rows(whirl: &WhirlState) -> Vec<WhirlRow> {
                 body(whirl.body.get(index).copied().unwrap_or_default())
             ),
             kind: whirl.kind[index],
+            word: match (whirl.kind[index], at(&whirl.rolling_share, index)) {
+                (WhirlState::BACKWARD, share) if (share - 1.0).abs() <= ROLLS => "rolling",
+                (kind, _) => whirl_kind(kind),
+            },
             ratio: at(&whirl.whirl_ratio, index),
             clearance_ratio: at(&whirl.clearance_ratio, index),
             contact_duty: at(&whirl.contact_duty, index),

@@ -15,4 +15,7 @@ pub fn bit_state(snapshot: &Snapshot, header: &Header, out: &mut BitState) {
     out.tangential_acceleration = bit.tangential_acceleration;
     out.axial_acceleration = bit.axial_acceleration;
     out.lateral_acceleration = bit.lateral_acceleration;
+    out.lateral_acceleration_peak = bit.lateral_acceleration_peak;
+    out.lateral_impulse = bit.lateral_impulse;
+    out.stick_slip_severity = bit.stick_slip as u8;
 }

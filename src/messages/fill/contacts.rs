@@ -30,4 +30,16 @@ pub fn contact_forces(snapshot: &Snapshot, header: &Header, out: &mut ContactFor
     copy(&mut out.guide_wall_axial, &outer.axial);
     copy(&mut out.guide_wall_normal_peak, &outer.normal_peak);
     copy(&mut out.guide_wall_normal_rms, &outer.normal_rms);
+
+    copy(&mut out.pipe_guide_shock, &inner.shock);
+    copy(&mut out.guide_wall_shock, &outer.shock);
+    let shock = &snapshot.shock;
+    out.shock_severity = shock.severity as u8;
+    out.shock_impulse = shock.impulse;
+    out.shock_station = u32::try_from(shock.station).unwrap_or(u32::MAX);
+    out.shock_layer = if shock.layer == 0 {
+        ContactForces::INNER
+    } else {
+        ContactForces::OUTER
+    };
 }

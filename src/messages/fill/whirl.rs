@@ -1,7 +1,8 @@
 //! [`WhirlState`] and [`WhirlWarning`].
 
 use super::copy;
-use crate::analysis::{Severity, WhirlKind};
+use crate::analysis::{Severity, WhirlKind, WhirlWarningLevel};
+use crate::inputs::units::n_to_kn;
 use crate::mechanics::Body;
 use crate::messages::std_msgs::Header;
 use crate::messages::{WhirlState, WhirlWarning};
@@ -30,6 +31,10 @@ pub fn whirl_state(snapshot: &Snapshot, header: &Header, out: &mut WhirlState) {
     copy(&mut out.clearance_ratio, &whirl.clearance_ratio);
     copy(&mut out.contact_duty, &whirl.contact_duty);
     copy(&mut out.confidence, &whirl.confidence);
+    out.severity.clear();
+    out.severity
+        .extend(whirl.severity.iter().map(|severity| *severity as u8));
+    copy(&mut out.rolling_share, &whirl.rolling_share);
 }
 
 /// Fills `out`. `input_quality` is the worse of the inputs' states, in the message's INPUT_ constants.
@@ -49,18 +54,25 @@ pub fn whirl_warning(snapshot: &Snapshot, header: &Header, input_quality: u8, ou
     out.since = header.stamp.plus_seconds(level.since - snapshot.time);
     out.input_quality = input_quality;
     out.sequence = level.sequence;
-    out.message = sentence(out, level.severity, level.kind, body);
+    out.peak_force = level.peak_force;
+    out.rolling_share = level.rolling_share;
+    out.confidence = level.confidence;
+    out.message = sentence(out, level, body);
+    if let Some(doubt) = doubt(input_quality) {
+        out.message.push(' ');
+        out.message.push_str(doubt);
+    }
 }
 
 /// What a person reads.
-fn sentence(warning: &WhirlWarning, severity: Severity, kind: WhirlKind, body: Body) -> String {
-    let severity = match severity {
+fn sentence(warning: &WhirlWarning, level: &WhirlWarningLevel, body: Body) -> String {
+    let severity = match level.severity {
         Severity::Ok => return "No whirl that needs attention.".to_owned(),
         Severity::Watch => "Watch",
         Severity::Warning => "Warning",
         Severity::Critical => "Critical",
     };
-    let kind = match kind {
+    let kind = match level.kind {
         WhirlKind::None => "large lateral motion",
         WhirlKind::Forward => "forward whirl",
         WhirlKind::Backward => "backward whirl",
@@ -70,14 +82,39 @@ fn sentence(warning: &WhirlWarning, severity: Severity, kind: WhirlKind, body: B
         Body::Pipe => "flexible pipe",
         Body::Guide => "guide pipe",
     };
+    let manner = match level.rolling_share {
+        share if share <= 0.0 => String::new(),
+        share if level.rolling => format!(", rolling ({:.0} % of the rate without slip)", 100.0 * share),
+        share => format!(", sliding ({:.0} % of the rate of rolling)", 100.0 * share),
+    };
     format!(
-        "{severity}: {kind} of the {body} at {:.2} m (inclination {:.0} deg), {:.1} times the rotary speed, {:.0} % of the \
-         clearance, in contact {:.0} % of the last {:.1} s.",
+        "{severity}: {kind} of the {body} at {:.2} m (inclination {:.0} deg), {:.1} times the rotary speed{manner}, {:.0} % of the \
+         clearance, in contact {:.0} % of the last {:.1} s with up to {:.2} kN, confidence {:.0} %.",
         warning.measured_depth,
         warning.inclination.to_degrees(),
         warning.whirl_ratio,
         100.0 * warning.clearance_ratio,
         100.0 * warning.contact_duty,
         warning.window,
+        n_to_kn(warning.peak_force),
+        100.0 * warning.confidence,
     )
+}
+
+/// What the state of the inputs means for the warning; none when they are fresh.
+fn doubt(input_quality: u8) -> Option<&'static str> {
+    match input_quality {
+        WhirlWarning::INPUT_OK => None,
+        WhirlWarning::INPUT_NOT_RECEIVED => {
+            Some("No input has been received: this is the motion at the configured start values, with less confidence.")
+        }
+        WhirlWarning::INPUT_SLOW => Some("An input is late: somewhat less confidence."),
+        WhirlWarning::INPUT_STALE => {
+            Some("An input is stale: this is the motion at held or safe values, with less confidence.")
+        }
+        WhirlWarning::INPUT_REJECTED => Some(
+            "The newest sample of an input was rejected: this is the motion at the last good one, with less confidence.",
+        ),
+        _ => Some("The state of the inputs is unknown."),
+    }
 }

@@ -264,6 +264,9 @@ fn whirl(evidence: &Evidence) -> Judgement {
             ("whirl_ratio", format!("{:.3}", warning.whirl_ratio)),
             ("clearance_ratio", format!("{:.3}", warning.clearance_ratio)),
             ("contact_duty", format!("{:.3}", warning.contact_duty)),
+            ("peak_force", format!("{:.0} N", warning.peak_force)),
+            ("rolling_share", format!("{:.3}", warning.rolling_share)),
+            ("confidence", format!("{:.2}", warning.confidence)),
         ],
     }
 }

@@ -56,7 +56,7 @@ fn why_fixed(key: &str) -> String {
         "solver" => "the time step and the solver's limits are fixed when the model is built",
         "contact" | "environment" | "boundary" | "loads" => "the model is built with it",
         "start" | "initial" | "run" | "inputs" => "it only counts at the start",
-        "whirl" => "the analysis is built with it",
+        "whirl" | "stick_slip" | "shock" => "the analysis is built with it",
         USE_SIM_TIME => "the clock is chosen at the start",
         CONFIG_FILE => "the configuration is read at the start",
         _ => "it is fixed at the start",

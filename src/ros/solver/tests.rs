@@ -61,6 +61,7 @@ impl Model for ScriptedModel {
         self.settings.rotary_speed_slew = rotary_speed;
     }
     fn set_whirl(&mut self, _whirl: &crate::analysis::WhirlSettings) {}
+    fn set_input_trust(&mut self, _: f64) {}
     fn reset(&mut self) {
         self.step = 0;
     }
@@ -117,6 +118,7 @@ impl Bench {
             weight_on_bit_slew: 1.0,
             whirl: Default::default(),
             stick_slip: Default::default(),
+            shock: Default::default(),
             watched: Vec::new(),
             whirl_sample_interval: 5e-3,
         };

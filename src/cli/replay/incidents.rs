@@ -1,0 +1,275 @@
+//! The incidents of a replay as a table for a person and as JSON for a program.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use anyhow::Context as _;
+use serde::Serialize;
+
+use super::player::Player;
+use crate::analysis::{Incident, IncidentKind, IncidentPlace, Severity};
+use crate::inputs::units::{n_to_kn, rad_to_deg};
+use crate::mechanics::Body;
+use crate::twin::Snapshot;
+
+/// Most rows that are printed; the JSON has all.
+const ROWS: usize = 40;
+
+/// The bit: the last station.
+pub(super) fn place_of_bit(snapshot: &Snapshot) -> IncidentPlace {
+    place(
+        snapshot,
+        snapshot.contacts.measured_depth.len().saturating_sub(1),
+        Body::Pipe,
+    )
+}
+
+/// The station that was struck.
+pub(super) fn place_of_shock(snapshot: &Snapshot) -> IncidentPlace {
+    let body = if snapshot.shock.layer == 0 {
+        Body::Pipe
+    } else {
+        Body::Guide
+    };
+    place(snapshot, snapshot.shock.station, body)
+}
+
+fn place(snapshot: &Snapshot, station: usize, body: Body) -> IncidentPlace {
+    let at = |values: &[f64]| values.get(station).copied().unwrap_or_default();
+    IncidentPlace {
+        station,
+        body,
+        measured_depth: at(&snapshot.contacts.measured_depth),
+        inclination: at(&snapshot.contacts.inclination),
+    }
+}
+
+/// Stations of the joints, to call places by their joint.
+pub(super) struct Joints(Vec<usize>);
+
+pub(super) fn joints_of(player: &Player) -> Joints {
+    Joints(player.joint_stations().to_vec())
+}
+
+impl Joints {
+    /// Number of the joint at a station, from 1 at the top as in `joint_01`.
+    fn number(&self, station: usize) -> Option<usize> {
+        self.0.iter().position(|at| *at == station).map(|index| index + 1)
+    }
+
+    fn name(&self, station: usize) -> String {
+        match self.number(station) {
+            Some(joint) => format!("joint {joint:02}"),
+            None => format!("station {station}"),
+        }
+    }
+
+    fn range(&self, [first, last]: [usize; 2]) -> String {
+        if first == last {
+            return self.name(first);
+        }
+        match (self.number(first), self.number(last)) {
+            (Some(first), Some(last)) => format!("joints {first:02}-{last:02}"),
+            _ => format!("stations {first}-{last}"),
+        }
+    }
+}
+
+fn kind(kind: IncidentKind) -> &'static str {
+    match kind {
+        IncidentKind::ForwardWhirl => "forward whirl",
+        IncidentKind::BackwardWhirl => "backward whirl",
+        IncidentKind::RollingWhirl => "rolling whirl",
+        IncidentKind::ChaoticWhirl => "chaotic whirl",
+        IncidentKind::StickSlip => "stick-slip",
+        IncidentKind::Shock => "shock",
+    }
+}
+
+fn severity(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Ok => "ok",
+        Severity::Watch => "watch",
+        Severity::Warning => "WARNING",
+        Severity::Critical => "CRITICAL",
+    }
+}
+
+fn body(body: Body) -> &'static str {
+    match body {
+        Body::Pipe => "pipe",
+        Body::Guide => "guide",
+    }
+}
+
+fn evidence(incident: &Incident) -> String {
+    match incident.kind {
+        IncidentKind::StickSlip => format!("index up to {:.2}", incident.strength),
+        IncidentKind::Shock => format!("up to {:.1} N s in an interval", incident.strength),
+        _ => {
+            let mut text = format!(
+                "x{:.2} of the speed, {:.0} % of the gap, contact {:.0} %, {:.2} kN",
+                incident.whirl_ratio,
+                100.0 * incident.clearance_ratio,
+                100.0 * incident.contact_duty,
+                n_to_kn(incident.peak_force)
+            );
+            if incident.rolling_share > 0.0 {
+                let _ = write!(text, ", {:.0} % of rolling", 100.0 * incident.rolling_share);
+            }
+            text
+        }
+    }
+}
+
+/// The table, one line per incident, in the order of their beginning.
+pub(super) fn table(incidents: &[Incident], joints: &Joints) -> String {
+    if incidents.is_empty() {
+        return "  incidents              none\n".to_owned();
+    }
+    let mut text = format!(
+        "\nincidents: {}\n  {:>9} {:>10}  {:<9} {:<15} {:<5} {:<14} {:>6} {:>5}  evidence\n",
+        incidents.len(),
+        "at s",
+        "for s",
+        "severity",
+        "kind",
+        "of",
+        "place",
+        "m",
+        "deg"
+    );
+    // The worst ones when there are too many.
+    let mut shown: Vec<usize> = (0..incidents.len()).collect();
+    shown.sort_by_key(|index| std::cmp::Reverse(incidents[*index].severity));
+    shown.truncate(ROWS);
+    shown.sort_unstable();
+    for incident in shown.iter().map(|index| &incidents[*index]) {
+        let lasts = format!("{}{:.2}", if incident.lasting { ">" } else { "" }, incident.duration);
+        let _ = writeln!(
+            text,
+            "  {:>9.2} {lasts:>10}  {:<9} {:<15} {:<5} {:<14} {:>6.2} {:>5.0}  {}",
+            incident.start,
+            severity(incident.severity),
+            kind(incident.kind),
+            body(incident.place.body),
+            joints.range(incident.stations),
+            incident.place.measured_depth,
+            rad_to_deg(incident.place.inclination),
+            evidence(incident)
+        );
+    }
+    if incidents.len() > shown.len() {
+        let _ = writeln!(
+            text,
+            "  and {} more, none worse than these; --incidents FILE.json has all",
+            incidents.len() - shown.len()
+        );
+    }
+    text
+}
+
+#[derive(Serialize)]
+struct Row<'a> {
+    #[serde(flatten)]
+    incident: &'a Incident,
+    /// Joint at the worst place, from 1 at the top.
+    joint: Option<usize>,
+    inclination_deg: f64,
+}
+
+/// Writes all incidents: an array of objects, SI units.
+///
+/// # Errors
+/// When the file cannot be written.
+pub(super) fn write_json(path: &Path, incidents: &[Incident], joints: &Joints) -> anyhow::Result<()> {
+    let rows: Vec<_> = incidents
+        .iter()
+        .map(|incident| Row {
+            incident,
+            joint: joints.number(incident.place.station),
+            inclination_deg: rad_to_deg(incident.place.inclination),
+        })
+        .collect();
+    let text = serde_json::to_string_pretty(&rows)?;
+    std::fs::write(path, text + "\n")
+        .with_context(|| format!("the incidents could not be written to {}", path.display()))?;
+    println!("wrote {} incidents to {}", rows.len(), path.display());
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rolling() -> Incident {
+        Incident {
+            kind: IncidentKind::RollingWhirl,
+            severity: Severity::Critical,
+            start: 12.5,
+            duration: 3.25,
+            lasting: true,
+            place: IncidentPlace {
+                station: 150,
+                body: Body::Pipe,
+                measured_depth: 4.57,
+                inclination: 1.43,
+            },
+            stations: [145, 155],
+            whirl_ratio: -3.6,
+            rolling_share: 0.97,
+            clearance_ratio: 1.02,
+            contact_duty: 0.9,
+            peak_force: 25e3,
+            strength: 0.0,
+            confidence: 0.95,
+        }
+    }
+
+    #[test]
+    fn a_row_says_when_where_what_how_bad_and_how_long() {
+        let joints = Joints((1..33).map(|joint| 5 * joint).collect());
+        let text = table(&[rolling()], &joints);
+        for part in [
+            "12.50",
+            ">3.25",
+            "CRITICAL",
+            "rolling whirl",
+            "pipe",
+            "joints 29-31",
+            "4.57",
+            "82",
+            "x-3.60",
+            "25.00 kN",
+            "97 % of rolling",
+        ] {
+            assert!(text.contains(part), "'{part}' is not in\n{text}");
+        }
+        assert!(table(&[], &joints).contains("none"));
+        let many = vec![rolling(); ROWS + 3];
+        assert!(table(&many, &joints).contains("and 3 more"));
+    }
+
+    #[test]
+    fn json_holds_everything_in_si() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("incidents.json");
+        let stick = Incident {
+            kind: IncidentKind::StickSlip,
+            stations: [165; 2],
+            place: IncidentPlace {
+                station: 165,
+                ..rolling().place
+            },
+            ..rolling()
+        };
+        write_json(&path, &[rolling(), stick], &Joints(vec![150])).unwrap();
+        let rows: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        assert_eq!(rows[0]["kind"], "rolling_whirl");
+        assert_eq!(rows[0]["severity"], "critical");
+        assert_eq!(rows[0]["joint"], 1);
+        assert_eq!(rows[0]["place"]["body"], "pipe");
+        assert_eq!(rows[1]["joint"], serde_json::Value::Null);
+        assert_eq!(rows[1]["start"], 12.5);
+    }
+}
