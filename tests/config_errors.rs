@@ -1,6 +1,7 @@
 //! A wrong configuration is refused with file, line, key, value, bound and unit.
 
-use flexdrill::config::{Config, ConfigError};
+use flexdrill::config::{Config, ConfigError, TimeScheme};
+use flexdrill::mechanics::Scheme;
 use proptest::prelude::*;
 
 const GOOD: &str = "\
@@ -147,6 +148,25 @@ fn values_change_by_key_and_are_checked() {
         (key.value, key.low, key.high, key.unit),
         (config.solver.gamma, 0.5, 1.0, "")
     );
+}
+
+#[test]
+fn gamma_means_newmark() {
+    let with = |solver: &str| GOOD.to_string() + &format!("solver: {{{solver}}}\n");
+    // Files from before the other schemes name Newmark by its parameter only.
+    let config = Config::from_text("rig.yaml", &with("gamma: 0.6")).unwrap();
+    assert_eq!(config.solver.scheme, TimeScheme::Newmark);
+    assert_eq!(config.simulation().scheme, Scheme::newmark(0.6));
+    let config = Config::from_text("rig.yaml", &with("scheme: hht, rho_infinity: 0.7")).unwrap();
+    assert_eq!(config.simulation().scheme, Scheme::hht(0.7));
+    for (solver, key) in [
+        ("scheme: generalised_alpha, gamma: 0.6", "solver.gamma = 0.6"),
+        ("scheme: newmark, rho_infinity: 0.6", "solver.rho_infinity = 0.6"),
+        ("scheme: hht, rho_infinity: 0.4", "solver.rho_infinity = 0.4"),
+    ] {
+        let error = error_of(&with(solver));
+        assert!(error.starts_with(&format!("rig.yaml:10: {key}: must be ")), "{error}");
+    }
 }
 
 proptest! {

@@ -9,13 +9,13 @@ use crate::mechanics::Scheme;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Given")]
 pub struct Solver {
-    /// s. Default 0.00025.
+    /// s. Default 0.0005.
     pub time_step: f64,
-    /// Default `newmark`.
+    /// Default `generalised_alpha`.
     pub scheme: TimeScheme,
     /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Default 0.55. Given alone, it means `scheme: newmark`.
     pub gamma: f64,
-    /// Spectral radius at infinite frequency of the other schemes: the part of the highest frequencies that a step leaves. Default 0.8.
+    /// Spectral radius at infinite frequency of the other schemes: the part of the highest frequencies that a step leaves. Default 0.4; for `hht` 0.5.
     pub rho_infinity: f64,
     /// Most Newton iterations per sub-step. Default 15.
     pub max_iterations: u32,
@@ -34,6 +34,9 @@ pub enum TimeScheme {
     /// Generalised-alpha, with `rho_infinity` of 0 to 1.
     GeneralisedAlpha,
 }
+
+/// HHT's least spectral radius at infinite frequency: at alpha 1/3, beyond which it damps less again.
+const HHT_LEAST: f64 = 0.5;
 
 /// What stands in a file.
 #[derive(Deserialize)]
@@ -56,11 +59,16 @@ impl From<Given> for Solver {
         } else {
             default.scheme
         };
+        let scheme = given.scheme.unwrap_or(implied);
+        let rho_infinity = match scheme {
+            TimeScheme::Hht => default.rho_infinity.max(HHT_LEAST),
+            TimeScheme::Newmark | TimeScheme::GeneralisedAlpha => default.rho_infinity,
+        };
         Self {
             time_step: given.time_step.unwrap_or(default.time_step),
-            scheme: given.scheme.unwrap_or(implied),
+            scheme,
             gamma: given.gamma.unwrap_or(default.gamma),
-            rho_infinity: given.rho_infinity.unwrap_or(default.rho_infinity),
+            rho_infinity: given.rho_infinity.unwrap_or(rho_infinity),
             max_iterations: given.max_iterations.unwrap_or(default.max_iterations),
             max_halvings: given.max_halvings.unwrap_or(default.max_halvings),
         }
@@ -70,10 +78,10 @@ impl From<Given> for Solver {
 impl Default for Solver {
     fn default() -> Self {
         Self {
-            time_step: 0.00025,
-            scheme: TimeScheme::Newmark,
+            time_step: 0.0005,
+            scheme: TimeScheme::GeneralisedAlpha,
             gamma: 0.55,
-            rho_infinity: 0.8,
+            rho_infinity: 0.4,
             max_iterations: 15,
             max_halvings: 6,
         }
@@ -112,7 +120,7 @@ impl Solver {
         }
         let reason =
             "above 1 high frequencies grow; below 0 they change sign with every step, and hht damps no more below 0.5";
-        let least = if self.scheme == TimeScheme::Hht { 0.5 } else { 0.0 };
+        let least = if self.scheme == TimeScheme::Hht { HHT_LEAST } else { 0.0 };
         c.number("rho_infinity", self.rho_infinity, Bound::within(least, 1.0), "", reason);
         if newmark {
             let bound = format!("left at {} with solver.scheme newmark", default.rho_infinity);
