@@ -22,20 +22,26 @@ struct Record {
     positions: Vec<Vec<f64>>,
     /// Both layers of every station, averaged.
     forces: Vec<Vec<f64>>,
-    /// Root mean square of the contact forces over the whole run.
+    /// Root mean square of the contact forces after the run-up, the first quarter.
     rms: Vec<f64>,
     /// Mean whirl ratio over time and places, after the run-up.
     whirl: f64,
     energy_error: f64,
     drive_work: f64,
+    /// Newton iterations per second of model time.
+    iterations: f64,
 }
 
-fn run(eta: f64, step: f64, duration: f64, perturbation: f64) -> Record {
+fn configured(eta: f64, step: f64) -> Config {
     let config = Config::load("config/default.yaml").unwrap();
     let config = config.with_value("tool.bit.friction_factor", eta).unwrap();
+    config.with_value("solver.time_step", step).unwrap()
+}
+
+fn run(config: &Config, duration: f64, perturbation: f64) -> Record {
+    let step = config.solver.time_step;
     // The weight is on before the start, so that the run begins at rest under it.
     let config = config.with_value("inputs.weight_on_bit.initial_kn", 10.0).unwrap();
-    let config = config.with_value("solver.time_step", step).unwrap();
     let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     let per_interval = (INTERVAL / step).round() as usize;
     let stations = simulation.stepper().model().stations.len();
@@ -47,6 +53,7 @@ fn run(eta: f64, step: f64, duration: f64, perturbation: f64) -> Record {
         whirl: 0.0,
         energy_error: 0.0,
         drive_work: 0.0,
+        iterations: 0.0,
     };
     let intervals = (duration / INTERVAL).round() as usize;
     let mut snapshot = simulation.new_snapshot();
@@ -68,7 +75,9 @@ fn run(eta: f64, step: f64, duration: f64, perturbation: f64) -> Record {
             for (k, touch) in forces.inner.iter().chain(&forces.outer).enumerate() {
                 let normal = touch.map_or(0.0, |touch| touch.normal);
                 mean[k] += normal / per_interval as f64;
-                record.rms[k] += normal * normal / (per_interval * intervals) as f64;
+                if 4 * interval >= intervals {
+                    record.rms[k] += normal * normal / (per_interval * (intervals - intervals / 4)) as f64;
+                }
             }
         }
         let (model, state) = (simulation.stepper().model(), simulation.stepper().state());
@@ -91,6 +100,7 @@ fn run(eta: f64, step: f64, duration: f64, perturbation: f64) -> Record {
     record.rms.iter_mut().for_each(|square| *square = square.sqrt());
     record.energy_error = simulation.stepper().audit().error;
     record.drive_work = simulation.stepper().audit().drive;
+    record.iterations = simulation.stepper().counters().iterations as f64 / duration;
     record
 }
 
@@ -106,7 +116,10 @@ fn default_step() -> f64 {
 #[test]
 fn an_eighth_of_the_step_changes_little_without_bit_torque() {
     let h = default_step();
-    let (coarse, fine) = (run(0.0, h, 5.0, 0.0), run(0.0, h / 8.0, 5.0, 0.0));
+    let (coarse, fine) = (
+        run(&configured(0.0, h), 5.0, 0.0),
+        run(&configured(0.0, h / 8.0), 5.0, 0.0),
+    );
     let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
     let bit = apart(&coarse.bit_speed, &fine.bit_speed) / range(fine.bit_speed.iter().copied());
     println!("bit speed: {:.4} % of its range", 100.0 * bit);
@@ -157,8 +170,10 @@ fn ripple(record: &Record) -> f64 {
 fn with_bit_torque_statistics_agree_and_energy_adds_up() {
     let h = default_step();
     let duration = 20.0;
-    let perturbed: Vec<Record> = [0.0, 1.0, -1.0].map(|newton| run(0.235, h, duration, newton)).into();
-    let fine = run(0.235, h / 8.0, duration, 0.0);
+    let perturbed: Vec<Record> = [0.0, 1.0, -1.0]
+        .map(|newton| run(&configured(0.235, h), duration, newton))
+        .into();
+    let fine = run(&configured(0.235, h / 8.0), duration, 0.0);
 
     let pairs = [(0, 1), (0, 2), (1, 2)];
     let spread = pairs
@@ -204,5 +219,47 @@ fn with_bit_torque_statistics_agree_and_energy_adds_up() {
             record.energy_error,
             record.drive_work
         );
+    }
+}
+
+/// The table by which scheme and step were chosen.
+#[test]
+#[ignore = "takes half an hour"]
+fn schemes_and_steps() {
+    let with = |scheme: &str, key: &str, value: f64, step: f64| {
+        let config = configured(0.235, step).with_value("solver.rho_infinity", 0.5).unwrap();
+        let text = config.to_yaml().unwrap();
+        let given = |line: &str| line.trim_start().split(':').next().unwrap_or_default().to_owned();
+        let text: String = text
+            .lines()
+            .filter(|line| !["scheme", "gamma", "rho_infinity"].contains(&given(line).as_str()))
+            .map(|line| match given(line).as_str() {
+                "solver" => format!("solver:\n  scheme: {scheme}\n  {key}: {value}\n"),
+                _ => format!("{line}\n"),
+            })
+            .collect();
+        Config::from_text("schemes_and_steps", &text).unwrap()
+    };
+    let duration = 30.0;
+    let fine = run(&with("generalised_alpha", "rho_infinity", 0.8, 6.25e-5), duration, 0.0);
+    println!("ripple {:.4}, whirl {:.4}", ripple(&fine), fine.whirl);
+    for step in [2.5e-4, 5e-4, 8e-4, 1e-3] {
+        let mut runs = vec![("newmark", "gamma", 0.55), ("hht", "rho_infinity", 0.8)];
+        runs.extend([1.0, 0.8, 0.5, 0.4, 0.3, 0.0].map(|rho| ("generalised_alpha", "rho_infinity", rho)));
+        for (scheme, key, value) in runs {
+            let config = with(scheme, key, value, step);
+            let Ok(got) = std::panic::catch_unwind(|| run(&config, duration, 0.0)) else {
+                println!("{step} s {scheme} {value}: a step failed");
+                continue;
+            };
+            println!(
+                "{step} s {scheme} {value}: profile {:.4}, ripple {:.4}, whirl {:.4}, iterations/s {:.0}, energy error {:.4} %",
+                profile_distance(&fine.rms, &got.rms),
+                ripple(&got),
+                got.whirl,
+                got.iterations,
+                100.0 * got.energy_error / got.drive_work
+            );
+        }
     }
 }
