@@ -159,6 +159,9 @@ fn profile_distance(a: &[f64], b: &[f64]) -> f64 {
     norm(&mut a.iter().zip(b).map(|(x, y)| x - y)) / norm(&mut a.iter().copied())
 }
 
+/// A number of a run.
+type Figure = fn(&Record) -> f64;
+
 /// Root mean square of the bit speed about its mean after the run-up.
 fn ripple(record: &Record) -> f64 {
     let after = &record.bit_speed[record.bit_speed.len() / 4..];
@@ -192,9 +195,9 @@ fn with_bit_torque_statistics_agree_and_energy_adds_up() {
         "RMS contact forces: {distance:.4} from the nearest run, which differ by {spread:.4}"
     );
 
-    let figures: [(&str, &dyn Fn(&Record) -> f64); 2] = [
-        ("ripple of the bit speed (rad/s)", &ripple),
-        ("mean whirl ratio", &|record| record.whirl),
+    let figures: [(&str, Figure); 2] = [
+        ("ripple of the bit speed (rad/s)", ripple),
+        ("mean whirl ratio", |record| record.whirl),
     ];
     for (name, of) in figures {
         let draws: Vec<f64> = perturbed.iter().map(of).collect();
