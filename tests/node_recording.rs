@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use common::Network;
 use flexdrill::bag;
+use flexdrill::messages::TwinStatus;
 use serde_json::json;
 
 /// Messages of the topics that do not tell of wall-clock time, per topic in their order.
@@ -45,6 +46,22 @@ fn foreign_programs_read(recording: &Path) {
         let total: usize = found.values().sum();
         assert_eq!(printed.trim(), format!("topics {} messages {total}", found.len()));
     }
+}
+
+/// The status tells where the time goes, once the model moves.
+fn phases_are_told(recording: &Path) {
+    let mut solve = 0.0_f64;
+    for message in bag::open(recording).unwrap() {
+        let message = message.unwrap();
+        if message.topic.is("twin/status") {
+            let status: TwinStatus = message.decode().unwrap();
+            assert_eq!(status.phase_name.len(), status.phase_time.len());
+            assert_eq!(status.phase_name.last().map(String::as_str), Some("publish"));
+            let index = status.phase_name.iter().position(|name| name == "solve").unwrap();
+            solve = solve.max(status.phase_time[index]);
+        }
+    }
+    assert!(solve > 0.0);
 }
 
 #[test]
@@ -96,12 +113,15 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
     assert_eq!(twin.end(), Some(0));
     assert!(twin.said().contains("recorded"), "{}", twin.said());
     foreign_programs_read(&live);
+    phases_are_told(&live);
 
     let replay = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
         .args(["replay", live_text, "--out", again.to_str().unwrap()])
         .output()
         .unwrap();
     assert!(replay.status.success(), "{}", String::from_utf8_lossy(&replay.stderr));
+    let printed = String::from_utf8_lossy(&replay.stdout);
+    assert!(printed.contains("time per step"), "{printed}");
     let (live, again) = (messages(&live), messages(&again));
     assert_eq!(live.keys().collect::<Vec<_>>(), again.keys().collect::<Vec<_>>());
     assert!(live.contains_key("/rig_7/twin/contact_forces"));
