@@ -129,7 +129,7 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
             Cases::Memory | Cases::All => memory::tables(&config, constant, duration)?,
         };
         let text = format!(
-            "Command: `flexdrill bench --cases {}`, `{}`. {}\n\n{tables}",
+            "Command: `flexdrill bench --cases {} --duration {duration}`, `{}`. {}\n\n{tables}",
             case.name(),
             path.display(),
             machine::describe()
