@@ -11,6 +11,7 @@ use super::description::Direction;
 use super::element_form::{add, load};
 use super::gap::{GapMatrix, GapVector, Touch, regularised_sign};
 use super::joint::{Joint, JointMatrix, JointVector, Row, Stop};
+use super::joint_group::JointGroup;
 #[cfg(target_arch = "x86_64")]
 use super::linear::vector::{Avx2, Avx512};
 use super::linear::vector::{Portable, Vector};
@@ -31,13 +32,17 @@ pub struct TangentFactors {
     pub mass: f64,
 }
 
-/// A joint linearised at the last residual.
-#[derive(Debug, Clone, Copy)]
-pub struct JointLinearisation {
-    /// Rotational rows.
-    pub rows: [Row; 2],
-    /// Limit stop.
-    pub stop: Stop,
+/// A joint at the last residual.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct JointReport {
+    /// Gradients of the rotational rows in (psi_a, phi_ya, phi_za, psi_b, phi_yb, phi_zb).
+    pub rows: [[f64; 6]; 2],
+    /// Stop's moment (N m, >= 0).
+    pub moment: f64,
+    /// Energy in the stop's spring (J).
+    pub energy: f64,
+    /// Power taken by the stop's damping (W).
+    pub dissipation: f64,
 }
 
 /// Residual, tangent and the linearised parts they are made of.
@@ -51,7 +56,11 @@ pub struct Assembler {
     /// Touching guide-wall gaps, per station.
     pub outer: Vec<Option<Touch>>,
     /// Joints.
-    pub joints: Vec<JointLinearisation>,
+    pub joints: Vec<JointReport>,
+    /// Joints of one rotational row, eight at a time.
+    groups: Vec<JointGroup>,
+    /// Other joints, one at a time: rows and stops.
+    singles: Vec<([Row; 2], Stop)>,
     /// Torque of the rock on the bit at the last residual (N m), against the rotation.
     pub bit_torque: f64,
     /// Times what is done here and in the steps around it.
@@ -79,14 +88,13 @@ impl Assembler {
     pub fn new(model: &Model) -> Self {
         let system = BlockSystem::new(model.layout.clone());
         let q = JointVector::zeros();
-        let joints = model
-            .joints
-            .iter()
-            .map(|j| JointLinearisation {
-                rows: j.rows(&q),
-                stop: j.stop(&q, &q),
-            })
-            .collect();
+        let kind = model.description.joint.kind;
+        let (groups, singles) = if JointGroup::takes(kind) {
+            (model.joints.chunks(8).map(JointGroup::of).collect(), Vec::new())
+        } else {
+            let single = |joint: &Joint| (joint.rows(&q), joint.stop(&q, &q));
+            (Vec::new(), model.joints.iter().map(single).collect())
+        };
         Self {
             residual: vec![0.0; model.unknowns()],
             base: system.clone(),
@@ -106,7 +114,9 @@ impl Assembler {
             system,
             inner: vec![None; model.stations.len()],
             outer: vec![None; model.stations.len()],
-            joints,
+            joints: vec![JointReport::default(); model.joints.len()],
+            groups,
+            singles,
             bit_torque: 0.0,
             stopwatch: Stopwatch::default(),
             bit_torque_slope: 0.0,
@@ -232,13 +242,13 @@ impl Assembler {
                 let velocity = outer_velocity(model, station, state);
                 self.outer[s] = conditions.outer.touch(lateral, model.outer_clearance, &velocity);
             }
-            if let Some(touch) = self.inner[s] {
+            if let Some(touch) = &self.inner[s] {
                 let force = touch.normal_force + touch.friction_force;
                 let (on_pipe, on_guide) = inner_forces(model, station, &force);
                 self.scatter(station.pipe_above, (-on_pipe).as_slice());
                 self.scatter(station.guide, (-on_guide).as_slice());
             }
-            if let Some(touch) = self.outer[s] {
+            if let Some(touch) = &self.outer[s] {
                 let force = touch.normal_force + touch.friction_force;
                 self.scatter(station.guide, (-outer_force(model, &force)).as_slice());
             }
@@ -258,6 +268,27 @@ impl Assembler {
                 self.residual[b + k] -= on_b[k];
                 self.residual[first + k] = scale * open[k];
             }
+        }
+        if self.groups.is_empty() {
+            self.single_joints(model, state);
+            return;
+        }
+        match self.instructions {
+            Instructions::Portable => self.joint_groups::<Portable>(model, state),
+            // SAFETY: chosen only where the processor was found to have these instructions.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => unsafe { self.joint_groups_avx2(model, state) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { self.joint_groups_avx512(model, state) },
+        }
+    }
+
+    /// Rotational rows and stops, a joint at a time.
+    fn single_joints(&mut self, model: &Model, state: &State) {
+        for (j, joint) in model.joints.iter().enumerate() {
+            let station = &model.stations[model.joint_stations[j]];
+            let (a, b, first) = (station.pipe_above, station.pipe_below, model.multipliers(j));
             let q = joint_rotations(model, j, &state.q);
             let rate = joint_rotations(model, j, &state.v);
             let rows = joint.rows(&q);
@@ -272,8 +303,63 @@ impl Assembler {
                 self.residual[a + 3 + k] += moment[k];
                 self.residual[b + 3 + k] += moment[3 + k];
             }
-            self.joints[j] = JointLinearisation { rows, stop };
+            self.joints[j] = JointReport {
+                rows: [rows[0].gradient.into(), rows[1].gradient.into()],
+                moment: stop.moment,
+                energy: stop.energy,
+                dissipation: stop.dissipation,
+            };
+            self.singles[j] = (rows, stop);
         }
+    }
+
+    /// Rotational rows and stops, eight joints at a time.
+    #[inline(always)]
+    fn joint_groups<V: Vector>(&mut self, model: &Model, state: &State) {
+        for (g, group) in self.groups.iter_mut().enumerate() {
+            let first = 8 * g;
+            let count = (model.joints.len() - first).min(8);
+            let (mut q, mut rate, mut lambda) = ([[0.0; 8]; 6], [[0.0; 8]; 6], [0.0; 8]);
+            for lane in 0..8 {
+                let j = first + lane.min(count - 1);
+                let station = model.layout.offset(model.joint_stations[j]);
+                for k in 0..3 {
+                    q[k][lane] = state.q[station + 3 + k];
+                    q[3 + k][lane] = state.q[station + 15 + k];
+                    rate[k][lane] = state.v[station + 3 + k];
+                    rate[3 + k][lane] = state.v[station + 15 + k];
+                }
+                lambda[lane] = model.moment_scale * state.q[station + 21];
+            }
+            let moments = group.evaluate::<V>(&q, &rate, &lambda);
+            for lane in 0..count {
+                let station = model.layout.offset(model.joint_stations[first + lane]);
+                for k in 0..3 {
+                    self.residual[station + 3 + k] += moments[k][lane];
+                    self.residual[station + 15 + k] += moments[3 + k][lane];
+                }
+                self.residual[station + 21] = model.moment_scale * group.row[lane];
+                let report = &mut self.joints[first + lane];
+                for (to, from) in report.rows[0].iter_mut().zip(&group.gradient) {
+                    *to = from[lane];
+                }
+                report.moment = group.moment[lane];
+                report.energy = group.energy[lane];
+                report.dissipation = group.dissipation[lane];
+            }
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn joint_groups_avx2(&mut self, model: &Model, state: &State) {
+        self.joint_groups::<Avx2>(model, state);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+    fn joint_groups_avx512(&mut self, model: &Model, state: &State) {
+        self.joint_groups::<Avx512>(model, state);
     }
 
     /// Assembles the tangent from the parts linearised by the last [`Assembler::residual`] at `state`.
@@ -435,17 +521,67 @@ impl Assembler {
     }
 
     fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
-        for (j, joint) in model.joints.iter().enumerate() {
-            let first = model.multipliers(j);
-            let JointLinearisation { rows, stop } = &self.joints[j];
-            let change = &mut self.changes.joints[j];
-            let mut m: JointMatrix = stop.stiffness * factors.stiffness + stop.damping * factors.damping;
-            for (r, row) in rows.iter().take(Joint::rotational_rows(joint.kind)).enumerate() {
-                m += row.hessian * (factors.stiffness * model.moment_scale * state.q[first + 3 + r]);
-                change.rows[r] = (row.gradient * model.moment_scale).data.0[0];
+        for (change, report) in self.changes.joints.iter_mut().zip(&self.joints) {
+            for (to, from) in change.rows.iter_mut().zip(&report.rows) {
+                for (to, from) in to.iter_mut().zip(from) {
+                    *to = from * model.moment_scale;
+                }
             }
-            change.rotations = m.data.0;
         }
+        if self.groups.is_empty() {
+            for (j, joint) in model.joints.iter().enumerate() {
+                let first = model.multipliers(j);
+                let (rows, stop) = &self.singles[j];
+                let mut m: JointMatrix = stop.stiffness * factors.stiffness + stop.damping * factors.damping;
+                for (r, row) in rows.iter().take(Joint::rotational_rows(joint.kind)).enumerate() {
+                    m += row.hessian * (factors.stiffness * model.moment_scale * state.q[first + 3 + r]);
+                }
+                self.changes.joints[j].rotations = m.data.0;
+            }
+            return;
+        }
+        match self.instructions {
+            Instructions::Portable => self.group_tangents::<Portable>(model, state, factors),
+            // SAFETY: chosen only where the processor was found to have these instructions.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => unsafe { self.group_tangents_avx2(model, state, factors) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { self.group_tangents_avx512(model, state, factors) },
+        }
+    }
+
+    #[inline(always)]
+    fn group_tangents<V: Vector>(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+        let mut tangent = [[[0.0; 8]; 6]; 6];
+        for (g, group) in self.groups.iter().enumerate() {
+            let first = 8 * g;
+            let changes = &mut self.changes.joints[first..];
+            let mut lambda = [0.0; 8];
+            for (lambda, j) in lambda.iter_mut().zip(first..model.joints.len()) {
+                *lambda = model.moment_scale * state.q[model.multipliers(j) + 3];
+            }
+            group.tangent::<V>(&lambda, factors.stiffness, factors.damping, &mut tangent);
+            for (lane, change) in changes.iter_mut().enumerate().take(8) {
+                for (to, from) in change.rotations.iter_mut().zip(&tangent) {
+                    for (to, from) in to.iter_mut().zip(from) {
+                        *to = from[lane];
+                    }
+                }
+            }
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn group_tangents_avx2(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+        self.group_tangents::<Avx2>(model, state, factors);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+    fn group_tangents_avx512(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+        self.group_tangents::<Avx512>(model, state, factors);
     }
 }
 

@@ -128,21 +128,23 @@ impl LaneTurn {
     /// Nodal values to the chord's frame, Eq. 8.
     #[inline(always)]
     pub fn to_chord<V: Vector>(&self, x: Both<V>) -> Both<V> {
-        let turned = |n: usize| {
-            let direct = V::load(&self.direct[n]).times(x[n]);
-            direct.plus_product(V::load(&self.crossed[n]), x[n].across())
-        };
-        [turned(0), turned(1)]
+        let mut out = x;
+        for ((out, direct), crossed) in out.iter_mut().zip(&self.direct).zip(&self.crossed) {
+            let across = out.across();
+            *out = V::load(direct).times(*out).plus_product(V::load(crossed), across);
+        }
+        out
     }
 
     /// Forces in the chord's frame to the nodes' frames.
     #[inline(always)]
     pub fn from_chord<V: Vector>(&self, f: Both<V>) -> Both<V> {
-        let turned = |n: usize| {
-            let direct = V::load(&self.direct[n]).times(f[n]);
-            direct.minus_product(V::load(&self.crossed[n]), f[n].across())
-        };
-        [turned(0), turned(1)]
+        let mut out = f;
+        for ((out, direct), crossed) in out.iter_mut().zip(&self.direct).zip(&self.crossed) {
+            let across = out.across();
+            *out = V::load(direct).times(*out).minus_product(V::load(crossed), across);
+        }
+        out
     }
 
     fn is_close(&self, other: &Self) -> bool {

@@ -137,8 +137,8 @@ impl EnergyPoint {
             }
         }
         for joint in &assembler.joints {
-            stored += joint.stop.energy;
-            self.contact_dissipation += joint.stop.dissipation;
+            stored += joint.energy;
+            self.contact_dissipation += joint.dissipation;
         }
         for (value, load) in self.loads.iter_mut().zip(&model.loads) {
             *value = load.load.history.at(conditions.time);

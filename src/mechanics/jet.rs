@@ -1,37 +1,41 @@
-//! Scalars with their first and second derivatives in three variables, of which the joint rows' gradients and Hessians (the exact
+//! Numbers with their first and second derivatives in three variables, of which the joint rows' gradients and Hessians (the exact
 //! tangents) are made.
 
-use nalgebra::{Matrix3, Vector3};
+use super::number::Number;
 
 /// A value with gradient and Hessian in (psi, phi_y, phi_z).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Jet {
+pub struct Jet<T> {
     /// Value.
-    pub value: f64,
+    pub value: T,
     /// First derivatives.
-    pub gradient: Vector3<f64>,
+    pub gradient: [T; 3],
     /// Second derivatives.
-    pub hessian: Matrix3<f64>,
+    pub hessian: [[T; 3]; 3],
 }
 
-impl Jet {
+impl<T: Number> Jet<T> {
     /// Zero.
+    #[inline(always)]
     pub fn zero() -> Self {
+        let zero = T::of(0.0);
         Self {
-            value: 0.0,
-            gradient: Vector3::zeros(),
-            hessian: Matrix3::zeros(),
+            value: zero,
+            gradient: [zero; 3],
+            hessian: [[zero; 3]; 3],
         }
     }
 
     /// Adds `factor` times `other`.
     #[inline(always)]
-    pub fn add(&mut self, factor: f64, other: &Self) {
-        self.value += factor * other.value;
+    pub fn add(&mut self, factor: T, other: &Self) {
+        self.value = self.value + factor * other.value;
         for k in 0..3 {
-            self.gradient[k] += factor * other.gradient[k];
-            for l in 0..3 {
-                self.hessian[(l, k)] += factor * other.hessian[(l, k)];
+            self.gradient[k] = self.gradient[k] + factor * other.gradient[k];
+            for l in k..3 {
+                let sum = self.hessian[k][l] + factor * other.hessian[k][l];
+                self.hessian[k][l] = sum;
+                self.hessian[l][k] = sum;
             }
         }
     }

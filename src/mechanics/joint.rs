@@ -3,10 +3,13 @@
 //! Rotational coordinates of a joint are (psi_a, phi_y_a, phi_z_a, psi_b, phi_y_b, phi_z_b): `a` is the end of the link
 //! above, `b` the start of the link below, each in its own link's frame.
 
-use nalgebra::{Matrix3, SMatrix, SVector};
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use super::description::{JointDescription, JointKind};
 use super::jet::Jet;
+use super::number::Number;
 use super::rotation::{DirectionJet, shaft_axis, shaft_direction, transverse_axis};
 
 /// Values of the six rotational coordinates of a joint, or forces on them.
@@ -43,7 +46,7 @@ pub struct Joint {
     /// s/rad.
     pub stop_damping: f64,
     /// E_a^T E_b.
-    relative: Matrix3<f64>,
+    pub relative: Matrix3<f64>,
 }
 
 /// The stop's moment with what it takes to assemble it.
@@ -104,29 +107,30 @@ impl Joint {
 
     /// a_z(a) . a_y(b) = 0: the two arms of the cross stay normal to each other.
     fn cross_row(&self, q: &JointVector) -> Row {
-        let a_z = transverse_axis(q[0], q[1], q[2], self.phase + std::f64::consts::FRAC_PI_2);
-        let a_y = transverse_axis(q[3], q[4], q[5], self.phase);
+        let a_z = transverse_axis((q[0] + self.phase + FRAC_PI_2).sin_cos(), q[1], q[2]);
+        let a_y = transverse_axis((q[3] + self.phase).sin_cos(), q[4], q[5]);
         Row::bilinear(&a_z, &self.relative, &a_y)
     }
 
     /// a_z(a) . a_x(b) - cos(theta) = 0 with theta = 90 degrees.
     fn hinge_row(&self, q: &JointVector) -> Row {
-        let a_z = transverse_axis(q[0], q[1], q[2], self.phase + std::f64::consts::FRAC_PI_2);
+        let a_z = transverse_axis((q[0] + self.phase + FRAC_PI_2).sin_cos(), q[1], q[2]);
         let a_x = shaft_axis(q[4], q[5]);
         Row::bilinear(&a_z, &self.relative, &a_x)
     }
 
     /// Angle between the two links' axes at the joint (rad, >= 0).
     pub fn bend_angle(&self, q: &JointVector) -> f64 {
-        let upper = shaft_direction(q[1], q[2]);
-        let lower = self.relative * shaft_direction(q[4], q[5]);
+        let upper = Vector3::from(shaft_direction(q[1], q[2]));
+        let lower = self.relative * Vector3::from(shaft_direction(q[4], q[5]));
         upper.cross(&lower).norm().atan2(upper.dot(&lower))
     }
 
     /// Toolface of the bend (rad, -pi to pi): direction in which the lower link turns away from the upper one, from the
     /// high side clockwise looking down the hole.
     pub fn bend_toolface(&self, q: &JointVector) -> f64 {
-        let away = self.relative * shaft_direction(q[4], q[5]) - shaft_direction(q[1], q[2]);
+        let away =
+            self.relative * Vector3::from(shaft_direction(q[4], q[5])) - Vector3::from(shaft_direction(q[1], q[2]));
         away.y.atan2(-away.z)
     }
 
@@ -190,29 +194,60 @@ impl Row {
     }
 
     /// d_a . (Q d_b) of a direction above and one below.
-    fn bilinear(above: &DirectionJet, relative: &Matrix3<f64>, below: &DirectionJet) -> Self {
-        let mut row = Self::zero();
-        for (i, a) in above.iter().enumerate() {
-            let mut b = Jet::zero();
-            for (j, part) in below.iter().enumerate() {
-                b.add(relative[(i, j)], part);
-            }
-            row.value += a.value * b.value;
-            for k in 0..3 {
-                row.gradient[k] += a.gradient[k] * b.value;
-                row.gradient[3 + k] += a.value * b.gradient[k];
-                for l in 0..3 {
-                    row.hessian[(l, k)] += a.hessian[(l, k)] * b.value;
-                    row.hessian[(3 + l, 3 + k)] += a.value * b.hessian[(l, k)];
-                    row.hessian[(3 + l, k)] += a.gradient[k] * b.gradient[l];
-                }
-            }
+    fn bilinear(above: &DirectionJet<f64>, relative: &Matrix3<f64>, below: &DirectionJet<f64>) -> Self {
+        let rows = std::array::from_fn(|i| std::array::from_fn(|j| relative[(i, j)]));
+        let product = product(above, &rows, below);
+        Self {
+            value: product.value,
+            gradient: JointVector::from(product.gradient),
+            // Symmetric, so rows are columns.
+            hessian: JointMatrix::from(product.hessian),
         }
-        for k in 0..3 {
-            for l in 0..3 {
-                row.hessian[(k, 3 + l)] = row.hessian[(3 + l, k)];
-            }
-        }
-        row
     }
+}
+
+/// A scalar function of six rotations with its derivatives, one number or several at once.
+#[derive(Debug, Clone, Copy)]
+pub struct Product<T> {
+    /// Value.
+    pub value: T,
+    /// First derivatives.
+    pub gradient: [T; 6],
+    /// Second derivatives.
+    pub hessian: [[T; 6]; 6],
+}
+
+/// d_a . (Q d_b), Q by rows.
+#[inline(always)]
+pub fn product<T: Number>(above: &DirectionJet<T>, relative: &[[T; 3]; 3], below: &DirectionJet<T>) -> Product<T> {
+    let zero = T::of(0.0);
+    let mut out = Product {
+        value: zero,
+        gradient: [zero; 6],
+        hessian: [[zero; 6]; 6],
+    };
+    for (a, row) in above.iter().zip(relative) {
+        let mut b = Jet::zero();
+        for (part, &factor) in below.iter().zip(row) {
+            b.add(factor, part);
+        }
+        out.value = out.value + a.value * b.value;
+        for k in 0..3 {
+            out.gradient[k] = out.gradient[k] + a.gradient[k] * b.value;
+            out.gradient[3 + k] = out.gradient[3 + k] + a.value * b.gradient[k];
+            for l in k..3 {
+                out.hessian[k][l] = out.hessian[k][l] + a.hessian[k][l] * b.value;
+                out.hessian[3 + k][3 + l] = out.hessian[3 + k][3 + l] + a.value * b.hessian[k][l];
+            }
+            for l in 0..3 {
+                out.hessian[k][3 + l] = out.hessian[k][3 + l] + a.gradient[k] * b.gradient[l];
+            }
+        }
+    }
+    for k in 0..6 {
+        for l in 0..k {
+            out.hessian[k][l] = out.hessian[l][k];
+        }
+    }
+    out
 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`well`], [`model`] | Fig. 2, 4; geometry and numbering |
 //! | [`section`], [`beam`], [`element_form`] | Eq. 2 to 10 |
-//! | [`joint`], [`rotation`], [`jet`] | Eq. 11 to 18 |
+//! | [`joint`], [`joint_group`], [`rotation`], [`jet`], [`number`] | Eq. 11 to 18 |
 //! | [`gap`] | Eq. 20 to 34, Table 2 |
 //! | [`conditions`] | Eq. 1, loads |
 //! | [`assembly`] | Eq. 35, 40 to 42 |
@@ -25,9 +25,11 @@ pub mod gap;
 pub mod halving;
 pub mod jet;
 pub mod joint;
+pub mod joint_group;
 pub mod linear;
 pub mod model;
 pub mod newton;
+pub mod number;
 mod outcome;
 pub mod phases;
 pub mod rotation;

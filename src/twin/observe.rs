@@ -303,7 +303,7 @@ fn fill_joints(stepper: &Stepper, out: &mut Joints) {
         let q = joint_rotations(model, j, &state.q);
         out.bend_angle[j] = joint.bend_angle(&q);
         out.bend_direction[j] = joint.bend_toolface(&q);
-        out.stop_moment[j] = forces.joints[j].stop.moment;
+        out.stop_moment[j] = forces.joints[j].moment;
         let displaced = station.pipe_to_station * translation(&state.q, station.pipe_above);
         out.lateral_y[j] = displaced.y + station.offset.x;
         out.lateral_z[j] = displaced.z + station.offset.y;
@@ -313,13 +313,11 @@ fn fill_joints(stepper: &Stepper, out: &mut Joints) {
         let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
         out.axial_force[j] = -force.x;
         out.shear_force[j] = force.y.hypot(force.z);
-        let row = &forces.joints[j].rows[0];
-        let twist = -row.gradient[3] * state.q[first + 3] * model.moment_scale;
+        let rows = &forces.joints[j].rows;
+        let twist = -rows[0][3] * state.q[first + 3] * model.moment_scale;
         out.torque[j] = match joint.kind {
             JointKind::Universal | JointKind::BallCage => twist,
-            JointKind::Revolute => {
-                twist - forces.joints[j].rows[1].gradient[3] * state.q[first + 4] * model.moment_scale
-            }
+            JointKind::Revolute => twist - rows[1][3] * state.q[first + 4] * model.moment_scale,
         };
     }
 }
