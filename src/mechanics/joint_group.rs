@@ -139,8 +139,8 @@ impl JointGroup {
         (upper[0] * lower[0] + upper[1] * lower[1] + upper[2] * lower[2]).store(&mut cosine);
         let was_shut = self.shut;
         self.shut = false;
-        for lane in 0..8 {
-            self.shut |= cosine[lane] < self.limit_cosine[lane];
+        for (cosine, limit) in cosine.iter().zip(&self.limit_cosine) {
+            self.shut |= cosine < limit;
         }
         if !self.shut {
             if was_shut {
@@ -172,10 +172,10 @@ impl JointGroup {
         let (inverse, ratio) = (Eight::<V>::load(&inverse), Eight::<V>::load(&ratio));
         let mut gradient = cosine.gradient;
         let mut angle_rate = Eight::<V>::of(0.0);
-        for k in 0..6 {
-            gradient[k] = -(gradient[k] * inverse);
-            gradient[k].store(&mut self.angle_gradient[k]);
-            angle_rate = angle_rate + gradient[k] * Eight::load(&self.rate[k]);
+        for ((gradient, kept), rate) in gradient.iter_mut().zip(&mut self.angle_gradient).zip(&self.rate) {
+            *gradient = -(*gradient * inverse);
+            gradient.store(kept);
+            angle_rate = angle_rate + *gradient * Eight::load(rate);
         }
         for k in 0..6 {
             for l in 0..6 {
@@ -228,8 +228,8 @@ impl JointGroup {
         for l in 0..6 {
             // d moment / d q_l = k (1 + c angle') g_l + k over c (H rate)_l, and with the rates k over c g_l.
             let mut turned = zero;
-            for k in 0..6 {
-                turned = turned + Eight::load(&self.angle_hessian[l][k]) * rate[k];
+            for (hessian, &rate) in self.angle_hessian[l].iter().zip(&rate) {
+                turned = turned + Eight::load(hessian) * rate;
             }
             let slope = (stop[0] * gradient[l] + stop[1] * turned) * stiff + stop[1] * gradient[l] * damped;
             for k in 0..6 {
