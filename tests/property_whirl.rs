@@ -230,6 +230,9 @@ fn kind_changes(mut motion: impl FnMut(f64) -> [f64; 2]) -> u32 {
     changes
 }
 
+/// Reach over clearance, force (N) and share of samples in contact at a time (s).
+type Dithering<'a> = dyn Fn(f64) -> (f64, f64, f64) + 'a;
+
 /// Changes of level after the first has been reached, in 100 s of rolling backward whirl with the given reach, force and
 /// share of samples in contact.
 fn level_changes(settings: &WhirlSettings, mut at: impl FnMut(f64) -> (f64, f64, f64)) -> u32 {
@@ -306,7 +309,7 @@ proptest! {
         let settings = WhirlSettings::default();
         let dither = |time: f64| 1.0 + 0.05 * (pace * time + phase).sin();
         let (watch, warning, critical) = (&settings.watch, &settings.warning, &settings.critical);
-        let cases: [(&str, &dyn Fn(f64) -> (f64, f64, f64)); 7] = [
+        let cases: [(&str, &Dithering<'_>); 7] = [
             ("watch, reach", &|time| (watch.clearance_ratio * dither(time), 0.0, 0.0)),
             ("warning, reach", &|time| (warning.clearance_ratio * dither(time), 8e3, 0.5)),
             ("warning, contact", &|time| (1.01, 8e3, warning.contact_duty * dither(time))),

@@ -94,12 +94,10 @@ fn rolling_by_physics_is_backward_and_rolling() {
 
 #[test]
 fn sliding_by_physics_is_backward_and_sliding() {
-    let mut config = rolling_rotor();
-    // Half of the rolling speed, and hardly any friction to bring it up: mu m v2 / e x 4 s is some 2 % of it.
-    for (key, value) in [("contact.inner.friction_tangential", 0.001)] {
-        config = config.with_value(key, value).unwrap();
-    }
-    let config = config
+    // Half of the rolling speed, and hardly any friction to bring it up: mu v2 / e x 8 s is 4 % of it.
+    let config = rolling_rotor()
+        .with_value("contact.inner.friction_tangential", 0.001)
+        .unwrap()
         .with_value("initial.velocity", serde_json::json!([0.0, 0.0942, 0.0]))
         .unwrap();
     let mut bench = Bench::new(&config, InputState::Ok);

@@ -150,9 +150,8 @@ impl ShockWatch {
             self.level.since = time;
             self.level.severity = self.held.severity;
         }
-        if self.held.severity == Severity::Ok {
-            (self.level.impulse, self.level.layer, self.level.station) = worst;
-        } else if counts && (self.held.severity > before || worst.0 > self.level.impulse) {
+        let leads = counts && (self.held.severity > before || worst.0 > self.level.impulse);
+        if leads || self.held.severity == Severity::Ok {
             (self.level.impulse, self.level.layer, self.level.station) = worst;
         }
     }

@@ -107,9 +107,14 @@ fn evidence(incident: &Incident) -> String {
         IncidentKind::StickSlip => format!("index up to {:.2}", incident.strength),
         IncidentKind::Shock => format!("up to {:.1} N s in an interval", incident.strength),
         _ => {
-            let mut text = format!(
-                "x{:.2} of the speed, {:.0} % of the gap, contact {:.0} %, {:.2} kN",
-                incident.whirl_ratio,
+            let mut text = String::new();
+            // Chaos has no rate.
+            if incident.whirl_ratio != 0.0 {
+                let _ = write!(text, "x{:.2} of the speed, ", incident.whirl_ratio);
+            }
+            let _ = write!(
+                text,
+                "{:.0} % of the gap, contact {:.0} %, {:.2} kN",
                 100.0 * incident.clearance_ratio,
                 100.0 * incident.contact_duty,
                 n_to_kn(incident.peak_force)
