@@ -27,7 +27,7 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
     total -= bottom.frame.column(0) * weight_on_bit;
     for (touch, station) in forces.outer.iter().zip(&model.stations) {
         if let Some(touch) = touch {
-            total += station.frame * touch.normal_force.fixed_rows::<3>(0);
+            total += station.frame * touch.normal_force().fixed_rows::<3>(0);
         }
     }
     for &unknown in &model.held {

@@ -3,19 +3,19 @@
 //! The residual is internal + inertia + constraint forces - external forces, so Newton solves K_T dq = -R. Evaluating
 //! the residual keeps the linearised joints and contacts; [`Assembler::tangent`] assembles from them.
 
-use nalgebra::{Matrix3, Matrix6, Vector2};
+use nalgebra::Vector2;
 
 use super::beam::ElementMatrix;
 use super::conditions::Conditions;
 use super::description::Direction;
 use super::element_form::{add, load};
-use super::gap::{GapMatrix, GapVector, Touch, regularised_sign};
+use super::gap::{GapVector, Touch, regularised_sign};
 use super::joint::{Joint, JointMatrix, JointVector, Row, Stop};
 use super::joint_group::JointGroup;
 #[cfg(target_arch = "x86_64")]
 use super::linear::vector::{Avx2, Avx512};
 use super::linear::vector::{Portable, Vector};
-use super::linear::{BlockSystem, Changes, Diagonal, Instructions, Touching, add_columns};
+use super::linear::{BlockSystem, Changes, ContactBlock, Diagonal, Instructions, Touching, add_columns};
 use super::model::{Model, Station};
 use super::phases::{Phase, Stopwatch};
 use super::state::{State, joint_rotations, node, translation};
@@ -243,13 +243,13 @@ impl Assembler {
                 self.outer[s] = conditions.outer.touch(lateral, model.outer_clearance, &velocity);
             }
             if let Some(touch) = &self.inner[s] {
-                let force = touch.normal_force + touch.friction_force;
+                let force = touch.force();
                 let (on_pipe, on_guide) = inner_forces(model, station, &force);
                 self.scatter(station.pipe_above, (-on_pipe).as_slice());
                 self.scatter(station.guide, (-on_guide).as_slice());
             }
             if let Some(touch) = &self.outer[s] {
-                let force = touch.normal_force + touch.friction_force;
+                let force = touch.force();
                 self.scatter(station.guide, (-outer_force(model, &force)).as_slice());
             }
         }
@@ -500,22 +500,21 @@ impl Assembler {
             }
             let block = &mut self.changes.contact[s];
             *block = [[0.0; 12]; 12];
+            // A local force change of minus `on` times `by` . motion is one of the same form on the nodes.
             if let Some(touch) = &self.inner[s] {
-                let local = -(touch.by_displacement * factors.stiffness + touch.by_velocity * factors.damping);
-                let (pp, pg, gp, gg) = inner_tangent(model, station, &local);
-                for j in 0..6 {
-                    for i in 0..6 {
-                        block[j][i] = pp[(i, j)];
-                        block[j][6 + i] = gp[(i, j)];
-                        block[6 + j][i] = pg[(i, j)];
-                        block[6 + j][6 + i] = gg[(i, j)];
-                    }
+                for term in touch.tangent(factors.stiffness, factors.damping) {
+                    let (on, by) = (
+                        inner_forces(model, station, &term.on),
+                        inner_forces(model, station, &term.by),
+                    );
+                    add_product::<12>(block, 0, &joined(&on), &joined(&by));
                 }
             }
             if let Some(touch) = &self.outer[s] {
-                let local = -(touch.by_displacement * factors.stiffness + touch.by_velocity * factors.damping);
-                let gg = scaled(&local, model.guide_radii[1], model.guide_radii[1]);
-                add_columns(block, 6, &gg.data.0, 1.0);
+                for term in touch.tangent(factors.stiffness, factors.damping) {
+                    let (on, by) = (outer_force(model, &term.on), outer_force(model, &term.by));
+                    add_product::<6>(block, 6, &on.data.0[0], &by.data.0[0]);
+                }
             }
         }
     }
@@ -630,45 +629,23 @@ pub fn outer_force(model: &Model, force: &GapVector) -> GapVector {
     guide
 }
 
-type Tangents = (Matrix6<f64>, Matrix6<f64>, Matrix6<f64>, Matrix6<f64>);
-
-/// J^T T J of the inner gap for (pipe, pipe), (pipe, guide), (guide, pipe), (guide, guide).
-fn inner_tangent(model: &Model, station: &Station, local: &GapMatrix) -> Tangents {
-    let (rp, rg) = (station.pipe_radius, model.guide_radii[0]);
-    let p = &station.pipe_to_station;
-    let (pp, pg, gp, gg) = (
-        scaled(local, rp, rp),
-        -scaled(local, rp, rg),
-        -scaled(local, rg, rp),
-        scaled(local, rg, rg),
-    );
-    (
-        turn_columns(&turn_rows(&pp, p), p),
-        turn_rows(&pg, p),
-        turn_columns(&gp, p),
-        gg,
-    )
-}
-
-/// Rows and columns of the rotations times their radii.
-fn scaled(local: &GapMatrix, row_radius: f64, column_radius: f64) -> Matrix6<f64> {
-    let mut m = *local;
-    m.fixed_rows_mut::<3>(3).scale_mut(row_radius);
-    m.fixed_columns_mut::<3>(3).scale_mut(column_radius);
-    m
-}
-
-fn turn_rows(m: &Matrix6<f64>, p: &Matrix3<f64>) -> Matrix6<f64> {
-    let mut out = *m;
-    out.fixed_rows_mut::<3>(0)
-        .copy_from(&(p.transpose() * m.fixed_rows::<3>(0)));
+/// Forces on pipe and guide in one.
+#[inline(always)]
+fn joined((pipe, guide): &(GapVector, GapVector)) -> [f64; 12] {
+    let mut out = [0.0; 12];
+    out[..6].copy_from_slice(pipe.as_slice());
+    out[6..].copy_from_slice(guide.as_slice());
     out
 }
 
-fn turn_columns(m: &Matrix6<f64>, p: &Matrix3<f64>) -> Matrix6<f64> {
-    let mut out = *m;
-    out.fixed_columns_mut::<3>(0).copy_from(&(m.fixed_columns::<3>(0) * p));
-    out
+/// Adds on by^T at (`first`, `first`) of a contact block.
+#[inline(always)]
+fn add_product<const N: usize>(block: &mut ContactBlock, first: usize, on: &[f64; N], by: &[f64; N]) {
+    for (column, by) in block[first..].iter_mut().zip(by) {
+        for (x, on) in column[first..].iter_mut().zip(on) {
+            *x += on * by;
+        }
+    }
 }
 
 fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize, m: &ElementMatrix, factor: f64) {

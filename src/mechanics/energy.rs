@@ -121,7 +121,7 @@ impl EnergyPoint {
         self.contact_dissipation = 0.0;
         for (s, station) in model.stations.iter().enumerate() {
             if let Some(touch) = &assembler.inner[s] {
-                let (pipe, guide) = inner_forces(model, station, &touch.friction_force);
+                let (pipe, guide) = inner_forces(model, station, &touch.friction_force());
                 for k in 0..6 {
                     self.friction[station.pipe_above + k] += pipe[k];
                     self.friction[station.guide + k] += guide[k];
@@ -130,7 +130,7 @@ impl EnergyPoint {
                 self.contact_dissipation += touch.dissipation;
             }
             if let Some(touch) = &assembler.outer[s] {
-                let guide = outer_force(model, &touch.friction_force);
+                let guide = outer_force(model, &touch.friction_force());
                 (0..6).for_each(|k| self.friction[station.guide + k] += guide[k]);
                 stored += touch.energy;
                 self.contact_dissipation += touch.dissipation;

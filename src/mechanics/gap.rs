@@ -13,14 +13,12 @@
 //! The force is that of the gap on the inner body; the outer body gets the opposite through its own radius, so that the
 //! torques and couples act on both, Eq. 25 and 26.
 
-use nalgebra::{SMatrix, SVector, Vector2};
+use nalgebra::{SVector, Vector2};
 
 use super::description::GapDescription;
 
 /// Local motion or force of a gap.
 pub type GapVector = SVector<f64, 6>;
-/// Derivative of the local force in the local motion.
-pub type GapMatrix = SMatrix<f64, 6, 6>;
 
 /// Law of one layer.
 #[derive(Debug, Clone, Copy)]
@@ -40,18 +38,112 @@ pub struct Touch {
     pub tangential: f64,
     /// Axial friction on the inner body, downhole positive (N).
     pub axial: f64,
-    /// Force of the gap on the inner body, normal part.
-    pub normal_force: GapVector,
-    /// Force of the gap on the inner body, friction part.
-    pub friction_force: GapVector,
-    /// d force / d local displacement.
-    pub by_displacement: GapMatrix,
-    /// d force / d local velocity.
-    pub by_velocity: GapMatrix,
     /// Energy in the contact spring (J).
     pub energy: f64,
     /// Power taken by the normal damping (W).
     pub dissipation: f64,
+    /// Unit vector from the outer body's axis to the inner's.
+    direction: Vector2<f64>,
+    /// Distance of the axes (m).
+    distance: f64,
+    /// d normal / d lateral displacement (N/m) and velocity (N s/m).
+    normal_by: [Vector2<f64>; 2],
+    /// d sliding speed / d lateral displacement (1/s), around and along.
+    sliding_by: [Vector2<f64>; 2],
+    /// d friction / d normal (-) and d friction / d sliding speed (N s/m), around and along; friction as it opposes positive sliding.
+    friction_by: [[f64; 2]; 2],
+}
+
+/// The derivative of a gap's force as a sum of four products: the force changes by minus `on` times `by` . (local motion).
+pub type TangentTerms = [TangentTerm; 4];
+
+/// A product of [`TangentTerms`].
+#[derive(Debug, Clone, Copy)]
+pub struct TangentTerm {
+    /// Local force.
+    pub on: GapVector,
+    /// Its size per local motion.
+    pub by: GapVector,
+}
+
+impl Touch {
+    /// Force of the gap on the inner body, normal part.
+    pub fn normal_force(&self) -> GapVector {
+        self.on_normal() * -self.normal
+    }
+
+    /// Force of the gap on the inner body, friction part.
+    pub fn friction_force(&self) -> GapVector {
+        self.on_around() * self.tangential + self.on_along() * self.axial
+    }
+
+    /// Both.
+    pub fn force(&self) -> GapVector {
+        let (n, f_n, f_t, f_a) = (self.direction, self.normal, self.tangential, self.axial);
+        GapVector::from_column_slice(&[
+            f_a,
+            -n.x * f_n - n.y * f_t,
+            -n.y * f_n + n.x * f_t,
+            f_t,
+            f_a * n.y,
+            -f_a * n.x,
+        ])
+    }
+
+    fn on_normal(&self) -> GapVector {
+        let n = self.direction;
+        GapVector::from_column_slice(&[0.0, n.x, n.y, 0.0, 0.0, 0.0])
+    }
+
+    /// Around: t = (-n_z, n_y), and the spin.
+    fn on_around(&self) -> GapVector {
+        let n = self.direction;
+        GapVector::from_column_slice(&[0.0, -n.y, n.x, 1.0, 0.0, 0.0])
+    }
+
+    fn on_along(&self) -> GapVector {
+        let n = self.direction;
+        GapVector::from_column_slice(&[1.0, 0.0, 0.0, 0.0, n.y, -n.x])
+    }
+
+    /// The exact derivative with factors on those in displacement and in velocity.
+    pub fn tangent(&self, stiffness: f64, damping: f64) -> TangentTerms {
+        let lateral = |v: Vector2<f64>| GapVector::from_column_slice(&[0.0, v.x, v.y, 0.0, 0.0, 0.0]);
+        let n = self.direction;
+        let t = Vector2::new(-n.y, n.x);
+        let normal = self.normal_by[0] * stiffness + self.normal_by[1] * damping;
+        let friction = |k: usize, on: GapVector| {
+            let [by_normal, by_sliding] = self.friction_by[k];
+            lateral(normal * by_normal + self.sliding_by[k] * (by_sliding * stiffness)) + on * (by_sliding * damping)
+        };
+        // The directions turn with the displacement: dn = t (t.dd)/distance, dt = -n (t.dd)/distance. Friction is minus its share here.
+        let turned = GapVector::from_column_slice(&[
+            0.0,
+            t.x * self.normal + n.x * self.tangential,
+            t.y * self.normal + n.y * self.tangential,
+            0.0,
+            -self.axial * t.y,
+            self.axial * t.x,
+        ]);
+        [
+            TangentTerm {
+                on: self.on_normal(),
+                by: lateral(normal),
+            },
+            TangentTerm {
+                on: self.on_around(),
+                by: friction(0, self.on_around()),
+            },
+            TangentTerm {
+                on: self.on_along(),
+                by: friction(1, self.on_along()),
+            },
+            TangentTerm {
+                on: turned,
+                by: lateral(t * (stiffness / self.distance)),
+            },
+        ]
+    }
 }
 
 /// Gap left (m, negative is penetration) at lateral displacement (y, z) in clearance `clearance`, Eq. 27 and 31.
@@ -82,12 +174,13 @@ impl GapLaw {
             normal: k * depth * viscous,
             tangential: 0.0,
             axial: 0.0,
-            normal_force: GapVector::zeros(),
-            friction_force: GapVector::zeros(),
-            by_displacement: GapMatrix::zeros(),
-            by_velocity: GapMatrix::zeros(),
             energy: 0.5 * k * depth * depth,
             dissipation: 0.0,
+            direction: n,
+            distance,
+            normal_by: [Vector2::zeros(); 2],
+            sliding_by: [Vector2::zeros(); 2],
+            friction_by: [[0.0; 2]; 2],
         };
         if viscous == 0.0 {
             // Leaving faster than the law can push: no force, but the spring's energy is lost to its damping.
@@ -97,63 +190,24 @@ impl GapLaw {
         let normal = touch.normal;
         let by_rate = k * depth * self.surface.damping;
         touch.dissipation = by_rate * closing * closing;
-        // Derivatives of the normal force in the lateral displacement and velocity.
-        let normal_d = n * (k * viscous) + t * (by_rate * swinging);
-        let normal_v = n * by_rate;
+        touch.normal_by = [n * (k * viscous) + t * (by_rate * swinging), n * by_rate];
 
         // Sliding speeds at the contact point, Eq. 23, and their derivatives.
         let around = t.dot(&lateral_velocity) + velocity[3];
         let along = velocity[0] + velocity[4] * n.y - velocity[5] * n.x;
-        let around_d = t * (-closing / distance);
-        let along_d = t * ((velocity[4] * t.y - velocity[5] * t.x) / distance);
+        touch.sliding_by = [
+            t * (-closing / distance),
+            t * ((velocity[4] * t.y - velocity[5] * t.x) / distance),
+        ];
         let (mu_t, mu_a) = (self.surface.friction_tangential, self.surface.friction_axial);
         let (share_t, slope_t) = self.regularised(around);
         let (share_a, slope_a) = self.regularised(along);
-        let (f_t, f_a) = (mu_t * normal * share_t, mu_a * normal * share_a);
-        touch.tangential = -f_t;
-        touch.axial = -f_a;
-        touch.normal_force.fixed_rows_mut::<2>(1).copy_from(&(-n * normal));
-        touch.friction_force[0] = -f_a;
-        touch.friction_force.fixed_rows_mut::<2>(1).copy_from(&(-t * f_t));
-        touch.friction_force[3] = -f_t;
-        touch.friction_force[4] = -f_a * n.y;
-        touch.friction_force[5] = f_a * n.x;
-
-        // Gradients of the two friction forces in (displacement, velocity).
-        let f_t_d = normal_d * (mu_t * share_t) + around_d * (mu_t * normal * slope_t);
-        let f_a_d = normal_d * (mu_a * share_a) + along_d * (mu_a * normal * slope_a);
-        let around_v = GapVector::from_column_slice(&[0.0, t.x, t.y, 1.0, 0.0, 0.0]);
-        let along_v = GapVector::from_column_slice(&[1.0, 0.0, 0.0, 0.0, n.y, -n.x]);
-        let normal_v6 = GapVector::from_column_slice(&[0.0, normal_v.x, normal_v.y, 0.0, 0.0, 0.0]);
-        let f_t_v = normal_v6 * (mu_t * share_t) + around_v * (mu_t * normal * slope_t);
-        let f_a_v = normal_v6 * (mu_a * share_a) + along_v * (mu_a * normal * slope_a);
-
-        // The directions turn with the displacement: dn = t (t.dd)/distance, dt = -n (t.dd)/distance.
-        let turn = t / distance;
-        for c in 0..2 {
-            let (nd, td, ad, dt) = (normal_d[c], f_t_d[c], f_a_d[c], turn[c]);
-            let column = [
-                -ad,
-                -(n.x * nd + t.x * dt * normal + t.x * td - n.x * dt * f_t),
-                -(n.y * nd + t.y * dt * normal + t.y * td - n.y * dt * f_t),
-                -td,
-                -(ad * n.y + f_a * t.y * dt),
-                ad * n.x + f_a * t.x * dt,
-            ];
-            touch.by_displacement.column_mut(1 + c).copy_from_slice(&column);
-        }
-        for c in 0..6 {
-            let (nv, tv, av) = (normal_v6[c], f_t_v[c], f_a_v[c]);
-            let column = [
-                -av,
-                -(n.x * nv + t.x * tv),
-                -(n.y * nv + t.y * tv),
-                -tv,
-                -av * n.y,
-                av * n.x,
-            ];
-            touch.by_velocity.column_mut(c).copy_from_slice(&column);
-        }
+        touch.tangential = -mu_t * normal * share_t;
+        touch.axial = -mu_a * normal * share_a;
+        touch.friction_by = [
+            [mu_t * share_t, mu_t * normal * slope_t],
+            [mu_a * share_a, mu_a * normal * slope_a],
+        ];
         Some(touch)
     }
 
@@ -165,13 +219,14 @@ impl GapLaw {
 
 /// Smooth sign of `speed` with width `width`, and its derivative.
 pub fn regularised_sign(speed: f64, width: f64) -> (f64, f64) {
-    let root = speed.hypot(width);
+    let root = (speed * speed + width * width).sqrt();
     (speed / root, width * width / (root * root * root))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::SMatrix;
 
     fn law() -> GapLaw {
         GapLaw {
@@ -191,16 +246,21 @@ mod tests {
         let lateral = Vector2::new(-6.1e-3, 6.2e-3);
         let velocity = GapVector::from_column_slice(&[0.004, 0.05, -0.12, 0.13, -0.02, 0.03]);
         let touch = law().touch(lateral, clearance, &velocity).unwrap();
-        let force = |d: Vector2<f64>, v: &GapVector| {
-            let t = law().touch(d, clearance, v).unwrap();
-            t.normal_force + t.friction_force
+        let force = |d: Vector2<f64>, v: &GapVector| law().touch(d, clearance, v).unwrap().force();
+        assert!((touch.force() - touch.normal_force() - touch.friction_force()).norm() < 1e-12 * touch.normal);
+        let derivative = |stiffness: f64, damping: f64| {
+            let terms = touch
+                .tangent(stiffness, damping)
+                .map(|term| term.on * term.by.transpose());
+            -terms.iter().fold(SMatrix::<f64, 6, 6>::zeros(), |sum, term| sum + term)
         };
+        let (by_displacement, by_velocity) = (derivative(1.0, 0.0), derivative(0.0, 1.0));
         // Central differences with steps of 1e-5 of each motion's scale: relative error well below 1e-6.
         for c in 0..2 {
             let mut h = Vector2::zeros();
             h[c] = 1e-9;
             let difference = (force(lateral + h, &velocity) - force(lateral - h, &velocity)) / 2e-9;
-            let column = touch.by_displacement.column(1 + c);
+            let column = by_displacement.column(1 + c);
             assert!(
                 (column - difference).norm() < 1e-6 * column.norm(),
                 "{column} {difference}"
@@ -210,7 +270,7 @@ mod tests {
             let mut h = GapVector::zeros();
             h[c] = 1e-7;
             let difference = (force(lateral, &(velocity + h)) - force(lateral, &(velocity - h))) / 2e-7;
-            let column = touch.by_velocity.column(c);
+            let column = by_velocity.column(c);
             assert!(
                 (column - difference).norm() < 1e-6 * column.norm().max(1.0),
                 "{c} {column} {difference}"
