@@ -54,8 +54,55 @@ pub fn subtract<V: Vector>(column: &mut [f64; SIZE], other: [V; 2], scale: f64) 
     }
 }
 
+/// What takes a pivot's column out of another: (column k) / pivot, without the pivot's own row.
+struct Pivot<V> {
+    multipliers: [V; 2],
+    reciprocal: f64,
+}
+
+/// Whether the diagonal entry will do as pivot k.
+#[inline(always)]
+fn will_do<V: Vector>(column: &[f64; SIZE], k: usize) -> bool {
+    let size = column[k].abs();
+    let bound = V::splat(size * (1.0 / PIVOT_RATIO));
+    let (candidates, after): ([V; 2], [V; 2]) = (load(column), load(&AFTER[k]));
+    let larger = candidates[0].times(after[0]).any_beyond(bound) | candidates[1].times(after[1]).any_beyond(bound);
+    !(larger | (size == 0.0) | size.is_nan())
+}
+
+#[inline(always)]
+fn pivot<V: Vector>(column: &[f64; SIZE], k: usize) -> Pivot<V> {
+    let reciprocal = 1.0 / column[k];
+    let (column, others): ([V; 2], [V; 2]) = (load(column), load(&OTHERS[k]));
+    let scale = V::splat(reciprocal);
+    Pivot {
+        multipliers: [
+            column[0].times(others[0].times(scale)),
+            column[1].times(others[1].times(scale)),
+        ],
+        reciprocal,
+    }
+}
+
+/// Takes two pivots, k and k + 1, out of a column, which is read and written once. `between` is the first one's multiplier of row k + 1.
+#[inline(always)]
+fn take_two<V: Vector>(column: &mut [f64; SIZE], k: usize, first: &Pivot<V>, second: &Pivot<V>, between: f64) {
+    let x = column[k];
+    let y = column[k + 1] - between * x;
+    let (x, y) = (V::splat(x), V::splat(y));
+    for (half, (first, second)) in halves_mut(column)
+        .iter_mut()
+        .zip(first.multipliers.into_iter().zip(second.multipliers))
+    {
+        V::load(half)
+            .minus_product(first, x)
+            .minus_product(second, y)
+            .store(half);
+    }
+}
+
 /// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. The last column of `b` is full; of the others, only the first
-/// `active(k)` have entries in rows 0 to k.
+/// `active(k)` have entries in rows 0 to k. Two pivots are taken at a time: writing the columns is what limits the speed.
 ///
 /// # Errors
 /// The size of the largest available pivot when it is zero or not a number.
@@ -67,33 +114,42 @@ pub fn sixteen<V: Vector, const C: usize>(
 ) -> Result<(), f64> {
     let mut reciprocals = [0.0; SIZE];
     let mut exchanged = false;
-    for k in 0..SIZE {
-        let size = a[k][k].abs();
-        let bound = V::splat(size * (1.0 / PIVOT_RATIO));
-        let candidates: [V; 2] = load(&a[k]);
-        let after: [V; 2] = load(&AFTER[k]);
-        let larger = candidates[0].times(after[0]).any_beyond(bound) | candidates[1].times(after[1]).any_beyond(bound);
-        if larger | (size == 0.0) | size.is_nan() {
+    let mut k = 0;
+    while k < SIZE {
+        if !will_do::<V>(&a[k], k) {
             exchange(k, a, b)?;
             exchanged = true;
         }
-        let reciprocal = 1.0 / a[k][k];
-        reciprocals[k] = reciprocal;
-        let (pivot, others): ([V; 2], [V; 2]) = (load(&a[k]), load(&OTHERS[k]));
-        let scale = V::splat(reciprocal);
-        let multipliers = [
-            pivot[0].times(others[0].times(scale)),
-            pivot[1].times(others[1].times(scale)),
-        ];
-        for column in &mut a[k + 1..] {
-            subtract(column, multipliers, column[k]);
+        let first: Pivot<V> = pivot(&a[k], k);
+        reciprocals[k] = first.reciprocal;
+        let between = a[k][k + 1] * first.reciprocal;
+        let next = &mut a[k + 1];
+        subtract(next, first.multipliers, next[k]);
+        if !will_do::<V>(&a[k + 1], k + 1) {
+            // The rows are exchanged in all columns, so the first pivot must have been taken out of all of them.
+            for column in a[k + 2..].iter_mut().chain(b.iter_mut()) {
+                subtract(column, first.multipliers, column[k]);
+            }
+            exchange(k + 1, a, b)?;
+            exchanged = true;
+            let second: Pivot<V> = pivot(&a[k + 1], k + 1);
+            reciprocals[k + 1] = second.reciprocal;
+            for column in a[k + 2..].iter_mut().chain(b.iter_mut()) {
+                subtract(column, second.multipliers, column[k + 1]);
+            }
+        } else {
+            let second: Pivot<V> = pivot(&a[k + 1], k + 1);
+            reciprocals[k + 1] = second.reciprocal;
+            for column in &mut a[k + 2..] {
+                take_two(column, k, &first, &second, between);
+            }
+            let active = if exchanged { C - 1 } else { active(k + 1).min(C - 1) };
+            for column in &mut b[..active] {
+                take_two(column, k, &first, &second, between);
+            }
+            take_two(&mut b[C - 1], k, &first, &second, between);
         }
-        let active = if exchanged { C - 1 } else { active(k).min(C - 1) };
-        for column in &mut b[..active] {
-            subtract(column, multipliers, column[k]);
-        }
-        let right = &mut b[C - 1];
-        subtract(right, multipliers, right[k]);
+        k += 2;
     }
     let scale: [V; 2] = load(&reciprocals);
     for column in b.iter_mut() {
