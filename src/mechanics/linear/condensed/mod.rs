@@ -10,10 +10,13 @@
 //! (9..15), rotational multiplier (15). The displacement of the start below and the translational multipliers are taken out as in
 //! [`super::reduction`]. Stations without a joint have one pipe node: rotations at 0..3, displacement at 3..6.
 
+mod additions;
 mod body;
 mod guide_span;
 mod operator;
 mod pivots;
+mod recovery;
+mod span;
 mod sweep;
 
 pub use operator::Operator;

@@ -109,7 +109,7 @@ pub struct Operator {
 
 impl Operator {
     /// Condenses `lasting`, whose joints are at the stations `joints`. `None` where the joints do not have the form that
-    /// [`Reduction`] needs (two rotational rows, held translations), where something that lasts couples pipe and guide, or where an inner
+    /// the reduction needs (two rotational rows, held translations), where something that lasts couples pipe and guide, or where an inner
     /// matrix is singular.
     pub fn of(lasting: BlockSystem, joints: &[usize]) -> Option<Self> {
         if !bodies_are_apart(&lasting, joints) {

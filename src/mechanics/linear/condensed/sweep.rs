@@ -1,22 +1,22 @@
 //! One iteration's solution: spans condensed, joints eliminated from the top down, everything recovered from the bottom up.
 
-use nalgebra::Matrix6;
-
-use super::super::changes::{Changes, JointChange, Touching};
+use super::super::changes::{Changes, Touching};
 use super::super::instructions::Instructions;
-use super::super::reduction::{PLACES, active};
+use super::super::reduction::active;
 #[cfg(target_arch = "x86_64")]
 use super::super::vector::{Avx2, Avx512};
 use super::super::vector::{Portable, Vector};
 use super::super::{Layout, Singular};
-use super::guide_span::{Condensed, Solved, expand, six};
+use super::additions::{add_block, add_contact, add_guide, add_joint, take};
+use super::guide_span::{Condensed, Solved, six};
 use super::operator::{Edge, Matrices, Operator, place, spread};
-use super::pivots::{self, halves_mut, load};
-use super::{BELOW, Block, COLUMNS, Columns, GUIDE, MULTIPLIER, SIZE, Six, U};
+use super::pivots::{self, halves_mut};
+use super::span::{End, gather};
+use super::{Block, COLUMNS, Columns, GUIDE, MULTIPLIER, SIZE, Six, U};
 
 /// How a span takes part in this iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mode {
+pub(super) enum Mode {
     /// No contact inside: condensed as made.
     Still,
     /// The guide touches the wall inside: its nodes eliminated anew.
@@ -27,36 +27,31 @@ enum Mode {
 
 /// A station as it was swept.
 #[derive(Debug, Clone, Copy)]
-struct Swept {
-    station: usize,
+pub(super) struct Swept {
+    pub station: usize,
     /// Its node, unless it lies inside an open span.
-    node: Option<usize>,
+    pub node: Option<usize>,
 }
 
 /// The elimination and its room; nothing is allocated after construction.
 pub struct CondensedElimination {
     instructions: Instructions,
-    modes: Vec<Mode>,
+    pub(super) modes: Vec<Mode>,
     /// Right-hand sides and displacements inside the spans while their ends do not move: pipe, guide. `room` values each.
-    pipes: Vec<f64>,
-    guides: Vec<f64>,
-    room: usize,
+    pub(super) pipes: Vec<f64>,
+    pub(super) guides: Vec<f64>,
+    pub(super) room: usize,
     /// Right-hand sides inside a span.
     forces: Vec<f64>,
     /// Guides eliminated anew, by station.
-    solved: Vec<Solved>,
+    pub(super) solved: Vec<Solved>,
     /// What the guides of the spans put on their ends in this iteration, where eliminated anew.
     condensed: Vec<Condensed>,
-    swept: Vec<Swept>,
+    pub(super) swept: Vec<Swept>,
     /// S^-1 (U, r) per swept station.
-    columns: Vec<Columns>,
+    pub(super) columns: Vec<Columns>,
     /// What of a joint's rows is left for the coupling below: c of u_b = P u_a + c, per node.
-    offsets: Vec<[f64; 3]>,
-}
-
-/// What one swept station puts on the next.
-struct Carry {
-    columns: Columns,
+    pub(super) offsets: Vec<[f64; 3]>,
 }
 
 /// Where a swept station's coupling to the next one comes from.
@@ -224,9 +219,8 @@ impl CondensedElimination {
     fn sweep<V: Vector>(&mut self, operator: &Operator, changes: &Changes, rhs: &[f64]) -> Result<(), Singular> {
         let layout = operator.layout();
         self.swept.clear();
-        let mut carry = Carry {
-            columns: [[0.0; SIZE]; COLUMNS],
-        };
+        // What one swept station puts on the next.
+        let mut carry = [[0.0; SIZE]; COLUMNS];
         for (k, node) in operator.nodes.iter().enumerate() {
             let matrices = &operator.matrices[node.matrices];
             let above = k.checked_sub(1).map(|above| self.modes[above]);
@@ -367,7 +361,7 @@ impl CondensedElimination {
         out: usize,
         node: Option<usize>,
         coupling: &Coupling<'_>,
-        carry: &mut Carry,
+        carry: &mut Columns,
     ) -> Result<(), Singular> {
         let columns = &mut self.columns[self.swept.len()];
         for j in 0..6 {
@@ -394,7 +388,7 @@ impl CondensedElimination {
         for (to, from) in guide_lower.iter_mut().zip(coupling.guide_lower) {
             to[1..7].copy_from_slice(&from[..6]);
         }
-        for (carry, column) in carry.columns.iter_mut().zip(columns.iter()) {
+        for (carry, column) in carry.iter_mut().zip(columns.iter()) {
             let (mut pipe, mut guide) = (V::splat(0.0), V::splat(0.0));
             for j in 0..6 {
                 pipe = pipe.plus_product(V::load(&coupling.pipe.lower[j]), V::splat(column[out + j]));
@@ -406,7 +400,7 @@ impl CondensedElimination {
         }
         if let Some(node) = node {
             for (column, c) in coupling.pipe.lower_offset.iter().zip(self.offsets[node]) {
-                for (r, x) in carry.columns[12].iter_mut().zip(&column[..6]) {
+                for (r, x) in carry[12].iter_mut().zip(&column[..6]) {
                     *r += x * c;
                 }
             }
@@ -428,147 +422,6 @@ impl CondensedElimination {
         self.swept.push(swept);
         Ok(())
     }
-
-    /// From the bottom up: every swept station's unknowns.
-    #[inline(always)]
-    fn recover<V: Vector>(&mut self, operator: &Operator, rhs: &mut [f64]) {
-        let layout = operator.layout();
-        // Rotations, displacement, guide of the station below.
-        let mut below = [0.0; 12];
-        for (swept, columns) in self.swept.iter().zip(&self.columns).rev() {
-            let offset = layout.offset(swept.station);
-            // Two sums in each half: half as long a chain.
-            let (mut even, mut odd): ([V; 2], [V; 2]) = (load(&columns[12]), [V::splat(0.0); 2]);
-            for j in 0..6 {
-                let (first, second): ([V; 2], [V; 2]) = (load(&columns[2 * j]), load(&columns[2 * j + 1]));
-                for half in 0..2 {
-                    even[half] = even[half].minus_product(first[half], V::splat(below[2 * j]));
-                    odd[half] = odd[half].minus_product(second[half], V::splat(below[2 * j + 1]));
-                }
-            }
-            let mut x = [0.0; SIZE];
-            for (half, place) in halves_mut(&mut x).iter_mut().enumerate() {
-                even[half].plus(odd[half]).store(place);
-            }
-            let matrices = swept.node.map(|node| &operator.matrices[operator.nodes[node].matrices]);
-            match (swept.node, matrices) {
-                (Some(node), Some(matrices)) if matrices.reduction.is_some() => {
-                    let open = self.modes[node] == Mode::Open;
-                    let edge;
-                    let edge = if open {
-                        let coupling = &operator.lasting.upper[swept.station].pipe;
-                        edge = Edge::of(coupling, &Matrix6::zeros(), None);
-                        &edge
-                    } else {
-                        &operator.edges[operator.spans[node].edge]
-                    };
-                    let start = if open {
-                        &matrices.own_start.rows
-                    } else {
-                        &matrices.start.rows
-                    };
-                    let rhs = &mut rhs[offset..offset + 24];
-                    recover_joint(
-                        matrices,
-                        start,
-                        &edge.multiplier_rows,
-                        self.offsets[node],
-                        &x,
-                        &below,
-                        rhs,
-                    );
-                }
-                _ => {
-                    for k in 0..12 {
-                        rhs[offset + k] = x[place(k)];
-                    }
-                    if layout.is_large(swept.station) {
-                        rhs[offset + 18] = x[MULTIPLIER];
-                    }
-                }
-            }
-            below[..6].copy_from_slice(&x[..6]);
-            below[6..].copy_from_slice(&x[GUIDE..GUIDE + 6]);
-        }
-    }
-
-    /// Inner stations of the spans that were condensed.
-    #[inline(always)]
-    fn recover_spans<V: Vector>(&mut self, operator: &Operator, rhs: &mut [f64]) {
-        let layout = operator.layout();
-        for (k, span) in operator.spans.iter().enumerate() {
-            if self.modes[k] == Mode::Open || span.inner == 0 {
-                continue;
-            }
-            let ends = End::of(operator, k);
-            let room = k * self.room..(k + 1) * self.room;
-            let first = layout.offset(span.first);
-            let still = &mut self.pipes[room.clone()];
-            operator.pipes[span.pipe].expand::<V>(&ends.values(&ends.pipe, rhs), still);
-            scatter(still, first, span.inner, rhs);
-            if self.modes[k] == Mode::Still {
-                let still = &mut self.guides[room];
-                operator.guides[span.guide]
-                    .body
-                    .expand::<V>(&ends.values(&ends.guide, rhs), still);
-                scatter(still, first + 6, span.inner, rhs);
-            } else {
-                let values = ends.values(&ends.guide, rhs);
-                let (mut top, mut bottom) = ([0.0; 6], [0.0; 6]);
-                top.copy_from_slice(&values[..6]);
-                bottom.copy_from_slice(&values[6..]);
-                let solved = &self.solved[span.first..span.first + span.inner];
-                expand::<V>(solved, &top, &bottom, |node, x| {
-                    let at = first + 12 * node + 6;
-                    rhs[at..at + 6].copy_from_slice(&x[..6]);
-                });
-            }
-        }
-    }
-}
-
-/// First unknowns of the nodes at both ends of a span.
-struct End {
-    pipe: [usize; 2],
-    guide: [usize; 2],
-}
-
-impl End {
-    #[inline(always)]
-    fn of(operator: &Operator, span: usize) -> Self {
-        let layout = operator.layout();
-        let (top, bottom) = (operator.nodes[span], operator.nodes[span + 1]);
-        let (above, below) = (layout.offset(top.station), layout.offset(bottom.station));
-        let start = if top.joint.is_some() { 12 } else { 0 };
-        Self {
-            pipe: [above + start, below],
-            guide: [above + 6, below + 6],
-        }
-    }
-
-    #[inline(always)]
-    fn values(&self, first: &[usize; 2], x: &[f64]) -> [f64; 12] {
-        let mut out = [0.0; 12];
-        out[..6].copy_from_slice(&x[first[0]..first[0] + 6]);
-        out[6..].copy_from_slice(&x[first[1]..first[1] + 6]);
-        out
-    }
-}
-
-/// Collects a body's values of `nodes` plain stations, twelve apart from `first`; the rest of `to` is zero.
-#[inline(always)]
-fn gather(to: &mut [f64], first: usize, nodes: usize, from: &[f64]) {
-    for (k, to) in to.chunks_exact_mut(6).enumerate().take(nodes) {
-        to.copy_from_slice(&from[first + 12 * k..first + 12 * k + 6]);
-    }
-}
-
-/// The way back.
-#[inline(always)]
-fn scatter(from: &[f64], first: usize, nodes: usize, to: &mut [f64]) {
-    for (k, from) in from.chunks_exact(6).enumerate().take(nodes) {
-        to[first + 12 * k..first + 12 * k + 6].copy_from_slice(from);
-    }
 }
 
 /// The right-hand side of a station with one pipe node.
@@ -579,119 +432,4 @@ fn plain_right_hand_side(offset: usize, rhs: &[f64]) -> [f64; SIZE] {
         right[place(k)] = rhs[offset + k];
     }
     right
-}
-
-#[inline(always)]
-fn add_block(block: &mut Block, part: &Block) {
-    for (to, from) in block.iter_mut().zip(part) {
-        for (x, y) in to.iter_mut().zip(from) {
-            *x += y;
-        }
-    }
-}
-
-#[inline(always)]
-fn add_guide(block: &mut Block, part: &Six) {
-    for (to, from) in block[GUIDE..MULTIPLIER].iter_mut().zip(part) {
-        for (x, y) in to[GUIDE..MULTIPLIER].iter_mut().zip(from) {
-            *x += y;
-        }
-    }
-}
-
-/// Contact at the station.
-#[inline(always)]
-fn add_contact(block: &mut Block, changes: &Changes, station: usize) {
-    let contact = &changes.contact[station];
-    match changes.touching[station] {
-        Touching::Nothing => {}
-        Touching::Guide => {
-            for (to, from) in block[GUIDE..MULTIPLIER].iter_mut().zip(&contact[6..]) {
-                to[GUIDE..MULTIPLIER]
-                    .iter_mut()
-                    .zip(&from[6..])
-                    .for_each(|(x, y)| *x += y);
-            }
-        }
-        Touching::Both => {
-            for (j, from) in contact.iter().enumerate() {
-                let to = &mut block[place(j)];
-                for i in 0..3 {
-                    to[U + i] += from[i];
-                    to[i] += from[3 + i];
-                }
-                for i in 0..6 {
-                    to[GUIDE + i] += from[6 + i];
-                }
-            }
-        }
-    }
-}
-
-/// The joint's rotations and its rotational row.
-#[inline(always)]
-fn add_joint(block: &mut Block, change: &JointChange) {
-    let row = &change.rows[0];
-    for k in 0..3 {
-        let (above, below) = (&change.rotations[k], &change.rotations[3 + k]);
-        for i in 0..3 {
-            block[k][i] += above[i];
-            block[k][BELOW + i] += above[3 + i];
-            block[BELOW + k][i] += below[i];
-            block[BELOW + k][BELOW + i] += below[3 + i];
-        }
-        block[k][MULTIPLIER] += row[k];
-        block[BELOW + k][MULTIPLIER] += row[3 + k];
-        block[MULTIPLIER][k] += row[k];
-        block[MULTIPLIER][BELOW + k] += row[3 + k];
-    }
-}
-
-/// Takes what the station above adds from a block and its right-hand side.
-#[inline(always)]
-fn take(block: &mut Block, right: &mut [f64; SIZE], carry: &Carry) {
-    for j in 0..6 {
-        for (x, c) in block[j].iter_mut().zip(&carry.columns[j]) {
-            *x -= c;
-        }
-        for (x, c) in block[GUIDE + j].iter_mut().zip(&carry.columns[6 + j]) {
-            *x -= c;
-        }
-    }
-    for (x, c) in right.iter_mut().zip(&carry.columns[12]) {
-        *x -= c;
-    }
-}
-
-/// All 24 unknowns of a joint station from its 16, `x`; `rhs` holds its right-hand side. `start` and `next` are the rows of the start
-/// below's displacement over its own six unknowns and over the six of the pipe's next node, `below`.
-#[inline(always)]
-fn recover_joint(
-    matrices: &Matrices,
-    start: &[[f64; 3]; 6],
-    next: &[[f64; 3]; 6],
-    c: [f64; 3],
-    x: &[f64; SIZE],
-    below: &[f64; 12],
-    rhs: &mut [f64],
-) {
-    let Some(reduction) = &matrices.reduction else { return };
-    let mut rest = [rhs[12], rhs[13], rhs[14]];
-    for (place, &x) in PLACES.into_iter().zip(x) {
-        rhs[place] = x;
-    }
-    let turned = reduction.turned([x[U], x[U + 1], x[U + 2]]);
-    for k in 0..3 {
-        rhs[12 + k] = turned[k] + c[k];
-    }
-    // The rows of that displacement: what the other unknowns leave is the multipliers' part.
-    for k in 0..6 {
-        for i in 0..3 {
-            rest[i] -= start[k][i] * rhs[12 + k] + next[k][i] * below[k];
-        }
-    }
-    for i in 0..3 {
-        rhs[18 + i] =
-            reduction.recover[0][i] * rest[0] + reduction.recover[1][i] * rest[1] + reduction.recover[2][i] * rest[2];
-    }
 }
