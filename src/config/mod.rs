@@ -198,19 +198,33 @@ impl Config {
     /// # Errors
     /// When the key does not exist, or the value is of the wrong type or out of bounds.
     pub fn with_value(&self, key: &str, value: impl Into<serde_json::Value>) -> Result<Self, ConfigError> {
-        let value = value.into();
-        let wrong_type = |message: String, value: &serde_json::Value| ConfigError::WrongType {
+        self.with_values([(key, value)])
+    }
+
+    /// The same with several values, for keys that only make sense together.
+    ///
+    /// # Errors
+    /// As [`Config::with_value`].
+    pub fn with_values<'a, V: Into<serde_json::Value>>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, V)>,
+    ) -> Result<Self, ConfigError> {
+        let wrong_type = |key: &str, value: &serde_json::Value, message: String| ConfigError::WrongType {
             key: key.to_string(),
             value: value.to_string(),
             message,
         };
-        let mut tree = serde_json::to_value(&self.schema).map_err(|error| wrong_type(error.to_string(), &value))?;
-        let pointer = format!("/{}", key.replace('.', "/"));
-        let Some(place) = tree.pointer_mut(&pointer) else {
-            return Err(ConfigError::UnknownKey { key: key.to_string() });
-        };
-        *place = value.clone();
-        let schema = serde_json::from_value(tree).map_err(|error| wrong_type(error.to_string(), &value))?;
+        let mut schema = self.schema.clone();
+        for (key, value) in values {
+            let value = value.into();
+            let mut tree = serde_json::to_value(&schema).map_err(|error| wrong_type(key, &value, error.to_string()))?;
+            let pointer = format!("/{}", key.replace('.', "/"));
+            let Some(place) = tree.pointer_mut(&pointer) else {
+                return Err(ConfigError::UnknownKey { key: key.to_string() });
+            };
+            *place = value.clone();
+            schema = serde_json::from_value(tree).map_err(|error| wrong_type(key, &value, error.to_string()))?;
+        }
         Self::from_schema("parameter", schema)
     }
 

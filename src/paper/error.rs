@@ -1,0 +1,72 @@
+//! Why the paper's case could not be run or shown.
+
+use std::path::PathBuf;
+
+use crate::config::ConfigError;
+use crate::mechanics::StepFailure;
+use crate::twin::BuildError;
+use crate::verify::VerifyError;
+
+/// Largest error of the energy audit, relative to the drive's work, with which figures are drawn. Healthy runs stay below 0.1 %; a
+/// chain that the integration feeds is far above 1 %.
+pub const ENERGY_LIMIT: f64 = 0.01;
+
+/// Part of the steps that may be halved in a run of the search before it is given up.
+pub const HALVED_LIMIT: f64 = 0.2;
+
+/// Why.
+#[derive(Debug, thiserror::Error)]
+pub enum PaperError {
+    /// The configuration, or a value put into it, is refused.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The tool cannot be built or started.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// The case of Fig. 9 could not be run.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
+    /// The drive stands still.
+    #[error("paper: rotary speed {rpm} r/min, must be above 0: give inputs.rotary_speed.initial_rpm or --rpm")]
+    Standing {
+        /// r/min.
+        rpm: f64,
+    },
+    /// A step failed.
+    #[error(
+        "paper: step failed at {:.4} s, station {}: {:?}; a smaller solver.time_step may help",
+        failure.time, failure.station, failure.cause
+    )]
+    Step {
+        /// Why and where.
+        failure: StepFailure,
+    },
+    /// Too many steps had to be halved.
+    #[error("paper: {halved} of {steps} steps had to be halved, more than {} %", 100.0 * HALVED_LIMIT)]
+    Halved {
+        /// Split steps.
+        halved: u64,
+        /// Steps so far.
+        steps: u64,
+    },
+    /// The energy audit failed: the motion may be the integration's, not the tool's.
+    #[error(
+        "paper: energy audit failed: error {error:.3e} J is {:.2} % of the drive's work of {drive:.3e} J, limit {} %. \
+         No figure is drawn from such a run; use a smaller solver.time_step",
+        100.0 * error.abs() / drive.abs().max(f64::MIN_POSITIVE), 100.0 * ENERGY_LIMIT
+    )]
+    Energy {
+        /// J.
+        error: f64,
+        /// J.
+        drive: f64,
+    },
+    /// A file could not be written.
+    #[error("paper: cannot write {}: {reason}", path.display())]
+    Write {
+        /// File.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+}

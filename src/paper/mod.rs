@@ -1,0 +1,26 @@
+//! The paper's case: a run recorded at every station, the paper's findings as numbers of that record, its figures and a report.
+//!
+//! Source: Lin, Luo, Wang, Xiu, Li, Scientific Reports 2024, figures 9 to 17.
+//!
+//! # Layout
+//! - [`Case`] says what is run; [`record`] runs it and keeps a [`Record`]. A record whose energy audit fails is an error.
+//! - [`findings()`] turns a record into [`Finding`]s, each with its definition, the paper's number and a [`Verdict`].
+//!   `series` and `motion` hold what it measures with.
+//! - [`hinge`]: the case of Fig. 9.
+//! - [`search`]: parameter sets that agree with as many findings as possible.
+
+mod case;
+mod error;
+mod findings;
+pub mod hinge;
+mod motion;
+mod record;
+pub mod search;
+mod series;
+
+pub use case::{Case, record};
+pub use error::PaperError;
+pub use findings::{Finding, Verdict, findings, score};
+pub use motion::{Motion, Whirl};
+pub use record::{Axis, Layer, Record, Recorder, Series, Stations};
+pub use series::{Period, contact_episodes, dominant_period, rms};

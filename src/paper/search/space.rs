@@ -1,0 +1,153 @@
+//! The ranges of the search and how a point of the unit cube becomes a case.
+
+use serde_json::json;
+
+use crate::config::{Config, ConfigError};
+
+use super::super::Case;
+
+/// How a coordinate from 0 to 1 is spread over a range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Scale {
+    /// Evenly.
+    Linear,
+    /// Evenly in the logarithm.
+    Log,
+    /// In equal parts, one per choice.
+    Choice(&'static [&'static str]),
+}
+
+/// One dimension.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dimension {
+    /// Name, in the CSV's header.
+    pub name: &'static str,
+    /// Lower bound.
+    pub low: f64,
+    /// Upper bound.
+    pub high: f64,
+    /// Spread.
+    pub scale: Scale,
+    /// Why these bounds.
+    pub why: &'static str,
+}
+
+const fn linear(name: &'static str, low: f64, high: f64, why: &'static str) -> Dimension {
+    Dimension {
+        name,
+        low,
+        high,
+        scale: Scale::Linear,
+        why,
+    }
+}
+
+const fn log(name: &'static str, low: f64, high: f64, why: &'static str) -> Dimension {
+    Dimension {
+        name,
+        low,
+        high,
+        scale: Scale::Log,
+        why,
+    }
+}
+
+const fn choice(name: &'static str, choices: &'static [&'static str], why: &'static str) -> Dimension {
+    Dimension {
+        name,
+        low: 0.0,
+        high: choices.len() as f64,
+        scale: Scale::Choice(choices),
+        why,
+    }
+}
+
+/// The space.
+pub const DIMENSIONS: &[Dimension] = &[
+    linear("wob_kn", 5.0, 60.0, "what a bit of 118 mm is given"),
+    choice("wob_path", &["guide", "shared"], "the text's path, and the pipe compressed too"),
+    choice(
+        "joint",
+        &["universal", "universal", "ball_cage", "revolute"],
+        "Eq. 13 as a limit (twice as likely), a constant-velocity joint, Eq. 13 as equalities",
+    ),
+    linear("limit_deg", 2.0, 10.0, "from below the 2.7 degrees that the arc takes to far above"),
+    log("stop_stiffness", 2e4, 2e6, "N m/rad, a tenth to ten times 4EI/l of a link"),
+    linear("pipe_od", 0.045, 0.073, "m, what fits into the guide with a bore left for flow"),
+    linear("pipe_bore", 0.3, 0.7, "inner over outer diameter of the pipe"),
+    linear("inner_clearance", 0.002, 0.012, "m, tight to loose"),
+    linear("outer_clearance", 0.002, 0.010, "m, tight to loose in the hole of 118 mm"),
+    log("guide_bending", 0.02, 1.0, "slotted to plain guide"),
+    log("inner_stiffness", 1e6, 1e8, "N/m, 44 kN on 44 mm to 0.4 mm"),
+    log("outer_stiffness", 5e6, 1e8, "N/m, soft to hard rock"),
+    linear("inner_friction", 0.05, 0.5, "lubricated to dry steel"),
+    linear("outer_friction", 0.1, 0.6, "mud cake to bare rock"),
+    linear("phase_deg", 0.0, 180.0, "of the first cross"),
+    choice("phase_step_deg", &["90", "0"], "crosses turned by a quarter, or in line"),
+    log("beta", 1e-5, 1e-3, "s, stiffness-proportional damping"),
+];
+
+/// Thinnest wall of the guide (m); where the clearances leave less, the pipe is made thinner.
+const WALL: f64 = 0.005;
+
+/// Value of a coordinate.
+pub fn value(dimension: &Dimension, at: f64) -> f64 {
+    match dimension.scale {
+        Scale::Linear => dimension.low + (dimension.high - dimension.low) * at,
+        Scale::Log => dimension.low * (dimension.high / dimension.low).powf(at),
+        Scale::Choice(choices) => (at * choices.len() as f64).floor().min(choices.len() as f64 - 1.0),
+    }
+}
+
+/// The value as it is written, choices by name.
+pub fn written(dimension: &Dimension, at: f64) -> String {
+    let value = value(dimension, at);
+    match dimension.scale {
+        Scale::Choice(choices) => choices[value as usize].to_owned(),
+        Scale::Linear | Scale::Log => format!("{value:.5e}"),
+    }
+}
+
+/// The case at a point of the unit cube, on the mesh of `base`.
+///
+/// # Errors
+/// When a value is refused.
+pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
+    let at = |name: &str| DIMENSIONS.iter().position(|d| d.name == name).unwrap_or_default();
+    let number = |name: &str| value(&DIMENSIONS[at(name)], point[at(name)]);
+    let word = |name: &str| written(&DIMENSIONS[at(name)], point[at(name)]);
+    let hole = base.well.hole_diameter;
+    let guide_od = hole - 2.0 * number("outer_clearance");
+    let most = guide_od - 2.0 * WALL - 2.0 * number("inner_clearance");
+    let pipe_od = number("pipe_od").min(most);
+    let numbers = [
+        ("tool.joint.limit_deg", number("limit_deg")),
+        ("tool.joint.stop_stiffness", number("stop_stiffness")),
+        ("tool.joint.cross_phase_deg", number("phase_deg")),
+        ("tool.joint.cross_phase_step_deg", if word("phase_step_deg") == "90" { 90.0 } else { 0.0 }),
+        ("tool.pipe.outer_diameter", pipe_od),
+        ("tool.pipe.inner_diameter", pipe_od * number("pipe_bore")),
+        ("tool.guide.outer_diameter", guide_od),
+        ("tool.guide.inner_diameter", pipe_od + 2.0 * number("inner_clearance")),
+        ("tool.guide.bending_factor", number("guide_bending")),
+        ("tool.damping.beta", number("beta")),
+        ("contact.inner.stiffness", number("inner_stiffness")),
+        ("contact.outer.stiffness", number("outer_stiffness")),
+        ("contact.inner.friction_tangential", number("inner_friction")),
+        ("contact.inner.friction_axial", number("inner_friction")),
+        ("contact.outer.friction_tangential", number("outer_friction")),
+        ("contact.outer.friction_axial", number("outer_friction")),
+    ];
+    let words = [
+        ("tool.joint.kind", word("joint")),
+        ("boundary.wob_path", word("wob_path")),
+    ];
+    let values = numbers
+        .into_iter()
+        .map(|(key, value)| (key, json!(value)))
+        .chain(words.into_iter().map(|(key, value)| (key, json!(value))));
+    let mut case = Case::new(base.with_values(values)?);
+    case.weight_on_bit_kn = number("wob_kn");
+    case.impatient = true;
+    Ok(case)
+}
