@@ -7,6 +7,7 @@
 //! - [`ros`]: the only module that knows ros2-client. [`bag`]: the only one that knows MCAP. [`field_log`]: CSV rig logs.
 //!   [`pacing`]: deadlines.
 //! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
+//! - [`paper`]: the paper's figures and findings from a run, and the search for parameters that agree.
 //! - [`verify`]: the closed-form cases. [`config`]: the YAML configuration. [`inputs`]: units, limits, age and state of what
 //!   the rig sends.
 //! - [`twin`]: one deterministic simulation.
@@ -21,6 +22,7 @@ pub mod inputs;
 pub mod mechanics;
 pub mod messages;
 pub mod pacing;
+pub mod paper;
 pub mod ros;
 pub mod twin;
 pub mod verify;

@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod generate_demo_log;
 mod generate_messages;
+mod paper;
 mod progress;
 mod recover;
 mod replay;
@@ -42,6 +43,7 @@ enum Command {
     #[command(hide = true)]
     GenerateMessages(generate_messages::Args),
     Verify(verify::VerifyArgs),
+    Paper(Box<paper::PaperArgs>),
     Bench(bench::BenchArgs),
 }
 
@@ -73,6 +75,7 @@ pub fn main() -> ExitCode {
         Command::GenerateDemoLog(args) => generate_demo_log::run(&args),
         Command::GenerateMessages(args) => generate_messages::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Paper(args) => paper::run(&args),
         Command::Bench(args) => bench::run(&args),
     };
     match result {

@@ -12,6 +12,7 @@ const LINE_EVERY: Duration = Duration::from_secs(10);
 pub(super) struct Progress {
     bar: Option<ProgressBar>,
     end: f64,
+    counted: bool,
     began: Instant,
     told: Instant,
 }
@@ -31,8 +32,17 @@ impl Progress {
         Self {
             bar,
             end,
+            counted: false,
             began: now,
             told: now,
+        }
+    }
+
+    /// A bar up to a number of things.
+    pub(super) fn counted(end: f64) -> Self {
+        Self {
+            counted: true,
+            ..Self::new(end)
         }
     }
 
@@ -40,6 +50,15 @@ impl Progress {
     pub(super) fn at(&mut self, time: f64) {
         let wall = self.began.elapsed().as_secs_f64();
         let speed = if wall > 0.0 { time / wall } else { 0.0 };
+        if self.counted {
+            if let Some(bar) = &self.bar {
+                bar.set_position((time * 1e3) as u64);
+                bar.set_message(format!("{time} of {}", self.end));
+            } else {
+                eprintln!("{time} of {} after {wall:.0} s", self.end);
+            }
+            return;
+        }
         if let Some(bar) = &self.bar {
             bar.set_position((time * 1e3) as u64);
             bar.set_message(format!("{time:.1} of {:.1} s, {speed:.2} x real time", self.end));

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::checker::{Bound, Checker};
 use super::pipe::{Guide, Pipe};
 use crate::inputs::units::deg_to_rad;
-use crate::mechanics::{BitDescription, JointDescription, JointKind, Material as Steel, Rayleigh};
+use crate::mechanics::{BitDescription, HingeAngle, JointDescription, JointKind, Material as Steel, Rayleigh};
 
 /// The tool.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -79,6 +79,9 @@ pub struct Joint {
     /// Turn from one cross to the next. Default 90.
     #[serde(default = "ninety")]
     pub cross_phase_step_deg: f64,
+    /// Angle that a `revolute` joint keeps across its hinge: `straight` links, or `as_built` in the well. Default straight.
+    #[serde(default)]
+    pub hinge_angle: HingeAngle,
 }
 
 fn universal() -> JointKind {
@@ -258,6 +261,7 @@ impl Joint {
             stop_damping: self.stop_damping,
             cross_phase: deg_to_rad(self.cross_phase_deg),
             cross_phase_step: deg_to_rad(self.cross_phase_step_deg),
+            hinge_angle: self.hinge_angle,
         }
     }
 }

@@ -121,6 +121,18 @@ pub enum JointKind {
     Revolute,
 }
 
+/// The angle theta in the third row of Eq. 13, for [`JointKind::Revolute`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HingeAngle {
+    /// 90 degrees: links that are in line at rest.
+    #[default]
+    Straight,
+    /// What it is where the undeflected tool lies in the well at spin zero: links that keep the well's bend and carry it along as they
+    /// turn.
+    AsBuilt,
+}
+
 /// All joints of the pipe.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct JointDescription {
@@ -136,6 +148,8 @@ pub struct JointDescription {
     pub cross_phase: f64,
     /// Turn of the cross from one joint to the next (rad).
     pub cross_phase_step: f64,
+    /// Theta of Eq. 13 for [`JointKind::Revolute`].
+    pub hinge_angle: HingeAngle,
 }
 
 /// Rayleigh damping C = alpha M + beta K, Eq. 7.

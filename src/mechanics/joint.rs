@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-use super::description::{JointDescription, JointKind};
+use super::description::{HingeAngle, JointDescription, JointKind};
 use super::jet::Jet;
 use super::number::Number;
 use super::rotation::{DirectionJet, shaft_axis, shaft_direction, transverse_axis};
@@ -47,6 +47,8 @@ pub struct Joint {
     pub stop_damping: f64,
     /// E_a^T E_b.
     pub relative: Matrix3<f64>,
+    /// cos(theta) of Eq. 13, third row.
+    pub hinge_cosine: f64,
 }
 
 /// The stop's moment with what it takes to assemble it.
@@ -71,7 +73,7 @@ pub struct Stop {
 impl Joint {
     /// Joint number `index` (0-based from the top) between links with the given frames.
     pub fn new(description: &JointDescription, index: usize, upper: Matrix3<f64>, lower: Matrix3<f64>) -> Self {
-        Self {
+        let mut joint = Self {
             kind: description.kind,
             upper,
             lower,
@@ -80,7 +82,12 @@ impl Joint {
             stop_stiffness: description.stop_stiffness,
             stop_damping: description.stop_damping,
             relative: upper.transpose() * lower,
+            hinge_cosine: 0.0,
+        };
+        if description.hinge_angle == HingeAngle::AsBuilt {
+            joint.hinge_cosine = joint.hinge_row(&JointVector::zeros()).value;
         }
+        joint
     }
 
     /// Number of rotational rows beside the three translational ones.
@@ -112,11 +119,13 @@ impl Joint {
         Row::bilinear(&a_z, &self.relative, &a_y)
     }
 
-    /// a_z(a) . a_x(b) - cos(theta) = 0 with theta = 90 degrees.
+    /// a_z(a) . a_x(b) - cos(theta) = 0.
     fn hinge_row(&self, q: &JointVector) -> Row {
         let a_z = transverse_axis((q[0] + self.phase + FRAC_PI_2).sin_cos(), q[1], q[2]);
         let a_x = shaft_axis(q[4], q[5]);
-        Row::bilinear(&a_z, &self.relative, &a_x)
+        let mut row = Row::bilinear(&a_z, &self.relative, &a_x);
+        row.value -= self.hinge_cosine;
+        row
     }
 
     /// Angle between the two links' axes at the joint (rad, >= 0).

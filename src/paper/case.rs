@@ -1,6 +1,6 @@
 //! Running a case and recording it.
 
-use super::error::{ENERGY_LIMIT, HALVED_LIMIT, PaperError};
+use super::error::{ENERGY_LIMIT, ITERATION_LIMIT, PaperError};
 use super::record::{Record, Recorder};
 use crate::config::Config;
 use crate::inputs::units::{kn_to_n, rpm_to_rad_per_s};
@@ -22,7 +22,7 @@ pub struct Case {
     pub turns: f64,
     /// Samples per second; rounded to whole steps.
     pub sample_rate: f64,
-    /// Gives up when too many steps are halved; for the search, which must not spend its time on one tool.
+    /// Gives up when steps take too many iterations; for the search, which must not spend its time on one tool.
     pub impatient: bool,
 }
 
@@ -87,9 +87,13 @@ pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, Pape
         if let StepOutcome::Failed(failure) = simulation.advance(&inputs) {
             return Err(PaperError::Step { failure });
         }
-        let (step, halved) = (simulation.step(), simulation.stepper().counters().halved_steps);
-        if case.impatient && step >= PATIENCE && halved as f64 > HALVED_LIMIT * step as f64 {
-            return Err(PaperError::Halved { halved, steps: step });
+        let step = simulation.step();
+        let iterations = simulation.stepper().counters().iterations;
+        if case.impatient && step >= PATIENCE && iterations > ITERATION_LIMIT * step {
+            return Err(PaperError::Slow {
+                iterations,
+                steps: step,
+            });
         }
         if step > begin {
             recorder.after_step(&simulation);

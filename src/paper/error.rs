@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::figures::DrawError;
 use crate::config::ConfigError;
 use crate::mechanics::StepFailure;
 use crate::twin::BuildError;
@@ -11,8 +12,8 @@ use crate::verify::VerifyError;
 /// chain that the integration feeds is far above 1 %.
 pub const ENERGY_LIMIT: f64 = 0.01;
 
-/// Part of the steps that may be halved in a run of the search before it is given up.
-pub const HALVED_LIMIT: f64 = 0.2;
+/// Newton iterations per step from which a run of the search is given up: healthy ones take two to four.
+pub const ITERATION_LIMIT: u64 = 8;
 
 /// Why.
 #[derive(Debug, thiserror::Error)]
@@ -41,11 +42,11 @@ pub enum PaperError {
         /// Why and where.
         failure: StepFailure,
     },
-    /// Too many steps had to be halved.
-    #[error("paper: {halved} of {steps} steps had to be halved, more than {} %", 100.0 * HALVED_LIMIT)]
-    Halved {
-        /// Split steps.
-        halved: u64,
+    /// Steps take too many iterations.
+    #[error("paper: given up: {iterations} Newton iterations in {steps} steps, more than {ITERATION_LIMIT} per step")]
+    Slow {
+        /// So far.
+        iterations: u64,
         /// Steps so far.
         steps: u64,
     },
@@ -61,6 +62,9 @@ pub enum PaperError {
         /// J.
         drive: f64,
     },
+    /// A figure could not be drawn.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
     /// A file could not be written.
     #[error("paper: cannot write {}: {reason}", path.display())]
     Write {

@@ -101,7 +101,11 @@ pub fn score(findings: &[Finding]) -> (f64, usize) {
 /// A positive number against the paper's.
 fn number(paper: Paper, unit: &str, digits: usize, value: f64, expected: f64) -> Finding {
     let ratio = value / expected;
-    let off = if ratio > 0.0 { ratio.max(1.0 / ratio) } else { f64::INFINITY };
+    let off = if ratio > 0.0 {
+        ratio.max(1.0 / ratio)
+    } else {
+        f64::INFINITY
+    };
     let verdict = if off <= AGREES {
         Verdict::Agrees
     } else if off <= PARTLY {
@@ -115,7 +119,14 @@ fn number(paper: Paper, unit: &str, digits: usize, value: f64, expected: f64) ->
         Verdict::No => format!("{ratio:.3} of the paper's"),
     };
     let closeness = closeness(verdict, 1.0 - off.ln() / FAR.ln());
-    finding(paper, value, format!("{value:.digits$} {unit}"), verdict, why, closeness)
+    finding(
+        paper,
+        value,
+        format!("{value:.digits$} {unit}"),
+        verdict,
+        why,
+        closeness,
+    )
 }
 
 /// A place (deg) against the paper's.
@@ -210,7 +221,11 @@ fn shapes(record: &Record, pipe: &Motion, guide: &Motion) -> Vec<Finding> {
                 says: "the pipe moves more near the bottom",
                 definition: "mean RMS motion in the lowest third over that in the uppermost third",
             },
-            format!("{:.2} mm in the lowest, {:.2} mm in the uppermost third", 1e3 * lower, 1e3 * upper),
+            format!(
+                "{:.2} mm in the lowest, {:.2} mm in the uppermost third",
+                1e3 * lower,
+                1e3 * upper
+            ),
             lower / upper.max(f64::MIN_POSITIVE),
             [1.2, 1.0],
             "ratio",
@@ -263,9 +278,17 @@ fn whirl(paper: Paper, record: &Record, motion: &Motion) -> Finding {
         let why = format!("both directions occur, but not one at each of the two largest motions: {count}");
         (Verdict::Partly, why, 0.5 + 0.5 * near)
     } else if a.is_some() || b.is_some() {
-        (Verdict::No, format!("whirl in one direction only: {count}"), 0.2 + 0.5 * near)
+        (
+            Verdict::No,
+            format!("whirl in one direction only: {count}"),
+            0.2 + 0.5 * near,
+        )
     } else {
-        (Verdict::No, format!("no steady whirl at either place: {count}"), 0.5 * near)
+        (
+            Verdict::No,
+            format!("no steady whirl at either place: {count}"),
+            0.5 * near,
+        )
     };
     finding(paper, near, ours, verdict, why, closeness(verdict, near))
 }
@@ -276,7 +299,11 @@ fn speeds(record: &Record, guide: &Motion) -> Vec<Finding> {
         .iter()
         .map(|&degrees| rad_per_s_to_rpm(spread(record.pipe.spin.at(stations.nearest(degrees)))))
         .collect();
-    let words = ripples.iter().map(|ripple| format!("{ripple:.2}")).collect::<Vec<_>>().join(", ");
+    let words = ripples
+        .iter()
+        .map(|ripple| format!("{ripple:.2}"))
+        .collect::<Vec<_>>()
+        .join(", ");
     let rising = ripples.windows(2).filter(|pair| pair[1] > pair[0]).count();
     let largest_last = ripples.iter().all(|&ripple| ripple <= ripples[4]);
     let verdict = if rising == 4 {
@@ -299,11 +326,17 @@ fn speeds(record: &Record, guide: &Motion) -> Vec<Finding> {
         format!("rises in {rising} of 4 intervals"),
         closeness(verdict, rising as f64 / 4.0),
     );
-    let spins = guide.places.map(|s| range(record.guide.spin.at(s)).map(rad_per_s_to_rpm));
-    let [low, high] = [spins[0][0].min(spins[1][0]), spins[0][1].max(spins[1][1])];
-    let period = guide
+    let spins = guide
         .places
-        .map(|s| dominant_period(&record.guide.spin.at(s).collect::<Vec<_>>(), record.interval, SHORTEST * record.turn()));
+        .map(|s| range(record.guide.spin.at(s)).map(rad_per_s_to_rpm));
+    let [low, high] = [spins[0][0].min(spins[1][0]), spins[0][1].max(spins[1][1])];
+    let period = guide.places.map(|s| {
+        dominant_period(
+            &record.guide.spin.at(s).collect::<Vec<_>>(),
+            record.interval,
+            SHORTEST * record.turn(),
+        )
+    });
     let clearer = period[usize::from(period[1].strength > period[0].strength)];
     vec![
         ripple,
@@ -413,41 +446,74 @@ fn forces(record: &Record) -> Vec<Finding> {
     const CONTACT: &str = "time in contact there per turn of the drive (s)";
     let kn = 1e-3;
     all.push(number(
-        text("inner_force", "14a", "largest effective pipe-guide force 19.97 kN", FORCE),
-        "kN", 3, kn * inner.force, 19.97,
+        text(
+            "inner_force",
+            "14a",
+            "largest effective pipe-guide force 19.97 kN",
+            FORCE,
+        ),
+        "kN",
+        3,
+        kn * inner.force,
+        19.97,
     ));
     all.push(place(
         text("inner_place", "14a", "at 88 degrees, the lowermost section", PLACE),
-        degrees(&inner), 88.0,
+        degrees(&inner),
+        88.0,
     ));
     all.push(number(
         text("inner_peak", "14b", "largest force there 44.42 kN", PEAK),
-        "kN", 3, kn * inner.peak, 44.42,
+        "kN",
+        3,
+        kn * inner.peak,
+        44.42,
     ));
     all.push(periodic(
         text("inner_period", "14b", "collides every 1.5 s, one turn", PERIOD),
-        inner.period, inner.strength, record.turn(),
+        inner.period,
+        inner.strength,
+        record.turn(),
     ));
     all.push(contact(
         text("inner_contact", "14b", "each collision lasts 1.27 s", CONTACT),
-        &inner, 1.27,
+        &inner,
+        1.27,
     ));
     all.push(number(
-        text("outer_force", "15a", "largest effective guide-wall force 4.82 kN", FORCE),
-        "kN", 3, kn * outer.force, 4.82,
+        text(
+            "outer_force",
+            "15a",
+            "largest effective guide-wall force 4.82 kN",
+            FORCE,
+        ),
+        "kN",
+        3,
+        kn * outer.force,
+        4.82,
     ));
-    all.push(place(text("outer_place", "15a", "at 81 degrees", PLACE), degrees(&outer), 81.0));
+    all.push(place(
+        text("outer_place", "15a", "at 81 degrees", PLACE),
+        degrees(&outer),
+        81.0,
+    ));
     all.push(number(
         text("outer_peak", "15b", "largest force there 12.81 kN", PEAK),
-        "kN", 3, kn * outer.peak, 12.81,
+        "kN",
+        3,
+        kn * outer.peak,
+        12.81,
     ));
     all.push(periodic(
         text("outer_period", "15b", "collides every 1.5 s", PERIOD),
-        outer.period, outer.strength, record.turn(),
+        outer.period,
+        outer.strength,
+        record.turn(),
     ));
     all.push(contact(
         text("outer_contact", "15b", "each collision lasts 0.56 s", CONTACT),
-        &outer, 0.56,
+        &outer,
+        0.56,
     ));
     all
 }
@@ -483,7 +549,12 @@ fn accelerations(record: &Record) -> Vec<Finding> {
                 says: "the pipe's acceleration is larger than the guide's",
                 definition: "largest RMS acceleration of the pipe along y over the guide's",
             },
-            format!("pipe {:.2}, guide {:.2} m/s2 (guide: {})", pipe[1], guide[1], words(guide)),
+            format!(
+                "pipe {:.2}, guide {:.2} m/s2 (guide: {})",
+                pipe[1],
+                guide[1],
+                words(guide)
+            ),
             pipe[1] / guide[1].max(f64::MIN_POSITIVE),
             [1.2, 1.0],
             "ratio",

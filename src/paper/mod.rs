@@ -6,21 +6,27 @@
 //! - [`Case`] says what is run; [`record`] runs it and keeps a [`Record`]. A record whose energy audit fails is an error.
 //! - [`findings()`] turns a record into [`Finding`]s, each with its definition, the paper's number and a [`Verdict`].
 //!   `series` and `motion` hold what it measures with.
-//! - [`hinge`]: the case of Fig. 9.
+//! - [`hinge`]: the case of Fig. 9. [`figures`]: the drawings, as SVG and PNG, and their data.
+//! - [`Report`]: the table of findings with what makes them trustworthy, as Markdown and HTML.
 //! - [`search`]: parameter sets that agree with as many findings as possible.
 
 mod case;
 mod error;
+pub mod figures;
+mod files;
 mod findings;
 pub mod hinge;
 mod motion;
 mod record;
+mod report;
 pub mod search;
 mod series;
 
 pub use case::{Case, record};
 pub use error::PaperError;
+pub use files::{findings_csv, write_figures, write_text};
 pub use findings::{Finding, Verdict, findings, score};
 pub use motion::{Motion, Whirl};
 pub use record::{Axis, Layer, Record, Recorder, Series, Stations};
+pub use report::Report;
 pub use series::{Period, contact_episodes, dominant_period, rms};

@@ -42,7 +42,11 @@ impl Whirl {
         } else {
             ("backward", self.backward)
         };
-        format!("{word} for {:.0} % of the record, ratio {:.2}", 100.0 * share, self.ratio)
+        format!(
+            "{word} for {:.0} % of the record, ratio {:.2}",
+            100.0 * share,
+            self.ratio
+        )
     }
 }
 
@@ -71,9 +75,16 @@ pub fn motion(record: &Record, body: Body) -> Motion {
     };
     let stations = &record.stations;
     let n = stations.len();
-    let radius: Vec<f64> = (0..n).map(|s| spread(axis.y.at(s)).hypot(spread(axis.z.at(s)))).collect();
+    let radius: Vec<f64> = (0..n)
+        .map(|s| spread(axis.y.at(s)).hypot(spread(axis.z.at(s))))
+        .collect();
     let reach = (0..n)
-        .map(|s| axis.y.at(s).zip(axis.z.at(s)).fold(0.0_f64, |r, (y, z)| r.max(y.hypot(z))))
+        .map(|s| {
+            axis.y
+                .at(s)
+                .zip(axis.z.at(s))
+                .fold(0.0_f64, |r, (y, z)| r.max(y.hypot(z)))
+        })
         .collect();
     let places = two_peaks(&radius, &stations.inclination, APART);
     let (broken, kink) = kinks(record, axis, body);
@@ -112,11 +123,17 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
     let mut found = vec![Whirl::default(); n];
     let every = ((settings.evaluation_interval / record.interval).round() as usize).max(1);
     // Nothing is said before half of the window is filled.
-    let first = record.time.len().min((0.5 * settings.max_window / record.interval) as usize + every);
+    let first = record
+        .time
+        .len()
+        .min((0.5 * settings.max_window / record.interval) as usize + every);
     let mut judgements = 0.0;
     let mut samples = vec![PlaceSample::default(); n];
     for (sample, &time) in record.time.iter().enumerate() {
-        for (place, (&y, &z)) in samples.iter_mut().zip(axis.y.row(sample).iter().zip(axis.z.row(sample))) {
+        for (place, (&y, &z)) in samples
+            .iter_mut()
+            .zip(axis.y.row(sample).iter().zip(axis.z.row(sample)))
+        {
             (place.y, place.z) = (y, z);
         }
         analysis.push(time, record.rotary_speed, &samples);

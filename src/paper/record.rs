@@ -343,7 +343,9 @@ impl Sums {
 
     fn sample(&mut self, layer: &mut Layer, steps: u64) {
         let share = 1.0 / steps as f64;
-        layer.mean.push(self.sum.iter_mut().map(|sum| std::mem::take(sum) * share));
+        layer
+            .mean
+            .push(self.sum.iter_mut().map(|sum| std::mem::take(sum) * share));
         layer.peak.push(self.peak.iter_mut().map(std::mem::take));
     }
 }

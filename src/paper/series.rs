@@ -91,14 +91,20 @@ pub(super) fn two_peaks(profile: &[f64], at: &[f64], apart: f64) -> [usize; 2] {
     let first = largest(profile);
     let is_peak = |i: usize| {
         let near = |j: usize| (at[j] - at[i]).abs() <= 0.5 * apart;
-        (0..profile.len()).filter(|&j| near(j)).all(|j| profile[j] <= profile[i])
+        (0..profile.len())
+            .filter(|&j| near(j))
+            .all(|j| profile[j] <= profile[i])
     };
     let far = |i: &usize| (at[*i] - at[first]).abs() >= apart;
     let second = (0..profile.len())
         .filter(far)
         .filter(|&i| is_peak(i))
         .max_by(|&a, &b| profile[a].total_cmp(&profile[b]))
-        .or_else(|| (0..profile.len()).filter(far).max_by(|&a, &b| profile[a].total_cmp(&profile[b])))
+        .or_else(|| {
+            (0..profile.len())
+                .filter(far)
+                .max_by(|&a, &b| profile[a].total_cmp(&profile[b]))
+        })
         .unwrap_or(first);
     [first.min(second), first.max(second)]
 }

@@ -3,6 +3,7 @@
 
 mod bench;
 mod contacts;
+mod hinged_beam;
 mod integration;
 mod joints;
 mod pipes;
@@ -10,6 +11,7 @@ mod pipes;
 use std::fmt;
 
 pub use bench::Bench;
+pub use hinged_beam::HingedBeam;
 
 use crate::config::ConfigError;
 use crate::mechanics::StepFailure;

@@ -9,4 +9,4 @@ mod plan;
 pub mod space;
 
 pub use outcome::{Outcome, Trial, csv_header};
-pub use plan::{Plan, Stage, run};
+pub use plan::{Plan, Stage, leaders, run};

@@ -1,6 +1,7 @@
 //! What a trial came to, as a line of the table.
 
-use super::space::{DIMENSIONS, written};
+use super::space::{DIMENSIONS, case, written};
+use crate::config::{Config, ConfigError};
 use crate::paper::{Finding, PaperError, Record, findings, score};
 
 /// One tried point.
@@ -42,6 +43,14 @@ impl Outcome {
                 findings: findings(&record),
             },
             Err(error) => Self::Failed(error.to_string()),
+        }
+    }
+
+    /// The findings; none of a failed run.
+    pub fn findings(&self) -> &[Finding] {
+        match self {
+            Self::Ran { findings, .. } => findings,
+            Self::Failed(_) => &[],
         }
     }
 
@@ -91,6 +100,18 @@ pub fn csv_header() -> Vec<String> {
 }
 
 impl Trial {
+    /// Its configuration on a mesh, with its inputs as initial ones.
+    ///
+    /// # Errors
+    /// When a value is refused.
+    pub fn config(&self, base: &Config) -> Result<Config, ConfigError> {
+        let case = case(base, &self.point)?;
+        case.config.with_values([
+            ("inputs.weight_on_bit.initial_kn", case.weight_on_bit_kn),
+            ("inputs.rotary_speed.initial_rpm", case.rotary_speed_rpm),
+        ])
+    }
+
     /// A line of the table.
     pub fn csv(&self) -> Vec<String> {
         let (score, agree) = self.outcome.score();

@@ -1,7 +1,7 @@
 //! The seeded plan: a Latin hypercube, then changes to the best, then the best on the full mesh.
 
 use super::outcome::{Outcome, Trial};
-use super::space::{DIMENSIONS, case};
+use super::space::{DIMENSIONS, case, starts};
 use crate::config::Config;
 use crate::paper::record;
 
@@ -26,9 +26,29 @@ pub struct Plan {
     pub turns: f64,
 }
 
+impl Plan {
+    /// Trials of the whole plan, if enough of them run.
+    pub fn total(&self) -> usize {
+        starts().len() + self.points + self.rounds * self.per_round + self.finalists
+    }
+}
+
+/// The best trial of every stage that had one.
+pub fn leaders(trials: &[Trial]) -> Vec<(&'static str, &Trial)> {
+    [Stage::Start, Stage::Screening, Stage::Refinement, Stage::Full]
+        .iter()
+        .filter_map(|stage| {
+            let of_stage = trials.iter().filter(|trial| trial.stage == stage.word());
+            best(of_stage, 1).first().map(|trial| (stage.word(), *trial))
+        })
+        .collect()
+}
+
 /// Part of the plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
+    /// The usual values with different joints.
+    Start,
     /// Latin hypercube.
     Screening,
     /// Changes to the best.
@@ -40,6 +60,7 @@ pub enum Stage {
 impl Stage {
     fn word(self) -> &'static str {
         match self {
+            Self::Start => "start",
             Self::Screening => "screening",
             Self::Refinement => "refinement",
             Self::Full => "full",
@@ -80,6 +101,9 @@ pub fn run<E>(plan: &Plan, mut done: impl FnMut(&Trial) -> Result<(), E>) -> Res
         trials.push(trial);
         Ok(())
     };
+    for point in starts() {
+        try_one(&mut trials, Stage::Start, point)?;
+    }
     for point in latin_hypercube(plan.points, &mut random) {
         try_one(&mut trials, Stage::Screening, point)?;
     }
@@ -96,7 +120,10 @@ pub fn run<E>(plan: &Plan, mut done: impl FnMut(&Trial) -> Result<(), E>) -> Res
             try_one(&mut trials, Stage::Refinement, point)?;
         }
     }
-    let finalists: Vec<Vec<f64>> = best(&trials, plan.finalists).into_iter().map(|t| t.point.clone()).collect();
+    let finalists: Vec<Vec<f64>> = best(&trials, plan.finalists)
+        .into_iter()
+        .map(|t| t.point.clone())
+        .collect();
     for point in finalists {
         try_one(&mut trials, Stage::Full, point)?;
     }
@@ -104,9 +131,18 @@ pub fn run<E>(plan: &Plan, mut done: impl FnMut(&Trial) -> Result<(), E>) -> Res
 }
 
 /// The `count` best trials that ran, best first; of equals the earlier one.
-pub(super) fn best(trials: &[Trial], count: usize) -> Vec<&Trial> {
-    let mut ran: Vec<&Trial> = trials.iter().filter(|t| matches!(t.outcome, Outcome::Ran { .. })).collect();
-    ran.sort_by(|a, b| b.outcome.score().0.total_cmp(&a.outcome.score().0).then(a.index.cmp(&b.index)));
+fn best<'a>(trials: impl IntoIterator<Item = &'a Trial>, count: usize) -> Vec<&'a Trial> {
+    let mut ran: Vec<&Trial> = trials
+        .into_iter()
+        .filter(|t| matches!(t.outcome, Outcome::Ran { .. }))
+        .collect();
+    ran.sort_by(|a, b| {
+        b.outcome
+            .score()
+            .0
+            .total_cmp(&a.outcome.score().0)
+            .then(a.index.cmp(&b.index))
+    });
     ran.truncate(count);
     ran
 }

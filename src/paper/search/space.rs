@@ -65,30 +65,106 @@ const fn choice(name: &'static str, choices: &'static [&'static str], why: &'sta
 /// The space.
 pub const DIMENSIONS: &[Dimension] = &[
     linear("wob_kn", 5.0, 60.0, "what a bit of 118 mm is given"),
-    choice("wob_path", &["guide", "shared"], "the text's path, and the pipe compressed too"),
+    choice(
+        "wob_path",
+        &["guide", "shared"],
+        "the text's path, and the pipe compressed too",
+    ),
     choice(
         "joint",
-        &["universal", "universal", "ball_cage", "revolute"],
-        "Eq. 13 as a limit (twice as likely), a constant-velocity joint, Eq. 13 as equalities",
+        &["universal", "ball_cage", "revolute", "as_built"],
+        "Eq. 13 as a limit; constant velocity; Eq. 13 as equalities, its theta 90 degrees or as built in the well",
     ),
-    linear("limit_deg", 2.0, 10.0, "from below the 2.7 degrees that the arc takes to far above"),
-    log("stop_stiffness", 2e4, 2e6, "N m/rad, a tenth to ten times 4EI/l of a link"),
-    linear("pipe_od", 0.045, 0.073, "m, what fits into the guide with a bore left for flow"),
+    linear(
+        "limit_deg",
+        2.0,
+        10.0,
+        "from below the 2.7 degrees that the arc takes to far above",
+    ),
+    log(
+        "stop_stiffness",
+        2e4,
+        2e6,
+        "N m/rad, a tenth to ten times 4EI/l of a link",
+    ),
+    linear(
+        "pipe_od",
+        0.040,
+        0.073,
+        "m, what fits into the guide with a bore left for flow",
+    ),
     linear("pipe_bore", 0.3, 0.7, "inner over outer diameter of the pipe"),
     linear("inner_clearance", 0.002, 0.012, "m, tight to loose"),
-    linear("outer_clearance", 0.002, 0.010, "m, tight to loose in the hole of 118 mm"),
+    linear(
+        "outer_clearance",
+        0.002,
+        0.010,
+        "m, tight to loose in the hole of 118 mm",
+    ),
     log("guide_bending", 0.02, 1.0, "slotted to plain guide"),
     log("inner_stiffness", 1e6, 1e8, "N/m, 44 kN on 44 mm to 0.4 mm"),
     log("outer_stiffness", 5e6, 1e8, "N/m, soft to hard rock"),
     linear("inner_friction", 0.05, 0.5, "lubricated to dry steel"),
     linear("outer_friction", 0.1, 0.6, "mud cake to bare rock"),
     linear("phase_deg", 0.0, 180.0, "of the first cross"),
-    choice("phase_step_deg", &["90", "0"], "crosses turned by a quarter, or in line"),
+    choice(
+        "phase_step_deg",
+        &["90", "0"],
+        "crosses turned by a quarter, or in line",
+    ),
     log("beta", 1e-5, 1e-3, "s, stiffness-proportional damping"),
 ];
 
 /// Thinnest wall of the guide (m); where the clearances leave less, the pipe is made thinner.
 const WALL: f64 = 0.005;
+
+/// The first points: the values of `config/default.yaml`, with other joints where a start says so, as (name, value).
+const USUAL: &[(&str, f64)] = &[
+    ("wob_kn", 10.0),
+    ("limit_deg", 6.0),
+    ("stop_stiffness", 2e5),
+    ("pipe_od", 0.063),
+    ("pipe_bore", 0.508),
+    ("inner_clearance", 0.0085),
+    ("outer_clearance", 0.008),
+    ("guide_bending", 0.999),
+    ("inner_stiffness", 1e7),
+    ("outer_stiffness", 2e7),
+    ("inner_friction", 0.2),
+    ("outer_friction", 0.3),
+    ("beta", 1e-4),
+];
+const STARTS: &[&[(&str, f64)]] = &[
+    &[("joint", 0.0)],
+    &[("joint", 1.0)],
+    &[("joint", 2.0)],
+    &[("joint", 2.0), ("phase_step_deg", 1.0)],
+    &[("joint", 3.0)],
+    &[("joint", 3.0), ("phase_step_deg", 1.0), ("phase_deg", 45.0)],
+];
+
+/// Points to begin with.
+pub fn starts() -> Vec<Vec<f64>> {
+    let point = |start: &&[(&str, f64)]| {
+        DIMENSIONS
+            .iter()
+            .map(|dimension| {
+                let given = start.iter().chain(USUAL).find(|(name, _)| *name == dimension.name);
+                coordinate(dimension, given.map_or(dimension.low, |&(_, value)| value))
+            })
+            .collect()
+    };
+    STARTS.iter().map(point).collect()
+}
+
+/// Coordinate of a value; a choice by its number.
+fn coordinate(dimension: &Dimension, value: f64) -> f64 {
+    match dimension.scale {
+        Scale::Linear => (value - dimension.low) / (dimension.high - dimension.low),
+        Scale::Log => (value / dimension.low).ln() / (dimension.high / dimension.low).ln(),
+        Scale::Choice(choices) => (value + 0.5) / choices.len() as f64,
+    }
+}
 
 /// Value of a coordinate.
 pub fn value(dimension: &Dimension, at: f64) -> f64 {
@@ -124,7 +200,10 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
         ("tool.joint.limit_deg", number("limit_deg")),
         ("tool.joint.stop_stiffness", number("stop_stiffness")),
         ("tool.joint.cross_phase_deg", number("phase_deg")),
-        ("tool.joint.cross_phase_step_deg", if word("phase_step_deg") == "90" { 90.0 } else { 0.0 }),
+        (
+            "tool.joint.cross_phase_step_deg",
+            if word("phase_step_deg") == "90" { 90.0 } else { 0.0 },
+        ),
         ("tool.pipe.outer_diameter", pipe_od),
         ("tool.pipe.inner_diameter", pipe_od * number("pipe_bore")),
         ("tool.guide.outer_diameter", guide_od),
@@ -138,8 +217,13 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
         ("contact.outer.friction_tangential", number("outer_friction")),
         ("contact.outer.friction_axial", number("outer_friction")),
     ];
+    let (kind, hinge) = match word("joint").as_str() {
+        "as_built" => ("revolute".to_owned(), "as_built"),
+        kind => (kind.to_owned(), "straight"),
+    };
     let words = [
-        ("tool.joint.kind", word("joint")),
+        ("tool.joint.kind", kind),
+        ("tool.joint.hinge_angle", hinge.to_owned()),
         ("boundary.wob_path", word("wob_path")),
     ];
     let values = numbers
@@ -148,6 +232,7 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
         .chain(words.into_iter().map(|(key, value)| (key, json!(value))));
     let mut case = Case::new(base.with_values(values)?);
     case.weight_on_bit_kn = number("wob_kn");
+    case.settling_turns = 1.0;
     case.impatient = true;
     Ok(case)
 }

@@ -1,0 +1,210 @@
+//! `flexdrill paper`: the paper's figures and findings from a run, or the search for parameters that agree with them.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+
+use super::progress::Progress;
+use crate::config::Config;
+use crate::paper::hinge::Hinge;
+use crate::paper::search::{self, Plan};
+use crate::paper::{
+    Case, Finding, PaperError, Record, Report, Verdict, figures, findings, findings_csv, record, score, write_figures,
+    write_text,
+};
+
+/// Runs the paper's case and writes its figures 9 to 17 (SVG, PNG, CSV), findings and a report.
+#[derive(Debug, Args)]
+pub struct PaperArgs {
+    /// Folder for the results; made if it is not there.
+    #[arg(long)]
+    out: PathBuf,
+    /// The tool; config/paper.yaml is the parameter set that agrees best.
+    #[arg(long, default_value = "config/paper.yaml")]
+    config: PathBuf,
+    /// Rotary speed (r/min), instead of inputs.rotary_speed.initial_rpm (40 if that is 0).
+    #[arg(long)]
+    rpm: Option<f64>,
+    /// Weight on bit (kN), instead of inputs.weight_on_bit.initial_kn (10 if that is 0).
+    #[arg(long)]
+    wob: Option<f64>,
+    /// Turns recorded, after two at full speed.
+    #[arg(long, default_value_t = 8.0)]
+    turns: f64,
+    /// Another model step than the configuration's (s).
+    #[arg(long)]
+    time_step: Option<f64>,
+    /// Values to change, as KEY=VALUE with the key's dotted path (may be given more than once).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Leave out the second run at half the step, which shows the step's error.
+    #[arg(long)]
+    no_step_check: bool,
+    /// Look for parameter sets instead: writes search.csv, a line per trial.
+    #[arg(long)]
+    search: bool,
+    #[command(flatten)]
+    plan: PlanArgs,
+}
+
+/// The plan of `--search`.
+#[derive(Debug, Args)]
+struct PlanArgs {
+    /// Mesh of the screening.
+    #[arg(long, default_value = "config/coarse.yaml", requires = "search")]
+    coarse: PathBuf,
+    /// Mesh of the finalists.
+    #[arg(long, default_value = "config/default.yaml", requires = "search")]
+    full: PathBuf,
+    /// Points of the Latin hypercube.
+    #[arg(long, default_value_t = 36, requires = "search")]
+    points: usize,
+    /// Rounds of changes to the best.
+    #[arg(long, default_value_t = 4, requires = "search")]
+    rounds: usize,
+    /// Trials per round.
+    #[arg(long, default_value_t = 12, requires = "search")]
+    per_round: usize,
+    /// Best trials repeated on the full mesh.
+    #[arg(long, default_value_t = 3, requires = "search")]
+    finalists: usize,
+    /// Seed of the plan.
+    #[arg(long, default_value_t = 20_240_327, requires = "search")]
+    seed: u64,
+}
+
+/// Turns recorded per trial of the search.
+const SEARCH_TURNS: f64 = 4.0;
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When a configuration is refused, a run fails or its energy audit does, or a file cannot be written.
+pub fn run(args: &PaperArgs) -> anyhow::Result<()> {
+    std::fs::create_dir_all(&args.out).with_context(|| format!("cannot make {}", args.out.display()))?;
+    if args.search { look_for(args) } else { draw(args) }
+}
+
+fn case(args: &PaperArgs) -> anyhow::Result<Case> {
+    let mut config = Config::load(&args.config)?;
+    if let Some(step) = args.time_step {
+        config = config.with_value("solver.time_step", step)?;
+    }
+    let mut values = Vec::new();
+    for change in &args.set {
+        let (key, value) = change
+            .split_once('=')
+            .ok_or_else(|| super::WrongUse::new(format!("--set {change}: expected KEY=VALUE")))?;
+        let value = value
+            .parse::<f64>()
+            .map_or_else(|_| value.into(), serde_json::Value::from);
+        values.push((key, value));
+    }
+    let mut case = Case::new(config.with_values(values)?);
+    case.rotary_speed_rpm = args.rpm.unwrap_or(case.rotary_speed_rpm);
+    case.weight_on_bit_kn = args.wob.unwrap_or(case.weight_on_bit_kn);
+    case.turns = args.turns;
+    Ok(case)
+}
+
+fn recorded(case: &Case, what: &str) -> Result<Record, PaperError> {
+    eprintln!(
+        "{what}: {:.1} s of model time at a step of {} ms",
+        case.times()[1],
+        1e3 * case.config.solver.time_step
+    );
+    let mut progress = Progress::new(case.times()[1]);
+    let result = record(case, |time| progress.at(time));
+    progress.done();
+    result
+}
+
+fn draw(args: &PaperArgs) -> anyhow::Result<()> {
+    let case = case(args)?;
+    let run = recorded(&case, "run")?;
+    let found = findings(&run);
+    let half: Option<Vec<Finding>> = if args.no_step_check {
+        None
+    } else {
+        let step = 0.5 * case.config.solver.time_step;
+        let half = Case {
+            config: case.config.with_value("solver.time_step", step)?,
+            ..case.clone()
+        };
+        Some(findings(&recorded(&half, "the same at half the step")?))
+    };
+    eprintln!("the hinge of Fig. 9");
+    let hinge = Hinge::run()?;
+    let figures = write_figures(&args.out, figures::figures(&run, &hinge))?;
+    let report = Report {
+        case: &case,
+        record: &run,
+        findings: &found,
+        half_step: half.as_deref(),
+        hinge: &hinge,
+        figures: &figures,
+    };
+    write_text(&args.out, "findings.csv", &findings_csv(&found))?;
+    write_text(&args.out, "report.md", &report.markdown())?;
+    write_text(&args.out, "report.html", &report.html())?;
+    println!("{:<16} {:<6} {:<8} ours", "finding", "figure", "agrees?");
+    for finding in &found {
+        println!(
+            "{:<16} {:<6} {:<8} {}",
+            finding.key,
+            finding.figure,
+            finding.verdict.word(),
+            finding.ours
+        );
+    }
+    let agree = found.iter().filter(|f| f.verdict == Verdict::Agrees).count();
+    println!(
+        "{agree} of {} agree; energy error {:.1e} of the drive's work; report: {}",
+        found.len(),
+        run.energy_error(),
+        args.out.join("report.html").display()
+    );
+    Ok(())
+}
+
+fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
+    let plan = Plan {
+        coarse: Config::load(&args.plan.coarse)?,
+        full: Config::load(&args.plan.full)?,
+        points: args.plan.points,
+        rounds: args.plan.rounds,
+        per_round: args.plan.per_round,
+        finalists: args.plan.finalists,
+        seed: args.plan.seed,
+        turns: SEARCH_TURNS,
+    };
+    let path = args.out.join("search.csv");
+    let mut table = csv::Writer::from_path(&path).with_context(|| format!("cannot write {}", path.display()))?;
+    table.write_record(search::csv_header())?;
+    let total = plan.total();
+    let mut progress = Progress::counted(total as f64);
+    let trials = search::run(&plan, |trial| -> anyhow::Result<()> {
+        table.write_record(trial.csv())?;
+        // A long search that is stopped keeps what it has.
+        table.flush()?;
+        progress.at((trial.index + 1) as f64);
+        Ok(())
+    })?;
+    progress.done();
+    for (stage, trial) in search::leaders(&trials) {
+        let (closeness, agree) = score(trial.outcome.findings());
+        println!(
+            "{stage:<12} best: trial {:>4}, score {closeness:.3}, {agree} agree",
+            trial.index
+        );
+        if stage == "full" {
+            let name = "best.yaml";
+            let config = trial.config(&plan.full)?;
+            write_text(Path::new(&args.out), name, &config.to_yaml()?)?;
+            println!("written: {}", args.out.join(name).display());
+        }
+    }
+    println!("{} trials: {}", trials.len(), path.display());
+    Ok(())
+}

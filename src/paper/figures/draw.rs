@@ -1,0 +1,295 @@
+//! Drawing a figure as SVG.
+//!
+//! plotters places everything on whole units; so the drawing is [`SCALE`] times as large as it says, which leaves curves smooth.
+
+use std::sync::OnceLock;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::register_font;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::panel::{Figure, Legend, Line, Mark, Panel};
+
+/// Units of the drawing per unit of its stated size.
+pub(super) const SCALE: u32 = 4;
+/// Width of a drawing.
+pub(super) const WIDTH: u32 = 1080 * SCALE;
+/// The font's file; so a figure is laid out alike everywhere. `font/README.md` says where it is from.
+pub(super) const FONT: &[u8] = include_bytes!("../font/Roboto-Regular.ttf");
+/// Its name.
+pub(super) const FONT_FAMILY: &str = "Roboto";
+
+/// Colours that differ for colour-blind readers too, and in grey (Okabe and Ito, 2008).
+const PALETTE: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(60, 60, 60),
+];
+
+/// Heights of texts and distances, in the units of a width of 1080.
+const TITLE: u32 = 17;
+const TEXT: u32 = 15;
+const ROW: u32 = 22;
+const LEFT: u32 = 62;
+const BOTTOM: u32 = 46;
+const MARGIN: u32 = 12;
+
+/// Why a figure could not be drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("figure {figure}: {reason}")]
+pub struct DrawError {
+    figure: &'static str,
+    reason: String,
+}
+
+/// The figure as SVG, 1080 units wide.
+///
+/// # Errors
+/// When the drawing library fails, which finite data gives no cause for.
+pub fn svg(figure: &Figure) -> Result<String, DrawError> {
+    static FONT_IS_KNOWN: OnceLock<bool> = OnceLock::new();
+    let failed = |reason: String| DrawError {
+        figure: figure.name,
+        reason,
+    };
+    if !FONT_IS_KNOWN.get_or_init(|| register_font("sans-serif", FontStyle::Normal, FONT).is_ok()) {
+        return Err(failed("the embedded font is not one".to_owned()));
+    }
+    let rows = layout(figure);
+    let height = figure.height * SCALE * rows.len() as u32;
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, (WIDTH, height)).into_drawing_area();
+        area.fill(&WHITE).map_err(|error| failed(error.to_string()))?;
+        let unit = WIDTH / figure.columns as u32;
+        for (row, panels) in rows.iter().enumerate() {
+            let mut column = 0;
+            for &index in panels {
+                let panel = &figure.panels[index];
+                let place = area.clone().shrink(
+                    (column * unit, row as u32 * figure.height * SCALE),
+                    (panel.span as u32 * unit, figure.height * SCALE),
+                );
+                draw(&place, panel).map_err(|error| failed(error.to_string()))?;
+                column += panel.span as u32;
+            }
+        }
+        area.present().map_err(|error| failed(error.to_string()))?;
+    }
+    let inner = format!("<svg width=\"{WIDTH}\" height=\"{height}\"");
+    let outer = format!("<svg width=\"{}\" height=\"{}\"", WIDTH / SCALE, height / SCALE);
+    Ok(text.replacen(&inner, &outer, 1))
+}
+
+/// Panels of each row.
+fn layout(figure: &Figure) -> Vec<Vec<usize>> {
+    let mut rows: Vec<Vec<usize>> = vec![];
+    let mut used = figure.columns;
+    for (index, panel) in figure.panels.iter().enumerate() {
+        if used + panel.span > figure.columns {
+            rows.push(vec![]);
+            used = 0;
+        }
+        used += panel.span;
+        if let Some(row) = rows.last_mut() {
+            row.push(index);
+        }
+    }
+    rows
+}
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Failure<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+fn font(size: u32) -> TextStyle<'static> {
+    ("sans-serif", size * SCALE).into_font().color(&RGBColor(30, 30, 30))
+}
+
+fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
+    let named: Vec<(usize, &Line)> = panel
+        .lines
+        .iter()
+        .enumerate()
+        .filter(|(_, line)| !line.name.is_empty())
+        .collect();
+    let legend_rows = match panel.legend {
+        _ if named.is_empty() => 0,
+        Legend::Row => 1,
+        Legend::Stacked => named.len() as u32,
+    };
+    let s = |length: u32| (length * SCALE) as i32;
+    area.draw(&Text::new(panel.title.clone(), (s(MARGIN + 4), s(8)), font(TITLE)))?;
+    let top = 8 + ROW + legend_rows * ROW;
+    legend(area, panel.legend, &named)?;
+    let (width, height) = area.dim_in_pixel();
+    let plot_width = f64::from(width) - f64::from((LEFT + 2 * MARGIN) * SCALE);
+    let plot_height = f64::from(height) - f64::from((top + BOTTOM + MARGIN) * SCALE);
+    let (x, y) = ranges(panel, plot_width / plot_height);
+    let (y_from, y_to) = if panel.down { (y[1], y[0]) } else { (y[0], y[1]) };
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(top * SCALE)
+        .margin_left(MARGIN * SCALE)
+        .margin_right(MARGIN * SCALE)
+        .margin_bottom(MARGIN * SCALE)
+        .x_label_area_size(BOTTOM * SCALE)
+        .y_label_area_size(LEFT * SCALE)
+        .build_cartesian_2d(x[0]..x[1], y_from..y_to)?;
+    let grey = RGBColor(110, 110, 110);
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(RGBColor(225, 225, 225).stroke_width(SCALE))
+        .axis_style(grey.stroke_width(SCALE))
+        .set_all_tick_mark_size((4 * SCALE) as i32)
+        .x_labels(((plot_width / f64::from(SCALE) / 70.0) as usize).clamp(4, 10))
+        .y_labels(((plot_height / f64::from(SCALE) / 45.0) as usize).clamp(4, 9))
+        .x_label_formatter(&tick)
+        .y_label_formatter(&tick)
+        .label_style(font(TEXT - 1))
+        .axis_desc_style(font(TEXT))
+        .x_desc(panel.x.as_str())
+        .y_desc(panel.y.as_str())
+        .draw()?;
+    for (index, line) in panel.lines.iter().enumerate() {
+        let color = color(index, line);
+        let points = || line.points.iter().copied();
+        match line.mark {
+            Mark::Solid | Mark::Thin | Mark::Wide => {
+                chart.draw_series(LineSeries::new(points(), color.stroke_width(stroke(line.mark))))?;
+            }
+            Mark::Dashed => {
+                let (dash, gap) = (8 * SCALE, 5 * SCALE);
+                chart.draw_series(DashedLineSeries::new(
+                    points(),
+                    dash,
+                    gap,
+                    color.stroke_width(stroke(line.mark)),
+                ))?;
+            }
+            Mark::Dots => {
+                chart.draw_series(points().map(|at| Circle::new(at, 3 * SCALE, color.filled())))?;
+            }
+            Mark::Diamond => {
+                let r = (7 * SCALE) as i32;
+                let corners = [(0, -r), (r, 0), (0, r), (-r, 0)];
+                chart.draw_series(points().map(|at| EmptyElement::at(at) + Polygon::new(corners, color.filled())))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn stroke(mark: Mark) -> u32 {
+    match mark {
+        Mark::Thin => SCALE,
+        Mark::Wide => 5 * SCALE,
+        _ => 2 * SCALE,
+    }
+}
+
+fn color(index: usize, line: &Line) -> RGBAColor {
+    let color = PALETTE[line.color.unwrap_or(index) % PALETTE.len()];
+    color.mix(if line.mark == Mark::Wide { 0.45 } else { 1.0 })
+}
+
+/// Samples of the lines with their names, above the plot.
+fn legend<'a>(area: &Area<'a>, kind: Legend, named: &[(usize, &Line)]) -> Result<(), Failure<'a>> {
+    let s = |length: u32| (length * SCALE) as i32;
+    let mut at = (s(LEFT + MARGIN), s(8 + ROW + ROW / 2));
+    let text = font(TEXT - 1).pos(Pos::new(HPos::Left, VPos::Center));
+    for &(index, line) in named {
+        let color = color(index, line);
+        let (x, y) = at;
+        let sample = [(x, y), (x + s(22), y)];
+        match line.mark {
+            Mark::Solid | Mark::Thin | Mark::Wide => {
+                area.draw(&PathElement::new(
+                    sample,
+                    color.stroke_width(stroke(line.mark).max(2 * SCALE)),
+                ))?;
+            }
+            Mark::Dashed => {
+                let style = color.stroke_width(stroke(line.mark));
+                area.draw(&PathElement::new([(x, y), (x + s(9), y)], style))?;
+                area.draw(&PathElement::new([(x + s(14), y), (x + s(23), y)], style))?;
+            }
+            Mark::Dots => area.draw(&Circle::new((x + s(11), y), 3 * SCALE, color.filled()))?,
+            Mark::Diamond => {
+                let (c, r) = (x + s(11), s(6));
+                area.draw(&Polygon::new(
+                    [(c, y - r), (c + r, y), (c, y + r), (c - r, y)],
+                    color.filled(),
+                ))?;
+            }
+        }
+        area.draw(&Text::new(line.name.clone(), (x + s(28), y), text.clone()))?;
+        match kind {
+            Legend::Row => {
+                let (width, _) = area.estimate_text_size(&line.name, &text)?;
+                at.0 += s(28 + 16) + width as i32;
+            }
+            Legend::Stacked => at.1 += s(ROW),
+        }
+    }
+    Ok(())
+}
+
+/// Ranges of both axes: the data's with some room, or of equal scale for a plot whose width over height is `aspect`.
+fn ranges(panel: &Panel, aspect: f64) -> ([f64; 2], [f64; 2]) {
+    let points = || panel.lines.iter().flat_map(|line| line.points.iter());
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        values
+            .filter(|value| value.is_finite())
+            .fold([f64::MAX, f64::MIN], |[low, high], value| {
+                [low.min(value), high.max(value)]
+            })
+    };
+    let mut x = panel.x_range.unwrap_or_else(|| range(&mut points().map(|p| p.0)));
+    let mut y = range(&mut points().map(|p| p.1));
+    for range in [&mut x, &mut y] {
+        if range[0] > range[1] {
+            *range = [0.0, 1.0];
+        }
+        if range[1] - range[0] <= 1e-12 * range[1].abs().max(1e-9) {
+            let half = 0.05 * range[1].abs().max(1e-9);
+            *range = [range[0] - half, range[1] + half];
+        }
+    }
+    let padded = |[low, high]: [f64; 2], part: f64| [low - part * (high - low), high + part * (high - low)];
+    if panel.equal {
+        let (x, y) = (padded(x, 0.05), padded(y, 0.05));
+        let scale = ((x[1] - x[0]) / aspect).max(y[1] - y[0]);
+        let around = |[low, high]: [f64; 2], width: f64| [0.5 * (low + high - width), 0.5 * (low + high + width)];
+        return (around(x, scale * aspect), around(y, scale));
+    }
+    let mut y = padded(y, 0.06);
+    if panel.from_zero {
+        y[0] = 0.0;
+    }
+    if panel.x_range.is_none() {
+        x = padded(x, 0.01);
+    }
+    (x, y)
+}
+
+/// A tick's number without noise of rounding or needless digits.
+fn tick(value: &f64) -> String {
+    let mut text = format!("{value:.6}");
+    while text.contains('.') && (text.ends_with('0') || text.ends_with('.')) {
+        let dot = text.ends_with('.');
+        text.pop();
+        if dot {
+            break;
+        }
+    }
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.replace('-', "\u{2212}")
+    }
+}
