@@ -105,8 +105,8 @@ fn pulse(station: usize, turns: f64, place: f64, part: f64, height: f64) -> f64 
 }
 
 fn zigzag(station: usize) -> f64 {
-    // Kinks at joints only: a broken line that moves most at 30 and at 75 degrees.
-    let points = [1e-3, 3e-3, 6e-3, 2e-3, 4e-3, 8e-3, 0.5e-3];
+    // Kinks at joints only: a broken line that moves most at 30 and at 75 degrees, and stands where the whirl turns over.
+    let points = [1e-3, 3e-3, 6e-3, 0.0, 4e-3, 8e-3, 0.5e-3];
     let (link, part) = (station / 5, (station % 5) as f64 / 5.0);
     let next = points[(link + 1).min(points.len() - 1)];
     points[link] + (next - points[link]) * part
@@ -114,7 +114,7 @@ fn zigzag(station: usize) -> f64 {
 
 fn as_the_paper() -> Motion {
     Motion {
-        whirl: |s| if s < 18 { 1.0 } else { -1.0 },
+        whirl: |s| if s < 15 { 1.0 } else { -1.0 },
         radius: zigzag,
         inner: |s, turns| pulse(s, turns, 87.0, 1.27 / 1.5, 19_970.0 / (1.27_f64 / 1.5).sqrt()),
         outer: |s, turns| pulse(s, turns, 81.0, 0.56 / 1.5, 4_820.0 / (0.56_f64 / 1.5).sqrt()),
@@ -199,7 +199,7 @@ fn what_differs_is_said_to_differ() {
 #[test]
 fn backward_whirl_is_not_taken_for_forward() {
     let mut motion = as_the_paper();
-    motion.whirl = |s| if s < 18 { -1.0 } else { -2.0 };
+    motion.whirl = |s| if s < 15 { -1.0 } else { -2.0 };
     let all = findings(&record(&motion));
     let whirl = get(&all, "pipe_whirl");
     assert_eq!(whirl.verdict, Verdict::No);

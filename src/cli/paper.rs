@@ -20,8 +20,8 @@ pub struct PaperArgs {
     /// Folder for the results; made if it is not there.
     #[arg(long)]
     out: PathBuf,
-    /// The tool.
-    #[arg(long, default_value = "config/default.yaml")]
+    /// The tool; config/paper.yaml is the parameter set that agrees best.
+    #[arg(long, default_value = "config/paper.yaml")]
     config: PathBuf,
     /// Rotary speed (r/min), instead of inputs.rotary_speed.initial_rpm (40 if that is 0).
     #[arg(long)]

@@ -260,3 +260,34 @@ pub fn product<T: Number>(above: &DirectionJet<T>, relative: &[[T; 3]; 3], below
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::well::{frame_along, tangent};
+
+    /// With the angle as built, the undeflected joint is at rest whatever its bend; half a turn on, the bend is kept to the other side,
+    /// so that the row is off by twice its cosine.
+    #[test]
+    fn a_hinge_as_built_fits_once_per_turn() {
+        let bend = 0.05_f64;
+        let frame = |angle: f64| frame_along(tangent(angle));
+        let description = JointDescription {
+            kind: JointKind::Revolute,
+            limit: 0.1,
+            stop_stiffness: 1e5,
+            stop_damping: 0.5,
+            cross_phase: 0.3,
+            cross_phase_step: 0.0,
+            hinge_angle: HingeAngle::AsBuilt,
+        };
+        let joint = Joint::new(&description, 0, frame(0.4), frame(0.4 + bend));
+        let turned = |psi: f64| joint.rows(&JointVector::from_column_slice(&[psi, 0.0, 0.0, psi, 0.0, 0.0]))[1].value;
+        assert_eq!(turned(0.0), 0.0);
+        let cosine = joint.hinge_cosine;
+        // sin(bend) times the cosine of the hinge's turn away from the well's plane.
+        assert!((cosine.abs() - bend.sin() * 0.3_f64.cos()).abs() < 1e-12, "{cosine}");
+        assert!((turned(std::f64::consts::PI) + 2.0 * cosine).abs() < 1e-12);
+        assert!(turned(2.0 * std::f64::consts::PI).abs() < 1e-12);
+    }
+}

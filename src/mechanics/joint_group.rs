@@ -258,6 +258,7 @@ mod tests {
                 stop_damping: 0.5,
                 cross_phase: 0.2,
                 cross_phase_step: FRAC_PI_2,
+                hinge_angle: Default::default(),
             };
             let turn = *Rotation3::from_axis_angle(&Vector3::y_axis(), 0.047).matrix();
             // Five joints, so that three lanes have none; at three of them the stop is shut, at one it opens too fast to push.
