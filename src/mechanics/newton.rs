@@ -29,8 +29,8 @@ impl Default for Tolerances {
     /// element. Rows to 1e-10 m, a tenth of what is promised.
     fn default() -> Self {
         Self {
-            force: 1e-3,
-            moment: 1e-4,
+            force: 1e-2,
+            moment: 1e-3,
             constraint: 1e-10,
             max_iterations: 15,
         }

@@ -8,11 +8,11 @@ use super::body::Body;
 use super::{Six, pivots};
 
 /// Columns of an inner node: the next node's six, the top end's six, the right-hand side.
-const COLUMNS: usize = 13;
+pub const COLUMNS: usize = 13;
 /// First of the top end's.
-const TOP: usize = 6;
+pub const TOP: usize = 6;
 /// The right-hand side.
-const RIGHT: usize = 12;
+pub const RIGHT: usize = 12;
 
 /// The solved columns of one inner node, rows filled up to eight.
 pub type Solved = [[f64; 8]; COLUMNS];
@@ -32,6 +32,17 @@ pub struct Condensed {
     pub right: [[f64; 8]; 2],
 }
 
+impl Condensed {
+    /// Nothing put on the ends.
+    pub const NOTHING: Self = Self {
+        top: [[0.0; 8]; 6],
+        bottom: [[0.0; 8]; 6],
+        upper: [[0.0; 8]; 6],
+        lower: [[0.0; 8]; 6],
+        right: [[0.0; 8]; 2],
+    };
+}
+
 /// A 6 x 6 matrix with its columns filled up to eight.
 pub fn six(m: &Matrix6<f64>) -> Six {
     std::array::from_fn(|j| std::array::from_fn(|i| if i < 6 { m[(i, j)] } else { 0.0 }))
@@ -40,9 +51,9 @@ pub fn six(m: &Matrix6<f64>) -> Six {
 /// Matrices of an inner node and its neighbours, filled up to eight rows.
 #[derive(Debug, Clone)]
 pub struct GuideChain {
-    diagonal: Vec<Six>,
-    upper: Vec<Six>,
-    lower: Vec<Six>,
+    pub(super) diagonal: Vec<Six>,
+    pub(super) upper: Vec<Six>,
+    pub(super) lower: Vec<Six>,
 }
 
 impl GuideChain {
@@ -70,11 +81,8 @@ impl GuideChain {
         solved: &mut [Solved],
     ) -> Result<Condensed, (usize, f64)> {
         let mut out = Condensed {
-            top: [[0.0; 8]; 6],
-            bottom: [[0.0; 8]; 6],
             upper: self.upper[0],
-            lower: [[0.0; 8]; 6],
-            right: [[0.0; 8]; 2],
+            ..Condensed::NOTHING
         };
         // What the node above adds: columns of L S^-1 (U, A_t, r).
         let mut carry = [[0.0; 8]; COLUMNS];

@@ -4,6 +4,7 @@ use nalgebra::Matrix6;
 
 use super::super::reduction::PLACES;
 use super::super::vector::Vector;
+use super::guide_lanes::{LANES, expand_lanes};
 use super::guide_span::expand;
 use super::operator::{Edge, Matrices, Operator, place};
 use super::pivots::{halves_mut, load};
@@ -95,7 +96,7 @@ impl CondensedElimination {
                     .body
                     .expand::<V>(&ends.values(&ends.guide, rhs), still);
                 scatter(still, first + 6, span.inner, rhs);
-            } else {
+            } else if !self.grouped[k] {
                 let values = ends.values(&ends.guide, rhs);
                 let (mut top, mut bottom) = ([0.0; 6], [0.0; 6]);
                 top.copy_from_slice(&values[..6]);
@@ -105,6 +106,35 @@ impl CondensedElimination {
                     let at = first + 12 * node + 6;
                     rhs[at..at + 6].copy_from_slice(&x[..6]);
                 });
+            }
+        }
+        for g in 0..self.groups.len() {
+            self.recover_group::<V>(operator, g, rhs);
+        }
+    }
+
+    /// Guides that were eliminated together.
+    #[inline(always)]
+    fn recover_group<V: Vector>(&mut self, operator: &Operator, g: usize, rhs: &mut [f64]) {
+        let group = &self.groups[g];
+        let nodes = operator.guides[group.guide].body.nodes();
+        let (mut top, mut bottom) = ([[0.0; LANES]; 6], [[0.0; LANES]; 6]);
+        for (lane, &k) in group.spans.iter().enumerate() {
+            let ends = End::of(operator, k);
+            for i in 0..6 {
+                top[i][lane] = rhs[ends.guide[0] + i];
+                bottom[i][lane] = rhs[ends.guide[1] + i];
+            }
+        }
+        let inner = &mut self.lane_values[..nodes];
+        let solved = &self.solved_lanes[g * self.longest..g * self.longest + nodes];
+        expand_lanes::<V>(solved, &top, &bottom, inner);
+        for (lane, &k) in group.spans.iter().enumerate().take(group.count) {
+            let first = operator.layout().offset(operator.spans[k].first) + 6;
+            for (node, inner) in inner.iter().enumerate() {
+                for (to, from) in rhs[first + 12 * node..first + 12 * node + 6].iter_mut().zip(inner) {
+                    *to = from[lane];
+                }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! One iteration's solution: spans condensed, joints eliminated from the top down, everything recovered from the bottom up.
 
-use super::super::changes::{Changes, Touching};
+use super::super::changes::Changes;
 use super::super::instructions::Instructions;
 use super::super::reduction::active;
 #[cfg(target_arch = "x86_64")]
@@ -8,10 +8,10 @@ use super::super::vector::{Avx2, Avx512};
 use super::super::vector::{Portable, Vector};
 use super::super::{Layout, Singular};
 use super::additions::{add_block, add_contact, add_guide, add_joint, take};
+use super::guide_lanes::{self, Group, LANES, SolvedLanes};
 use super::guide_span::{Condensed, Solved, six};
 use super::operator::{Edge, Matrices, Operator, place, spread};
 use super::pivots::{self, halves_mut};
-use super::span::{End, gather};
 use super::{Block, COLUMNS, Columns, GUIDE, MULTIPLIER, SIZE, Six, U};
 
 /// How a span takes part in this iteration.
@@ -42,11 +42,22 @@ pub struct CondensedElimination {
     pub(super) guides: Vec<f64>,
     pub(super) room: usize,
     /// Right-hand sides inside a span.
-    forces: Vec<f64>,
-    /// Guides eliminated anew, by station.
+    pub(super) forces: Vec<f64>,
+    /// Spans whose guides are eliminated together; those of [`Mode::Guide`] that are in no group are eliminated alone.
+    pub(super) groups: Vec<Group>,
+    pub(super) grouped: Vec<bool>,
+    /// Per kind of guide, the group that still has room.
+    pub(super) unfilled: Vec<Option<usize>>,
+    /// Inner nodes of the longest span.
+    pub(super) longest: usize,
+    /// Right-hand sides, and later displacements, inside the spans of a group, by node.
+    pub(super) lane_values: Vec<[[f64; LANES]; 6]>,
+    /// Guides eliminated together: `longest` nodes per group.
+    pub(super) solved_lanes: Vec<SolvedLanes>,
+    /// Guides eliminated alone, by station.
     pub(super) solved: Vec<Solved>,
     /// What the guides of the spans put on their ends in this iteration, where eliminated anew.
-    condensed: Vec<Condensed>,
+    pub(super) condensed: Vec<Condensed>,
     pub(super) swept: Vec<Swept>,
     /// S^-1 (U, r) per swept station.
     pub(super) columns: Vec<Columns>,
@@ -86,13 +97,6 @@ impl CondensedElimination {
         }
         let room = (6 * longest).next_multiple_of(8);
         let spans = joints.len() + 1;
-        let nothing = Condensed {
-            top: [[0.0; 8]; 6],
-            bottom: [[0.0; 8]; 6],
-            upper: [[0.0; 8]; 6],
-            lower: [[0.0; 8]; 6],
-            right: [[0.0; 8]; 2],
-        };
         Self {
             instructions,
             modes: vec![Mode::Still; spans],
@@ -100,8 +104,14 @@ impl CondensedElimination {
             guides: vec![0.0; room * spans],
             room,
             forces: vec![0.0; room],
+            groups: Vec::with_capacity(spans),
+            grouped: vec![false; spans],
+            unfilled: vec![None; spans],
+            longest,
+            lane_values: vec![[[0.0; LANES]; 6]; longest],
+            solved_lanes: vec![guide_lanes::NOTHING; longest * spans],
             solved: vec![[[0.0; 8]; COLUMNS]; stations],
-            condensed: vec![nothing; spans],
+            condensed: vec![Condensed::NOTHING; spans],
             swept: Vec::with_capacity(stations),
             columns: vec![[[0.0; SIZE]; COLUMNS]; stations],
             offsets: vec![[0.0; 3]; joints.len() + 2],
@@ -143,74 +153,11 @@ impl CondensedElimination {
 
     #[inline(always)]
     fn run<V: Vector>(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
-        self.condense_spans::<V>(operator, changes, rhs)?;
+        self.condense_spans::<V>(operator, changes, rhs);
+        self.condense_guides::<V>(operator, changes, rhs)?;
         self.sweep::<V>(operator, changes, rhs)?;
         self.recover::<V>(operator, rhs);
         self.recover_spans::<V>(operator, rhs);
-        Ok(())
-    }
-
-    /// Takes the inner stations' right-hand sides to the ends of their spans.
-    #[inline(always)]
-    fn condense_spans<V: Vector>(
-        &mut self,
-        operator: &Operator,
-        changes: &Changes,
-        rhs: &mut [f64],
-    ) -> Result<(), Singular> {
-        let layout = operator.layout();
-        for (k, span) in operator.spans.iter().enumerate() {
-            let inner = span.first..span.first + span.inner;
-            let mut mode = Mode::Still;
-            for touching in &changes.touching[inner.clone()] {
-                match touching {
-                    Touching::Both => mode = Mode::Open,
-                    Touching::Guide if mode == Mode::Still => mode = Mode::Guide,
-                    _ => {}
-                }
-            }
-            self.modes[k] = mode;
-            if mode == Mode::Open || span.inner == 0 {
-                continue;
-            }
-            let ends = End::of(operator, k);
-            let forces = &mut self.forces;
-            gather(forces, layout.offset(span.first), span.inner, rhs);
-            let still = &mut self.pipes[k * self.room..(k + 1) * self.room];
-            let onto = operator.pipes[span.pipe].condense::<V>(forces, still);
-            for i in 0..6 {
-                rhs[ends.pipe[0] + i] += onto[i];
-                rhs[ends.pipe[1] + i] += onto[6 + i];
-            }
-            gather(forces, layout.offset(span.first) + 6, span.inner, rhs);
-            let guide = &operator.guides[span.guide];
-            if mode == Mode::Still {
-                let still = &mut self.guides[k * self.room..(k + 1) * self.room];
-                let onto = guide.body.condense::<V>(forces, still);
-                for i in 0..6 {
-                    rhs[ends.guide[0] + i] += onto[i];
-                    rhs[ends.guide[1] + i] += onto[6 + i];
-                }
-            } else {
-                let condensed = guide
-                    .chain
-                    .condense::<V>(
-                        &changes.touching[inner.clone()],
-                        &changes.contact[inner.clone()],
-                        forces,
-                        &mut self.solved[inner],
-                    )
-                    .map_err(|(node, pivot)| Singular {
-                        station: span.first + node,
-                        pivot,
-                    })?;
-                for i in 0..6 {
-                    rhs[ends.guide[0] + i] += condensed.right[0][i];
-                    rhs[ends.guide[1] + i] += condensed.right[1][i];
-                }
-                self.condensed[k] = condensed;
-            }
-        }
         Ok(())
     }
 
