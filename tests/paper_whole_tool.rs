@@ -172,7 +172,7 @@ fn ripple(record: &Record) -> f64 {
 #[test]
 fn with_bit_torque_statistics_agree_and_energy_adds_up() {
     let h = default_step();
-    let duration = 20.0;
+    let duration = 30.0;
     let perturbed: Vec<Record> = [0.0, 1.0, -1.0]
         .map(|newton| run(&configured(0.235, h), duration, newton))
         .into();

@@ -81,7 +81,7 @@ impl Default for Solver {
             time_step: 0.0005,
             scheme: TimeScheme::GeneralisedAlpha,
             gamma: 0.55,
-            rho_infinity: 0.4,
+            rho_infinity: 0.45,
             max_iterations: 15,
             max_halvings: 6,
         }

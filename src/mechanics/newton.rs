@@ -25,8 +25,8 @@ pub struct Tolerances {
 }
 
 impl Default for Tolerances {
-    /// 1 mN and 0.1 mN m: a ten-millionth of a weight on bit of 10 kN and of its torque, four orders above the rounding of the stiffest
-    /// element. Rows to 1e-10 m, a tenth of what is promised.
+    /// 10 mN and 1 mN m: a millionth of a weight on bit of 10 kN and a hundred-thousandth of its torque, three orders below what the step
+    /// itself leaves, five above the rounding of the stiffest element. Rows to 1e-10 m, a tenth of what is promised.
     fn default() -> Self {
         Self {
             force: 1e-2,

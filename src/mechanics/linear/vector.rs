@@ -26,6 +26,8 @@ pub trait Vector: Copy {
     fn paired(self) -> Self;
     /// Lanes 2, 1, 0, 5, 4, 3, 6, 7: in a node's values, along and across exchanged.
     fn across(self) -> Self;
+    /// Lanes 1, 0, 3, 2, 5, 4, 7, 6: neighbours exchanged.
+    fn swapped(self) -> Self;
     /// Whether some lane of `self` is larger in size than the same lane of `bound`; lanes that are not numbers count as larger.
     fn any_beyond(self, bound: Self) -> bool;
 }
@@ -93,6 +95,11 @@ impl Vector for Portable {
     fn across(self) -> Self {
         let x = self.0;
         Self([x[2], x[1], x[0], x[5], x[4], x[3], x[6], x[7]])
+    }
+    #[inline(always)]
+    fn swapped(self) -> Self {
+        let x = self.0;
+        Self([x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6]])
     }
     #[inline(always)]
     fn any_beyond(self, bound: Self) -> bool {
@@ -178,6 +185,10 @@ mod x86 {
             Self::load(&[x[2], x[1], x[0], x[5], x[4], x[3], x[6], x[7]])
         }
         #[inline(always)]
+        fn swapped(self) -> Self {
+            unsafe { Self(_mm256_permute_pd::<0b0101>(self.0), _mm256_permute_pd::<0b0101>(self.1)) }
+        }
+        #[inline(always)]
         fn any_beyond(self, bound: Self) -> bool {
             unsafe {
                 let sign = _mm256_set1_pd(-0.0);
@@ -228,6 +239,10 @@ mod x86 {
         #[inline(always)]
         fn across(self) -> Self {
             unsafe { Self(_mm512_permutexvar_pd(_mm512_setr_epi64(2, 1, 0, 5, 4, 3, 6, 7), self.0)) }
+        }
+        #[inline(always)]
+        fn swapped(self) -> Self {
+            unsafe { Self(_mm512_permute_pd::<0b0101_0101>(self.0)) }
         }
         #[inline(always)]
         fn any_beyond(self, bound: Self) -> bool {

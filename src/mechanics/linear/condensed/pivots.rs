@@ -5,17 +5,35 @@ use super::super::vector::Vector;
 use super::{SIZE, Six};
 
 /// Rows after k: 1 where a pivot may be looked for.
-const AFTER: [[f64; SIZE]; SIZE] = table(true);
+const AFTER: [[f64; SIZE]; SIZE] = table(Rows::After);
+/// Rows after k + 1.
+const BEYOND: [[f64; SIZE]; SIZE] = table(Rows::Beyond);
 /// All rows but k.
-const OTHERS: [[f64; SIZE]; SIZE] = table(false);
+const OTHERS: [[f64; SIZE]; SIZE] = table(Rows::Others);
+/// All rows but k and k + 1.
+const BESIDE: [[f64; SIZE]; SIZE] = table(Rows::Beside);
 
-const fn table(only_after: bool) -> [[f64; SIZE]; SIZE] {
+/// Rows in relation to a pivot.
+enum Rows {
+    After,
+    Beyond,
+    Others,
+    Beside,
+}
+
+const fn table(rows: Rows) -> [[f64; SIZE]; SIZE] {
     let mut out = [[0.0; SIZE]; SIZE];
     let mut k = 0;
     while k < SIZE {
         let mut r = 0;
         while r < SIZE {
-            if r > k || (!only_after && r < k) {
+            let counts = match rows {
+                Rows::After => r > k,
+                Rows::Beyond => r > k + 1,
+                Rows::Others => r != k,
+                Rows::Beside => r != k && r != k + 1,
+            };
+            if counts {
                 out[k][r] = 1.0;
             }
             r += 1;
@@ -84,25 +102,87 @@ fn pivot<V: Vector>(column: &[f64; SIZE], k: usize) -> Pivot<V> {
     }
 }
 
-/// Takes two pivots, k and k + 1, out of a column, which is read and written once. `between` is the first one's multiplier of row k + 1.
-#[inline(always)]
-fn take_two<V: Vector>(column: &mut [f64; SIZE], k: usize, first: &Pivot<V>, second: &Pivot<V>, between: f64) {
-    let x = column[k];
-    let y = column[k + 1] - between * x;
-    let (x, y) = (V::splat(x), V::splat(y));
-    for (half, (first, second)) in halves_mut(column)
-        .iter_mut()
-        .zip(first.multipliers.into_iter().zip(second.multipliers))
-    {
-        V::load(half)
-            .minus_product(first, x)
-            .minus_product(second, y)
-            .store(half);
+/// Rows k and k + 1 of columns k and k + 1, P, as one pivot.
+struct Pair<V> {
+    /// (Columns k and k + 1) P^-1, without the pair's own rows: what takes them out of another column.
+    multipliers: [[V; 2]; 2],
+    /// Diagonal of P^-1.
+    own: [f64; 2],
+    /// The rest of P^-1, by rows.
+    partner: [f64; 2],
+}
+
+impl<V: Vector> Pair<V> {
+    /// `None` if the pair will not do: as with one pivot, no multiplier of a row still to come may be larger than 1 / [`PIVOT_RATIO`].
+    #[inline(always)]
+    fn of(first: &[f64; SIZE], second: &[f64; SIZE], k: usize) -> Option<Self> {
+        let (p, q, r, s) = (first[k], second[k], first[k + 1], second[k + 1]);
+        let reciprocal = 1.0 / (p * s - q * r);
+        let (own, partner) = ([s * reciprocal, p * reciprocal], [-(q * reciprocal), -(r * reciprocal)]);
+        let (first, second): ([V; 2], [V; 2]) = (load(first), load(second));
+        let (beside, beyond): ([V; 2], [V; 2]) = (load(&BESIDE[k]), load(&BEYOND[k]));
+        let bound = V::splat(1.0 / PIVOT_RATIO);
+        let mut multipliers = [[V::splat(0.0); 2]; 2];
+        // Without a reciprocal nothing will do; elsewhere rows that are taken already may be as large as they like.
+        let mut fails = V::splat(reciprocal).any_beyond(V::splat(f64::MAX));
+        for half in 0..2 {
+            let (first, second) = (first[half].times(beside[half]), second[half].times(beside[half]));
+            let by_first = first.times(V::splat(own[0])).plus_product(second, V::splat(partner[1]));
+            let by_second = second.times(V::splat(own[1])).plus_product(first, V::splat(partner[0]));
+            fails |= by_first.times(beyond[half]).any_beyond(bound) | by_second.times(beyond[half]).any_beyond(bound);
+            (multipliers[0][half], multipliers[1][half]) = (by_first, by_second);
+        }
+        (!fails).then_some(Self {
+            multipliers,
+            own,
+            partner,
+        })
+    }
+
+    /// Takes the pair out of another column, which is read and written once.
+    #[inline(always)]
+    fn take(&self, column: &mut [f64; SIZE], k: usize) {
+        let (x, y) = (V::splat(column[k]), V::splat(column[k + 1]));
+        for (n, half) in halves_mut(column).iter_mut().enumerate() {
+            V::load(half)
+                .minus_product(self.multipliers[0][n], x)
+                .minus_product(self.multipliers[1][n], y)
+                .store(half);
+        }
     }
 }
 
+/// Inverse of the pivots, which are one by one or in pairs, as what of each row is its own and what its neighbour's.
+struct Pivots {
+    own: [f64; SIZE],
+    partner: [f64; SIZE],
+}
+
+/// Pivots k and k + 1 one after the other, with rows exchanged where that is better.
+#[cold]
+#[inline(never)]
+fn one_by_one<V: Vector, const C: usize>(
+    k: usize,
+    a: &mut [[f64; SIZE]; SIZE],
+    b: &mut [[f64; SIZE]; C],
+    pivots: &mut Pivots,
+) -> Result<(), f64> {
+    for k in k..k + 2 {
+        if !will_do::<V>(&a[k], k) {
+            exchange(k, a, b)?;
+        }
+        let next: Pivot<V> = pivot(&a[k], k);
+        (pivots.own[k], pivots.partner[k]) = (next.reciprocal, 0.0);
+        for column in a[k + 1..].iter_mut().chain(b.iter_mut()) {
+            subtract(column, next.multipliers, column[k]);
+        }
+    }
+    Ok(())
+}
+
 /// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. The last column of `b` is full; of the others, only the first
-/// `active(k)` have entries in rows 0 to k. Two pivots are taken at a time: writing the columns is what limits the speed.
+/// `active(k)` have entries in rows 0 to k. Two pivots are taken at a time, by the inverse of the two by two: one division to wait for
+/// instead of two, and every column is written half as often.
 ///
 /// # Errors
 /// The size of the largest available pivot when it is zero or not a number.
@@ -112,49 +192,35 @@ pub fn sixteen<V: Vector, const C: usize>(
     b: &mut [[f64; SIZE]; C],
     active: impl Fn(usize) -> usize,
 ) -> Result<(), f64> {
-    let mut reciprocals = [0.0; SIZE];
+    let mut pivots = Pivots {
+        own: [0.0; SIZE],
+        partner: [0.0; SIZE],
+    };
     let mut exchanged = false;
     let mut k = 0;
     while k < SIZE {
-        if !will_do::<V>(&a[k], k) {
-            exchange(k, a, b)?;
-            exchanged = true;
-        }
-        let first: Pivot<V> = pivot(&a[k], k);
-        reciprocals[k] = first.reciprocal;
-        let between = a[k][k + 1] * first.reciprocal;
-        let next = &mut a[k + 1];
-        subtract(next, first.multipliers, next[k]);
-        if !will_do::<V>(&a[k + 1], k + 1) {
-            // The rows are exchanged in all columns, so the first pivot must have been taken out of all of them.
-            for column in a[k + 2..].iter_mut().chain(b.iter_mut()) {
-                subtract(column, first.multipliers, column[k]);
-            }
-            exchange(k + 1, a, b)?;
-            exchanged = true;
-            let second: Pivot<V> = pivot(&a[k + 1], k + 1);
-            reciprocals[k + 1] = second.reciprocal;
-            for column in a[k + 2..].iter_mut().chain(b.iter_mut()) {
-                subtract(column, second.multipliers, column[k + 1]);
-            }
-        } else {
-            let second: Pivot<V> = pivot(&a[k + 1], k + 1);
-            reciprocals[k + 1] = second.reciprocal;
+        if let Some(pair) = Pair::<V>::of(&a[k], &a[k + 1], k) {
             for column in &mut a[k + 2..] {
-                take_two(column, k, &first, &second, between);
+                pair.take(column, k);
             }
             let active = if exchanged { C - 1 } else { active(k + 1).min(C - 1) };
             for column in &mut b[..active] {
-                take_two(column, k, &first, &second, between);
+                pair.take(column, k);
             }
-            take_two(&mut b[C - 1], k, &first, &second, between);
+            pair.take(&mut b[C - 1], k);
+            pivots.own[k..k + 2].copy_from_slice(&pair.own);
+            pivots.partner[k..k + 2].copy_from_slice(&pair.partner);
+        } else {
+            one_by_one::<V, C>(k, a, b, &mut pivots)?;
+            exchanged = true;
         }
         k += 2;
     }
-    let scale: [V; 2] = load(&reciprocals);
+    let (own, partner): ([V; 2], [V; 2]) = (load(&pivots.own), load(&pivots.partner));
     for column in b.iter_mut() {
-        for (half, scale) in halves_mut(column).iter_mut().zip(scale) {
-            V::load(half).times(scale).store(half);
+        for (n, half) in halves_mut(column).iter_mut().enumerate() {
+            let x = V::load(half);
+            x.times(own[n]).plus_product(x.swapped(), partner[n]).store(half);
         }
     }
     Ok(())
@@ -219,9 +285,14 @@ mod tests {
             let (mut a1, mut b1) = (a, b);
             solve_columns::<SIZE, 13, false>(&mut a1, &mut b1, |_| 12).unwrap();
             sixteen::<Portable, 13>(&mut a, &mut b, |_| 12).unwrap();
+            // Where the diagonal is large only rounding differs. Pivots a thousand times smaller than their column are taken in both ways, but
+            // in another order, so that six of sixteen digits are left for certain in the worst of fifty matrices.
+            let granted = if round % 2 == 0 { 1e-13 } else { 1e-6 };
             for (x, expected) in b.as_flattened().iter().zip(b1.as_flattened()) {
-                // The same operations in the same order, but for the product with the reciprocal.
-                assert!((x - expected).abs() < 1e-9 * expected.abs().max(1.0), "{x} {expected}");
+                assert!(
+                    (x - expected).abs() < granted * expected.abs().max(1.0),
+                    "{round}: {x} {expected}"
+                );
             }
         }
     }
