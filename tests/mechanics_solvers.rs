@@ -196,6 +196,23 @@ fn lasting(joints: &[Option<Joint>], places: &[usize], seed: u64) -> BlockSystem
     system
 }
 
+/// Gives all spans of three inner stations between every fourth station the guide of the first.
+fn with_guides_alike(mut system: BlockSystem) -> BlockSystem {
+    for station in 4..system.layout().stations() - 1 {
+        let first = station % 4;
+        (system.upper[station].guide, system.lower[station].guide) =
+            (system.upper[first].guide, system.lower[first].guide);
+        if first != 0 {
+            for column in 6..12 {
+                for row in 6..12 {
+                    *system.entry(station, row, column) = *system.entry(first, row, column);
+                }
+            }
+        }
+    }
+    system
+}
+
 /// Random contacts and joints: per station nothing, the guide or both, as `touching` says.
 fn changes(layout: &Layout, joints: &[usize], touching: &[Touching], held: &[usize], seed: u64) -> Changes {
     let mut random = Random(seed);
@@ -236,19 +253,26 @@ fn condensed_links() {
     let link = |end| [plain.as_slice(), &[end]].concat();
     let free = [vec![None], link(one), link(one), link(one), link(None)].concat();
     let tied = [vec![None], link(one), link(one), link(one), link(Some(Tie))].concat();
+    let long = [vec![None], [plain.as_slice(), &[one]].concat().repeat(20), link(None)].concat();
     let dense = vec![None, one, one, None, one, None, None, None, None, None, one, None];
     for (joints, held) in [
         (free.clone(), vec![]),
         // A support inside a link, the guide's at a joint, and at both ends.
         (free, vec![(2, 1), (4, 7), (0, 0), (0, 3), (16, 1), (16, 8)]),
         (tied, vec![(0, 0)]),
+        // So many like spans that their guides are eliminated together.
+        (long.clone(), vec![(2, 1), (0, 0)]),
         (dense, vec![]),
         (vec![None; 5], vec![]),
     ] {
+        let alike = joints == long;
         let places: Vec<usize> = (0..joints.len()).filter(|&s| joints[s] == one).collect();
-        let mut counted = [0; 3];
+        let mut counted = [0; 4];
         for seed in 0..20 {
             let mut lasting = lasting(&joints, &places, seed);
+            if alike {
+                lasting = with_guides_alike(lasting);
+            }
             let unknowns: Vec<usize> = held.iter().map(|&(s, k)| lasting.layout().offset(s) + k).collect();
             unknowns.iter().for_each(|&unknown| lasting.hold(unknown));
             let mut random = Random(seed + 500);
@@ -256,7 +280,7 @@ fn condensed_links() {
                 .iter()
                 .map(|_| match random.next() {
                     x if x < 0.2 => Nothing,
-                    x if x < 0.85 => Guide,
+                    x if x < 0.85 || alike && x < 0.97 => Guide,
                     _ => Both,
                 })
                 .collect();
@@ -287,7 +311,8 @@ fn condensed_links() {
                     .for_each(|(sum, n)| *sum += n);
             }
         }
-        assert!(counted[1] > 0 && counted[2] > 0, "spans of one kind only: {counted:?}");
+        assert!(counted[1] > 0 && counted[3] > 0, "spans of one kind only: {counted:?}");
+        assert_eq!(counted[2] > 0, alike, "guides together: {counted:?}");
     }
 }
 

@@ -118,9 +118,18 @@ impl CondensedElimination {
         }
     }
 
-    /// Spans of the last solution as (without contact inside, with the guide eliminated anew, open).
-    pub fn span_counts(&self) -> [usize; 3] {
-        [Mode::Still, Mode::Guide, Mode::Open].map(|mode| self.modes.iter().filter(|&&m| m == mode).count())
+    /// Spans of the last solution as (without contact inside, with the guide eliminated alone, with others, open).
+    pub fn span_counts(&self) -> [usize; 4] {
+        let mut counts = [0; 4];
+        for (mode, &grouped) in self.modes.iter().zip(&self.grouped) {
+            counts[match mode {
+                Mode::Still => 0,
+                Mode::Guide if !grouped => 1,
+                Mode::Guide => 2,
+                Mode::Open => 3,
+            }] += 1;
+        }
+        counts
     }
 
     /// Solves (lasting + changes) x = rhs; `rhs` becomes x.
