@@ -46,7 +46,7 @@ impl FullSpectrum {
         let mut half = 1;
         while half < SIZE {
             twiddle.extend((0..half).map(|index| {
-                let (sin, cos) = (-0.5 * TAU * index as f64 / half as f64).sin_cos();
+                let (sin, cos) = libm::sincos(-0.5 * TAU * index as f64 / half as f64);
                 [cos, sin]
             }));
             half *= 2;
@@ -115,7 +115,7 @@ impl FullSpectrum {
     fn peak_offset(&self, peak: usize, size: usize, is_forward: bool) -> f64 {
         let log = |index: usize| {
             let at = if is_forward { index } else { (size - index) % size };
-            self.power[at].max(f64::MIN_POSITIVE).ln()
+            libm::log(self.power[at].max(f64::MIN_POSITIVE))
         };
         let (left, middle, right) = (log(peak - 1), log(peak), log(peak + 1));
         let curvature = left - 2.0 * middle + right;
@@ -131,8 +131,8 @@ impl FullSpectrum {
         let shift = SIZE.trailing_zeros() - size.trailing_zeros();
         self.line[..size].fill([0.0; 2]);
         // cos of the window by rotation, one multiplication per point instead of one cosine.
-        let (step_sin, step_cos) = (TAU / position.len() as f64).sin_cos();
-        let (mut sin, mut cos) = (0.5 * TAU / position.len() as f64).sin_cos();
+        let (step_sin, step_cos) = libm::sincos(TAU / position.len() as f64);
+        let (mut sin, mut cos) = libm::sincos(0.5 * TAU / position.len() as f64);
         for ([y, z], index) in position.iter().zip(&self.reversed) {
             let weight = 0.5 * (1.0 - cos);
             self.line[index >> shift] = [weight * y, weight * z];

@@ -52,8 +52,8 @@ pub(super) fn measure_and_stretch(points: &mut Points, detrend: bool, min_radius
     let stretch = if is_line {
         [1.0, 0.0, 0.0, 1.0]
     } else {
-        let angle = 0.5 * (2.0 * yz).atan2(yy - zz);
-        let (sin, cos) = angle.sin_cos();
+        let angle = 0.5 * libm::atan2(2.0 * yz, yy - zz);
+        let (sin, cos) = libm::sincos(angle);
         let (along, across) = ((2.0 * major).sqrt().recip(), (2.0 * minor).sqrt().recip());
         [along * cos, along * sin, -across * sin, across * cos]
     };
@@ -70,7 +70,7 @@ pub(super) fn measure_and_stretch(points: &mut Points, detrend: bool, min_radius
         // Twice the area of the stretched orbit, whose mean square radius is 1.
         let area: f64 = points.position.windows(2).map(|pair| cross(pair[0], pair[1])).sum();
         // A chord cuts the arc: the area of one step is r2/2 sin(phase step), hence the arc sine.
-        orbit.rate = (area / (count as f64 - 1.0)).clamp(-1.0, 1.0).asin() / points.spacing;
+        orbit.rate = libm::asin((area / (count as f64 - 1.0)).clamp(-1.0, 1.0)) / points.spacing;
     }
     orbit
 }
@@ -144,7 +144,7 @@ fn turned(position: &[[f64; 2]]) -> f64 {
         };
         before = now;
     }
-    let within = |[y, z]: [f64; 2]| z.atan2(y).rem_euclid(TAU) - f64::from(quadrant([y, z])) * FRAC_PI_2;
+    let within = |[y, z]: [f64; 2]| libm::atan2(z, y).rem_euclid(TAU) - f64::from(quadrant([y, z])) * FRAC_PI_2;
     f64::from(quarters) * FRAC_PI_2 + within(*last) - within(*first)
 }
 

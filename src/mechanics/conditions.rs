@@ -71,7 +71,7 @@ impl LoadHistory {
                 amplitude,
                 frequency,
                 phase,
-            } => amplitude * (std::f64::consts::TAU * frequency * time + phase).sin(),
+            } => amplitude * libm::sin(std::f64::consts::TAU * frequency * time + phase),
             Self::Table(points) => interpolate(points, time),
         }
     }

@@ -114,14 +114,14 @@ impl Joint {
 
     /// a_z(a) . a_y(b) = 0: the two arms of the cross stay normal to each other.
     fn cross_row(&self, q: &JointVector) -> Row {
-        let a_z = transverse_axis((q[0] + self.phase + FRAC_PI_2).sin_cos(), q[1], q[2]);
-        let a_y = transverse_axis((q[3] + self.phase).sin_cos(), q[4], q[5]);
+        let a_z = transverse_axis(libm::sincos(q[0] + self.phase + FRAC_PI_2), q[1], q[2]);
+        let a_y = transverse_axis(libm::sincos(q[3] + self.phase), q[4], q[5]);
         Row::bilinear(&a_z, &self.relative, &a_y)
     }
 
     /// a_z(a) . a_x(b) - cos(theta) = 0.
     fn hinge_row(&self, q: &JointVector) -> Row {
-        let a_z = transverse_axis((q[0] + self.phase + FRAC_PI_2).sin_cos(), q[1], q[2]);
+        let a_z = transverse_axis(libm::sincos(q[0] + self.phase + FRAC_PI_2), q[1], q[2]);
         let a_x = shaft_axis(q[4], q[5]);
         let mut row = Row::bilinear(&a_z, &self.relative, &a_x);
         row.value -= self.hinge_cosine;
@@ -132,7 +132,7 @@ impl Joint {
     pub fn bend_angle(&self, q: &JointVector) -> f64 {
         let upper = Vector3::from(shaft_direction(q[1], q[2]));
         let lower = self.relative * Vector3::from(shaft_direction(q[4], q[5]));
-        upper.cross(&lower).norm().atan2(upper.dot(&lower))
+        libm::atan2(upper.cross(&lower).norm(), upper.dot(&lower))
     }
 
     /// Toolface of the bend (rad, -pi to pi): direction in which the lower link turns away from the upper one, from the
@@ -140,7 +140,7 @@ impl Joint {
     pub fn bend_toolface(&self, q: &JointVector) -> f64 {
         let away =
             self.relative * Vector3::from(shaft_direction(q[4], q[5])) - Vector3::from(shaft_direction(q[1], q[2]));
-        away.y.atan2(-away.z)
+        libm::atan2(away.y, -away.z)
     }
 
     /// The stop at rotations `q` and rates `rate`: M = k (angle - limit)(1 + c angle') >= 0, continuous at onset.
@@ -162,7 +162,7 @@ impl Joint {
         stop.energy = 0.5 * self.stop_stiffness * over * over;
         // cos(angle) is smooth in the rotations; the angle follows from it by the chain rule.
         let cosine = Row::bilinear(&shaft_axis(q[1], q[2]), &self.relative, &shaft_axis(q[4], q[5]));
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = libm::sincos(angle);
         let gradient = -cosine.gradient / sin;
         let hessian = -cosine.hessian / sin - gradient * gradient.transpose() * (cos / sin);
         let angle_rate = gradient.dot(rate);

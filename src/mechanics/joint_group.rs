@@ -59,7 +59,7 @@ impl JointGroup {
             relative: std::array::from_fn(|i| std::array::from_fn(|j| each(&|joint| joint.relative[(i, j)]))),
             phase: each(&|joint| joint.phase),
             limit: each(&|joint| joint.limit),
-            limit_cosine: each(&|joint| joint.limit.cos()),
+            limit_cosine: each(&|joint| libm::cos(joint.limit)),
             stop_stiffness: at(0).stop_stiffness,
             stop_damping: at(0).stop_damping,
             row: zero,
@@ -157,7 +157,7 @@ impl JointGroup {
         (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).store(&mut sine);
         for lane in 0..8 {
             let sine = sine[lane].sqrt();
-            let over = sine.atan2(cosine[lane]) - self.limit[lane];
+            let over = libm::atan2(sine, cosine[lane]) - self.limit[lane];
             if over > 0.0 {
                 spring[lane] = self.stop_stiffness * over;
                 self.energy[lane] = 0.5 * spring[lane] * over;

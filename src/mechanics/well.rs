@@ -86,12 +86,12 @@ impl Piece {
 }
 
 fn sinc(x: f64) -> f64 {
-    if x.abs() < 1e-8 { 1.0 } else { x.sin() / x }
+    if x.abs() < 1e-8 { 1.0 } else { libm::sin(x) / x }
 }
 
 /// Unit tangent at inclination `inclination` (rad): (sin, 0, cos).
 pub fn tangent(inclination: f64) -> Vector3<f64> {
-    Vector3::new(inclination.sin(), 0.0, inclination.cos())
+    Vector3::new(libm::sin(inclination), 0.0, libm::cos(inclination))
 }
 
 /// Frame whose x axis is `axis` (unit, in the X-Z plane), y is world Y and z = x cross y, the low side. Columns are

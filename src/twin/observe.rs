@@ -312,7 +312,7 @@ fn fill_joints(stepper: &Stepper, out: &mut Joints) {
         let first = model.multipliers(j);
         let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
         out.axial_force[j] = -force.x;
-        out.shear_force[j] = force.y.hypot(force.z);
+        out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
         let rows = &forces.joints[j].rows;
         let twist = -rows[0][3] * state.q[first + 3] * model.moment_scale;
         out.torque[j] = match joint.kind {

@@ -1,7 +1,10 @@
 //! Which vector instructions to use, found at run time.
 
-/// Which vector instructions the machine has. The results of two machines may differ in rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+use std::sync::atomic::{AtomicU8, Ordering};
+
+/// Which vector instructions the machine has. With AVX2 and with AVX-512 every number is the same to the bit, since both round a product
+/// and a sum once and in the same order (`tests/mechanics_machines.rs`); without either, products are rounded by themselves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Instructions {
     /// None asked for.
     Portable,
@@ -39,8 +42,17 @@ impl Instructions {
         }
     }
 
-    /// The best that this machine has.
+    /// The best that this machine has, and that [`Instructions::limit`] allows.
     pub fn of_this_machine() -> Self {
-        Self::all().filter(Self::available).last().unwrap_or(Self::Portable)
+        let most = LIMIT.load(Ordering::Relaxed);
+        let allowed = |instructions: &Self| *instructions as u8 <= most && instructions.available();
+        Self::all().filter(allowed).last().unwrap_or(Self::Portable)
+    }
+
+    /// Lets models that this process makes from now on use these instructions at most: to see what another machine would do.
+    pub fn limit(self) {
+        LIMIT.store(self as u8, Ordering::Relaxed);
     }
 }
+
+static LIMIT: AtomicU8 = AtomicU8::new(u8::MAX);

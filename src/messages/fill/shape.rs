@@ -178,7 +178,7 @@ fn arrows(
         let Some((centre, lean)) = place(station) else {
             continue;
         };
-        let distance = lean[0].hypot(lean[1]);
+        let distance = (lean[0] * lean[0] + lean[1] * lean[1]).sqrt();
         if force <= 0.0 || distance == 0.0 {
             continue;
         }
