@@ -94,7 +94,16 @@ fn inputs_go_in_and_all_outputs_come_out() {
         .iter()
         .map(|item| item["name"].as_str().unwrap())
         .collect();
-    assert_eq!(names.len(), 5, "{names:?}");
+    let items = [
+        "pacing",
+        "solver",
+        "inputs",
+        "whirl",
+        "stick-slip",
+        "shock",
+        "recording",
+    ];
+    assert_eq!(names, items.map(|item| format!("flexdrill: {item}")));
     assert!(
         !newest(&mut peer, "/twin/tool_shape")["markers"]
             .as_array()

@@ -1,5 +1,5 @@
 //! The closed-form verification cases of `flexdrill verify` and the tests: configurations in `config/verify/`, run by the
-//! same code as the node and compared with the closed forms.
+//! same code as the node and compared with the closed forms. Also the [error of the time step](step_error).
 
 mod bench;
 mod contacts;
@@ -7,6 +7,7 @@ mod hinged_beam;
 mod integration;
 mod joints;
 mod pipes;
+pub mod step_error;
 
 use std::fmt;
 

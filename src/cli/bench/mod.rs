@@ -1,5 +1,6 @@
 //! `flexdrill bench`: runs at constant inputs as fast as they go, with the figures that `docs/measurements.md` quotes.
 
+mod cases;
 mod document;
 mod figures;
 mod machine;
@@ -7,6 +8,7 @@ mod measure;
 mod memory;
 mod real_time;
 mod scaling;
+mod step_error;
 
 use std::path::PathBuf;
 
@@ -23,8 +25,8 @@ use crate::ros::health::diagnostics::describe;
 /// Runs a configuration at constant inputs as fast as it goes and prints its speed and its figures, as Markdown.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// Configurations to run, one after another; with --cases the first one [default: config/default.yaml, without --cases also
-    /// config/coarse.yaml].
+    /// Configurations to run, one after another; with --cases the first one, of step-error the others too, as they are [default:
+    /// config/default.yaml, without --cases and of step-error also config/coarse.yaml].
     #[arg(long = "config", value_name = "FILE")]
     configs: Vec<PathBuf>,
     /// A set of runs instead of a single one.
@@ -33,13 +35,14 @@ pub struct BenchArgs {
     /// Writes the tables of --cases into this document, between its markers.
     #[arg(long, value_name = "DOCUMENT", requires = "cases")]
     write: Option<PathBuf>,
-    /// Model time after the static start (s) [default: 20; 60 real-time, 10 scaling, 3600 memory].
+    /// Model time after the static start (s) [default: 20; 60 real-time, 10 scaling, 3600 memory,
+    /// 30 step-error].
     #[arg(long)]
     duration: Option<f64>,
     /// Rotary speed (r/min).
     #[arg(long, default_value_t = 40.0)]
     rpm: f64,
-    /// Weight on bit (kN), on from the start; real-time has its own.
+    /// Weight on bit (kN), on from the start; real-time and step-error have their own.
     #[arg(long, default_value_t = 10.0)]
     wob: f64,
     /// Another model step than the configuration's (s).
@@ -59,6 +62,8 @@ enum Cases {
     Scaling,
     /// Resident memory over an hour of model time.
     Memory,
+    /// The step against an eighth of it, for the same tools: minutes each.
+    StepError,
     /// All of them.
     All,
 }
@@ -66,10 +71,11 @@ enum Cases {
 impl Cases {
     fn each(self) -> &'static [Self] {
         match self {
-            Self::All => &[Self::RealTime, Self::Scaling, Self::Memory],
+            Self::All => &[Self::RealTime, Self::StepError, Self::Scaling, Self::Memory],
             Self::RealTime => &[Self::RealTime],
             Self::Scaling => &[Self::Scaling],
             Self::Memory => &[Self::Memory],
+            Self::StepError => &[Self::StepError],
         }
     }
 
@@ -79,6 +85,7 @@ impl Cases {
             Self::RealTime => "real-time",
             Self::Scaling => "scaling",
             Self::Memory => "memory",
+            Self::StepError => "step-error",
             Self::All => "all",
         }
     }
@@ -87,6 +94,7 @@ impl Cases {
     fn usual_duration(self) -> f64 {
         match self {
             Self::RealTime => 60.0,
+            Self::StepError => 30.0,
             Self::Scaling => 10.0,
             Self::Memory | Self::All => 3600.0,
         }
@@ -125,6 +133,7 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
         let duration = args.duration.unwrap_or_else(|| case.usual_duration());
         let tables = match case {
             Cases::RealTime => real_time::tables(&config, args.rpm, duration)?,
+            Cases::StepError => step_error::tables(&named(args)?, args.rpm, duration)?,
             Cases::Scaling => scaling::tables(&config, constant, duration)?,
             Cases::Memory | Cases::All => memory::tables(&config, constant, duration)?,
         };
@@ -145,22 +154,24 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
 
 const DEFAULT: &str = "config/default.yaml";
 
-fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
+/// The configurations asked for, or both shipped meshes.
+fn named(args: &BenchArgs) -> anyhow::Result<Vec<(String, Config)>> {
     let usual = [DEFAULT, "config/coarse.yaml"].map(PathBuf::from);
     let paths = if args.configs.is_empty() {
         &usual[..]
     } else {
         &args.configs
     };
+    paths
+        .iter()
+        .map(|path| Ok((path.display().to_string(), load(path, args)?)))
+        .collect()
+}
+
+fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
     let duration = args.duration.unwrap_or(20.0);
-    for path in paths {
-        let config = load(path, args)?;
-        println!(
-            "\n### {}, {} r/min, {} kN, {duration} s\n",
-            path.display(),
-            args.rpm,
-            args.wob
-        );
+    for (path, config) in named(args)? {
+        println!("\n### {path}, {} r/min, {} kN, {duration} s\n", args.rpm, args.wob);
         let load = Load {
             rpm: args.rpm,
             wob: args.wob,

@@ -60,15 +60,16 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
     if let Some(bit) = board.bit() {
         writeln!(
             text,
-            "bit        {:.2} r/min, {:.1} N m, stick-slip {:.2}",
+            "bit        {:.2} r/min, {:.1} N m",
             rad_per_s_to_rpm(bit.rotary_speed),
-            bit.torque,
-            bit.stick_slip_index
+            bit.torque
         )?;
+        writeln!(text, "stick-slip {}", words::stick_slip(bit).0)?;
     }
-    if board.contacts().is_some() {
+    if let Some(contacts) = board.contacts() {
         writeln!(text, "pipe-guide {}", words::largest(board, 0))?;
         writeln!(text, "guide-wall {}", words::largest(board, 1))?;
+        writeln!(text, "shock      {}", words::shock(contacts).0)?;
     }
     if board.joints().is_some() {
         writeln!(text, "joints     {}", words::joints(board))?;
@@ -90,7 +91,7 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::messages::{BitState, TwinStatus};
+    use crate::messages::{BitState, ContactForces, TwinStatus};
 
     #[test]
     fn an_empty_board_says_that_it_waits() {
@@ -121,7 +122,18 @@ mod tests {
         board.take_bit(BitState {
             rotary_speed: 4.18879,
             torque: 92.4,
+            stick_slip_index: 0.85,
+            stick_slip_severity: BitState::WARNING,
             ..BitState::default()
+        });
+        board.take_contacts(ContactForces {
+            measured_depth: vec![0.0, 2.5],
+            inclination: vec![0.0, 0.785],
+            shock_severity: ContactForces::SHOCK_WATCH,
+            shock_impulse: 7.25,
+            shock_station: 1,
+            shock_layer: ContactForces::OUTER,
+            ..ContactForces::default()
         });
         let text = block(&board, now);
         for part in [
@@ -129,7 +141,9 @@ mod tests {
             "x1.000 real time, late 320 us",
             "RPM 40.0 r/min rx 40.0 ok 0.3 s",
             "WOB 10.0 kN rx - STALE 12.0 s (2 refused)",
-            "40.00 r/min, 92.4 N m",
+            "40.00 r/min, 92.4 N m\n",
+            "stick-slip WARNING 0.85\n",
+            "shock      WATCH 7.2 N s guide-wall at 45 deg, 2.50 m\n",
         ] {
             assert!(text.contains(part), "'{part}' is not in\n{text}");
         }

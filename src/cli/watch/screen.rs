@@ -38,16 +38,18 @@ pub(super) fn quit_pressed(patience: Duration) -> std::io::Result<bool> {
 }
 
 pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
-    let [title, warning, top, middle, bottom] = Layout::vertical([
+    let [title, warning, levels, top, middle, bottom] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(2),
+        Constraint::Length(1),
         Constraint::Length(6),
-        Constraint::Min(8),
+        Constraint::Min(7),
         Constraint::Length(7),
     ])
     .areas(frame.area());
     frame.render_widget(title_line(board, now), title);
     frame.render_widget(warning_lines(board.warning()), warning);
+    frame.render_widget(levels_line(board), levels);
     let [left, right] = Layout::horizontal([Constraint::Percentage(50); 2]).areas(top);
     frame.render_widget(inputs(board), left);
     frame.render_widget(pace(board), right);
@@ -85,15 +87,33 @@ fn title_line(board: &Board, now: Instant) -> Line<'static> {
 }
 
 fn warning_lines(warning: Option<&WhirlWarning>) -> Paragraph<'static> {
-    let style = match warning.map_or(WhirlWarning::OK, |warning| warning.severity) {
+    Paragraph::new(words::warning(warning))
+        .style(severity_style(
+            warning.map_or(WhirlWarning::OK, |warning| warning.severity),
+        ))
+        .wrap(Wrap { trim: true })
+}
+
+fn severity_style(severity: u8) -> Style {
+    match severity {
         WhirlWarning::OK => Style::new().fg(GOOD),
         WhirlWarning::WATCH => Style::new().fg(DOUBTFUL),
         WhirlWarning::WARNING => Style::new().fg(Color::Black).bg(DOUBTFUL),
         _ => Style::new().fg(Color::White).bg(BAD).add_modifier(Modifier::BOLD),
-    };
-    Paragraph::new(words::warning(warning))
-        .style(style)
-        .wrap(Wrap { trim: true })
+    }
+}
+
+/// The levels beside whirl's.
+fn levels_line(board: &Board) -> Line<'static> {
+    let levels = [
+        ("stick-slip ", board.bit().map(words::stick_slip)),
+        ("   shock ", board.contacts().map(words::shock)),
+    ];
+    let spans = levels.into_iter().filter_map(|(name, level)| {
+        let (text, severity) = level?;
+        Some([Span::raw(name), Span::styled(text, severity_style(severity))])
+    });
+    Line::from(spans.flatten().collect::<Vec<_>>())
 }
 
 fn inputs(board: &Board) -> Paragraph<'static> {
@@ -153,10 +173,9 @@ fn draw_bit(frame: &mut Frame, board: &Board, area: Rect) {
         || " bit ".to_owned(),
         |bit| {
             format!(
-                " bit {:.1} r/min {:.0} N m slip {:.2} ",
+                " bit {:.1} r/min {:.0} N m ",
                 rad_per_s_to_rpm(bit.rotary_speed),
-                bit.torque,
-                bit.stick_slip_index
+                bit.torque
             )
         },
     );
@@ -326,6 +345,7 @@ mod tests {
         board.take_bit(BitState {
             rotary_speed: 4.2,
             torque: 92.0,
+            stick_slip_index: 0.2,
             ..BitState::default()
         });
         board.take_joints(JointDeflections {
@@ -337,6 +357,10 @@ mod tests {
             inclination: vec![0.0, 0.785, 1.571],
             pipe_guide_normal_peak: vec![0.0, 1500.0, 10.0],
             guide_wall_normal_peak: vec![0.0, 0.0, 0.0],
+            shock_severity: ContactForces::SHOCK_WARNING,
+            shock_impulse: 16.3,
+            shock_station: 1,
+            shock_layer: ContactForces::INNER,
             ..ContactForces::default()
         });
         board.take_whirl(WhirlState {
@@ -377,7 +401,8 @@ mod tests {
             "RPM 40.1 r/min",
             "x0.910 real time",
             "3 at limit",
-            "bit 40.1 r/min 92 N m slip",
+            "bit 40.1 r/min 92 N m",
+            "stick-slip OK 0.20   shock WARNING 16.3 N s pipe-guide at 45 deg, 2.50 m",
             " 45 pipe  backward  -3.70",
             "forward 0 backward 1 chaotic 0 none 1",
             "pipe-guide: largest 1.50 kN at 45 deg, 2.50 m",

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::board::{Board, Heartbeat};
 use crate::inputs::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
-use crate::messages::{ContactForces, TwinStatus, WhirlState, WhirlWarning};
+use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning};
 
 pub(super) fn state(code: u8) -> &'static str {
     match code {
@@ -210,6 +210,27 @@ pub(super) fn whirl_rows(whirl: &WhirlState) -> Vec<WhirlRow> {
             confidence: at(&whirl.confidence, index),
         })
         .collect()
+}
+
+/// Level of stick-slip with the index that led to it; the severity's code.
+pub(super) fn stick_slip(bit: &BitState) -> (String, u8) {
+    let text = format!("{} {:.2}", severity(bit.stick_slip_severity), bit.stick_slip_index);
+    (text, bit.stick_slip_severity)
+}
+
+/// Level of lateral shock with the impulse; where, unless all is well. The severity's code, which is that of warnings.
+pub(super) fn shock(contacts: &ContactForces) -> (String, u8) {
+    let level = contacts.shock_severity;
+    let mut text = format!("{} {:.1} N s", severity(level), contacts.shock_impulse);
+    if level != ContactForces::SHOCK_OK {
+        let layer = if contacts.shock_layer == ContactForces::OUTER {
+            "guide-wall"
+        } else {
+            "pipe-guide"
+        };
+        text += &format!(" {layer} at {}", place(contacts, contacts.shock_station as usize));
+    }
+    (text, level)
 }
 
 /// The warning as one line.

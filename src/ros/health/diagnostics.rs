@@ -1,6 +1,6 @@
-//! `/diagnostics`: five items judged from the status, with hysteresis.
+//! `/diagnostics`: seven items judged from the status and the newest snapshot, with hysteresis.
 
-use crate::analysis::{Severity, WhirlWarningLevel};
+use super::motion::MotionEvidence;
 use crate::inputs::units::{n_to_kn, rad_per_s_to_rpm};
 use crate::mechanics::StepFailure;
 use crate::messages::TwinStatus;
@@ -41,7 +41,7 @@ impl Hysteresis {
 /// Keeps what the next judgement needs.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
-    levels: [Hysteresis; 5],
+    levels: [Hysteresis; 7],
     previous: Option<TwinStatus>,
 }
 
@@ -50,15 +50,15 @@ pub struct Diagnostics {
 pub struct Evidence {
     /// Cause and place of the failed step, while the model stands still.
     pub failure: Option<StepFailure>,
-    /// Level of the whirl warning.
-    pub whirl: WhirlWarningLevel,
+    /// What the analysis says of the motion.
+    pub motion: MotionEvidence,
 }
 
-struct Judgement {
-    name: &'static str,
-    level: u8,
-    message: String,
-    values: Vec<(&'static str, String)>,
+pub(super) struct Judgement {
+    pub(super) name: &'static str,
+    pub(super) level: u8,
+    pub(super) message: String,
+    pub(super) values: Vec<(&'static str, String)>,
 }
 
 impl Diagnostics {
@@ -69,7 +69,9 @@ impl Diagnostics {
             pacing(status, &previous),
             solver(status, &previous, evidence),
             inputs(status),
-            whirl(evidence),
+            evidence.motion.whirl(),
+            evidence.motion.stick_slip(),
+            evidence.motion.shock(),
             recording(status, &previous),
         ];
         judgements
@@ -246,28 +248,6 @@ fn inputs(status: &TwinStatus) -> Judgement {
         level,
         message: said.join(", "),
         values,
-    }
-}
-
-fn whirl(evidence: &Evidence) -> Judgement {
-    let warning = &evidence.whirl;
-    let level = match warning.severity {
-        Severity::Ok => DiagnosticStatus::OK,
-        Severity::Watch | Severity::Warning => DiagnosticStatus::WARN,
-        Severity::Critical => DiagnosticStatus::ERROR,
-    };
-    Judgement {
-        name: "whirl",
-        level,
-        message: format!("{:?}, {:?} whirl", warning.severity, warning.kind).to_lowercase(),
-        values: vec![
-            ("whirl_ratio", format!("{:.3}", warning.whirl_ratio)),
-            ("clearance_ratio", format!("{:.3}", warning.clearance_ratio)),
-            ("contact_duty", format!("{:.3}", warning.contact_duty)),
-            ("peak_force", format!("{:.0} N", warning.peak_force)),
-            ("rolling_share", format!("{:.3}", warning.rolling_share)),
-            ("confidence", format!("{:.2}", warning.confidence)),
-        ],
     }
 }
 

@@ -2,4 +2,5 @@
 
 pub mod diagnostics;
 pub mod meters;
+pub mod motion;
 pub mod status;

@@ -19,6 +19,7 @@ use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
 use crate::pacing::clock;
 use crate::ros::health::diagnostics::{Diagnostics, Evidence, describe};
+use crate::ros::health::motion::MotionEvidence;
 use crate::ros::health::status::{Sources, StatusKeeper};
 use crate::ros::solver::link::{Gauges, PublisherEnd, Report};
 use crate::twin::RunInputs;
@@ -154,7 +155,7 @@ impl Publisher {
         match report {
             Report::Frame(frame) => {
                 self.status.take(&frame.snapshot);
-                self.evidence.whirl = frame.snapshot.warning;
+                self.evidence.motion = MotionEvidence::of(&frame.snapshot);
                 let parts = &self.parts;
                 let began = clock::now();
                 let sent = self

@@ -1,0 +1,39 @@
+//! The default tool and the hard cases.
+
+use crate::config::{Config, ConfigError};
+
+/// A tool and a load that the twin must keep pace with.
+pub(super) struct Case {
+    pub(super) name: &'static str,
+    /// kN.
+    pub(super) wob: f64,
+    pub(super) changes: fn(&Config) -> Result<Config, ConfigError>,
+}
+
+/// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the wall.
+pub(super) const CASES: &[Case] = &[
+    Case {
+        name: "as it is, 10 kN",
+        wob: 10.0,
+        changes: |config| Ok(config.clone()),
+    },
+    Case {
+        name: "`wob_path: shared`, 30 kN",
+        wob: 30.0,
+        changes: |config| config.with_value("boundary.wob_path", "shared"),
+    },
+    Case {
+        name: "contact 3e7 / 5e7 N/m, 10 kN",
+        wob: 10.0,
+        changes: |config| {
+            config
+                .with_value("contact.inner.stiffness", 3e7)?
+                .with_value("contact.outer.stiffness", 5e7)
+        },
+    },
+    Case {
+        name: "guide `bending_factor: 0.05`, 20 kN",
+        wob: 20.0,
+        changes: |config| config.with_value("tool.guide.bending_factor", 0.05),
+    },
+];

@@ -1,0 +1,61 @@
+//! Two runs without bit torque, point by point.
+
+use super::{Record, range};
+
+/// Largest differences of two runs that ought to be the same.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Calm {
+    /// Of the bit speed, over its range.
+    pub bit_speed: f64,
+    /// Of a joint's coordinate, over that coordinate's own range.
+    pub positions: f64,
+    /// Joint where that is, from 0 at the top.
+    pub worst_joint: usize,
+    /// Of the contact forces averaged over an interval, over the layer's range: pipe-guide, guide-wall. A station that hardly
+    /// touches has no range of its own.
+    pub forces: [f64; 2],
+    /// Those ranges (N).
+    pub force_ranges: [f64; 2],
+}
+
+impl Calm {
+    /// Compares `coarse` with `fine`.
+    pub fn of(coarse: &Record, fine: &Record) -> Self {
+        let speeds = range(fine.bit_speed.iter().copied());
+        let (mut positions, mut worst_joint) = (0.0, 0);
+        for coordinate in 0..fine.positions.first().map_or(0, Vec::len) {
+            let of = |record: &Record| record.positions.iter().map(|at| at[coordinate]).collect::<Vec<_>>();
+            let (a, b) = (of(coarse), of(fine));
+            let error = over(apart(&a, &b), range(b.iter().copied()));
+            if error > positions {
+                (positions, worst_joint) = (error, coordinate / 2);
+            }
+        }
+        let whole = fine
+            .layers()
+            .map(|layer| range(fine.forces.iter().flat_map(|at| at[layer.clone()].iter().copied())));
+        let layers = fine.layers();
+        let forces = [0, 1].map(|k| {
+            let errors = (coarse.forces.iter().zip(&fine.forces))
+                .map(|(a, b)| apart(&a[layers[k].clone()], &b[layers[k].clone()]));
+            over(errors.fold(0.0, f64::max), whole[k])
+        });
+        Self {
+            bit_speed: over(apart(&coarse.bit_speed, &fine.bit_speed), speeds),
+            positions,
+            worst_joint,
+            forces,
+            force_ranges: whole,
+        }
+    }
+}
+
+/// Largest difference.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |m, (x, y)| m.max((x - y).abs()))
+}
+
+/// `difference / range`; nothing over nothing is nothing.
+fn over(difference: f64, range: f64) -> f64 {
+    if difference == 0.0 { 0.0 } else { difference / range }
+}
