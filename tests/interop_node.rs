@@ -103,7 +103,7 @@ fn inputs_go_in_and_all_outputs_come_out() {
         "shock",
         "recording",
     ];
-    assert_eq!(names, items.map(|item| format!("flexdrill: {item}")));
+    assert_eq!(names, items.map(|item| format!("/flexdrill: {item}")));
     assert!(
         !newest(&mut peer, "/twin/tool_shape")["markers"]
             .as_array()

@@ -9,7 +9,7 @@ use flexdrill::messages::WhirlWarning;
 use flexdrill::messages::fill;
 use flexdrill::messages::outputs::schedule;
 use flexdrill::messages::std_msgs::Header;
-use flexdrill::twin::{Frame, Run, Simulation};
+use flexdrill::twin::{Frame, Inputs, Run, Simulation};
 
 /// The closed-form case of a rolling rotor, d = 60 mm in D = 80 mm at 60 r/min, with both its stations watched.
 fn rolling_rotor() -> Config {
@@ -173,4 +173,122 @@ fn a_checkpoint_does_not_turn_the_warnings_back() {
     fresh.restore(&late).unwrap();
     fresh.snapshot(&mut snapshot, true);
     assert_eq!(snapshot.warning, level);
+}
+
+/// What the analysis said of the pipe at a joint, and what the motion sums up to, over the second half of a run.
+struct Watched {
+    /// Parts of the time.
+    forward: f64,
+    backward: f64,
+    /// Mean whirl ratio as reported.
+    ratio: f64,
+    /// Turns of the orbit about its centre per turn of the tool, counted from the positions alone.
+    winding: f64,
+    /// Area swept per turn of the tool over that of a circle as large as the clearance, positive is forward.
+    area: f64,
+}
+
+/// The tool of `config/coarse.yaml` at 10 kN for 20 s.
+fn tool_run(rpm: f64, inner_friction: f64) -> Vec<Watched> {
+    let config = Config::load("config/coarse.yaml")
+        .and_then(|config| config.with_value("contact.inner.friction_tangential", inner_friction))
+        .and_then(|config| config.with_value("inputs.weight_on_bit.initial_kn", 10.0))
+        .unwrap();
+    let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    let inputs = Inputs {
+        rotary_speed: rpm * std::f64::consts::TAU / 60.0,
+        weight_on_bit: 10e3,
+    };
+    let (steps, every) = (40_000, 10);
+    let mut snapshot = simulation.new_snapshot();
+    let (mut positions, mut reports) = (vec![], vec![]);
+    for step in 1..=steps {
+        assert!(matches!(simulation.advance(&inputs), StepOutcome::Advanced { .. }));
+        if step % every == 0 && 2 * step > steps {
+            simulation.snapshot(&mut snapshot, false);
+            let shape = &snapshot.shape;
+            let in_guide = |s: usize| [0, 1].map(|axis| shape.pipe[s][axis] - shape.guide[s][axis]);
+            positions.push((0..shape.pipe.len()).map(in_guide).collect::<Vec<_>>());
+            reports.push(snapshot.whirl.clone());
+        }
+    }
+    let turns = rpm / 60.0 * positions.len() as f64 * every as f64 * config.solver.time_step;
+    let count = reports.len() as f64;
+    let part = |entry: usize, kind: WhirlKind| reports.iter().filter(|r| r.kind[entry] == kind).count() as f64 / count;
+    (0..reports[0].kind.len())
+        .filter(|&entry| reports[0].body[entry] == Body::Pipe)
+        .map(|entry| {
+            let station = reports[0].station[entry];
+            let path: Vec<[f64; 2]> = positions.iter().map(|at| at[station]).collect();
+            let clearance = simulation.stepper().model().stations[station].inner_clearance;
+            let (winding, area) = wound(&path);
+            Watched {
+                forward: part(entry, WhirlKind::Forward),
+                backward: part(entry, WhirlKind::Backward),
+                ratio: reports.iter().map(|r| r.whirl_ratio[entry]).sum::<f64>() / count,
+                winding: winding / turns,
+                area: area / turns / (std::f64::consts::PI * clearance * clearance),
+            }
+        })
+        .collect()
+}
+
+/// Turns about the mean point, and the swept area.
+fn wound(path: &[[f64; 2]]) -> (f64, f64) {
+    let mean = [0, 1].map(|axis| path.iter().map(|p| p[axis]).sum::<f64>() / path.len() as f64);
+    let (mut angle, mut area) = (0.0, 0.0);
+    for pair in path.windows(2) {
+        let [p, q] = [pair[0], pair[1]].map(|at| [at[0] - mean[0], at[1] - mean[1]]);
+        let (cross, dot) = (p[0] * q[1] - p[1] * q[0], p[0] * q[0] + p[1] * q[1]);
+        angle += cross.atan2(dot);
+        area += 0.5 * cross;
+    }
+    (angle / std::f64::consts::TAU, area)
+}
+
+#[test]
+fn the_tool_whirls_forward_with_little_friction_and_backward_with_much() {
+    let ratios = |places: &[&Watched]| -> String {
+        places
+            .iter()
+            .map(|place| {
+                format!(
+                    "{:.2} (winding {:.2}, area {:.2}) ",
+                    place.ratio, place.winding, place.area
+                )
+            })
+            .collect()
+    };
+    let places = tool_run(40.0, 0.2);
+    let steady: Vec<&Watched> = places.iter().filter(|place| place.forward > 0.95).collect();
+    println!(
+        "friction 0.2, 40 r/min, forward at {}: {}",
+        steady.len(),
+        ratios(&steady)
+    );
+    assert!(steady.len() >= 5, "{}", steady.len());
+    assert!(
+        steady.iter().all(|place| place.winding > 0.0 && place.area > 0.0),
+        "{}",
+        ratios(&steady)
+    );
+
+    let places = tool_run(120.0, 0.7);
+    let steady: Vec<&Watched> = places.iter().filter(|place| place.backward > 0.9).collect();
+    println!(
+        "friction 0.7, 120 r/min, backward at {}: {}",
+        steady.len(),
+        ratios(&steady)
+    );
+    assert!(steady.len() >= 3, "{}", steady.len());
+    // It rolls, at -3.7 times its speed, and is thrown off the wall for parts of a turn, in which it does not go round its centre.
+    assert!(
+        steady
+            .iter()
+            .all(|place| place.winding < -1.0 && place.area < -1.0 && (-4.5..-3.0).contains(&place.ratio)),
+        "{}",
+        ratios(&steady)
+    );
+    let turned: Vec<&Watched> = places.iter().filter(|place| place.forward > 0.5).collect();
+    assert!(turned.is_empty(), "{}", ratios(&turned));
 }
