@@ -101,25 +101,24 @@ impl GuideChain {
                 for (x, solved) in x.iter_mut().zip(solved) {
                     *x = V::load(solved);
                 }
-                for i in 0..6 {
-                    let mut sum = V::splat(self.lower[k + 1][0][i]).times(x[0]);
-                    for j in 1..6 {
-                        sum = sum.plus_product(V::splat(self.lower[k + 1][j][i]), x[j]);
+                for (i, carry) in carry.iter_mut().enumerate() {
+                    let mut sum = V::splat(0.0);
+                    for (lower, &x) in self.lower[k + 1].iter().zip(&x) {
+                        sum = sum.plus_product(V::splat(lower[i]), x);
                     }
-                    sum.store(&mut carry[i]);
+                    sum.store(carry);
                 }
             }
         }
-        for j in 0..6 {
-            for i in 0..6 {
-                V::splat(0.0).minus(V::load(&carry[j][i])).store(&mut ends.bottom[j][i]);
-                V::splat(0.0)
-                    .minus(V::load(&carry[TOP + j][i]))
-                    .store(&mut ends.lower[j][i]);
+        for (j, carry) in carry.iter().enumerate() {
+            let end = match j {
+                RIGHT => &mut ends.right[1],
+                TOP..RIGHT => &mut ends.lower[j - TOP],
+                _ => &mut ends.bottom[j],
+            };
+            for (end, carry) in end.iter_mut().zip(carry) {
+                V::splat(0.0).minus(V::load(carry)).store(end);
             }
-            V::splat(0.0)
-                .minus(V::load(&carry[RIGHT][j]))
-                .store(&mut ends.right[1][j]);
         }
         for (lane, &span) in group.spans.iter().enumerate().take(group.count) {
             let out = &mut out[span];
