@@ -141,7 +141,12 @@ fn calm_row(name: &str, config: &Config, motion: &Motion) -> Result<[String; 5],
     Ok([
         name.to_owned(),
         format!("{:.3} %", 100.0 * calm.bit_speed),
-        format!("{:.2} %, joint {}", 100.0 * calm.positions, calm.worst_joint),
+        format!(
+            "{:.2} % of {:.3} mm, joint {}",
+            100.0 * calm.positions,
+            1e3 * calm.position_range,
+            calm.worst_joint
+        ),
         force(0),
         force(1),
     ])

@@ -11,6 +11,8 @@ pub struct Calm {
     pub positions: f64,
     /// Joint where that is, from 0 at the top.
     pub worst_joint: usize,
+    /// Range of that coordinate (m).
+    pub position_range: f64,
     /// Of the contact forces averaged over an interval, over the layer's range: pipe-guide, guide-wall. A station that hardly
     /// touches has no range of its own.
     pub forces: [f64; 2],
@@ -22,13 +24,14 @@ impl Calm {
     /// Compares `coarse` with `fine`.
     pub fn of(coarse: &Record, fine: &Record) -> Self {
         let speeds = range(fine.bit_speed.iter().copied());
-        let (mut positions, mut worst_joint) = (0.0, 0);
+        let (mut positions, mut worst_joint, mut position_range) = (0.0, 0, 0.0);
         for coordinate in 0..fine.positions.first().map_or(0, Vec::len) {
             let of = |record: &Record| record.positions.iter().map(|at| at[coordinate]).collect::<Vec<_>>();
             let (a, b) = (of(coarse), of(fine));
-            let error = over(apart(&a, &b), range(b.iter().copied()));
+            let own = range(b.iter().copied());
+            let error = over(apart(&a, &b), own);
             if error > positions {
-                (positions, worst_joint) = (error, coordinate / 2);
+                (positions, worst_joint, position_range) = (error, coordinate / 2, own);
             }
         }
         let whole = fine
@@ -44,6 +47,7 @@ impl Calm {
             bit_speed: over(apart(&coarse.bit_speed, &fine.bit_speed), speeds),
             positions,
             worst_joint,
+            position_range,
             forces,
             force_ranges: whole,
         }
