@@ -8,9 +8,9 @@ use clap::Args;
 use super::progress::Progress;
 use crate::config::Config;
 use crate::paper::hinge::Hinge;
-use crate::paper::search::{self, Plan};
+use crate::paper::search::{self, Outcome, Plan, Stage};
 use crate::paper::{
-    Case, Finding, PaperError, Record, Report, Verdict, figures, findings, findings_csv, record, score, write_figures,
+    Case, Finding, PaperError, Record, Report, Verdict, figures, findings, findings_csv, record, write_figures,
     write_text,
 };
 
@@ -29,7 +29,7 @@ pub struct PaperArgs {
     /// Weight on bit (kN), instead of inputs.weight_on_bit.initial_kn (10 if that is 0).
     #[arg(long)]
     wob: Option<f64>,
-    /// Turns recorded, after two at full speed.
+    /// Turns recorded, after two at full speed; trials of a search have at most four, after one.
     #[arg(long, default_value_t = 8.0)]
     turns: f64,
     /// Another model step than the configuration's (s).
@@ -51,22 +51,25 @@ pub struct PaperArgs {
 /// The plan of `--search`.
 #[derive(Debug, Args)]
 struct PlanArgs {
-    /// Mesh of the screening.
+    /// Mesh of the Latin hypercube.
     #[arg(long, default_value = "config/coarse.yaml", requires = "search")]
     coarse: PathBuf,
-    /// Mesh of the finalists.
+    /// Mesh of all else.
     #[arg(long, default_value = "config/default.yaml", requires = "search")]
     full: PathBuf,
     /// Points of the Latin hypercube.
-    #[arg(long, default_value_t = 36, requires = "search")]
+    #[arg(long, default_value_t = 60, requires = "search")]
     points: usize,
-    /// Rounds of changes to the best.
-    #[arg(long, default_value_t = 4, requires = "search")]
-    rounds: usize,
-    /// Trials per round.
+    /// Descents (evolution strategy) from the best trials that lie apart.
+    #[arg(long, default_value_t = 2, requires = "search")]
+    descents: usize,
+    /// Generations of each descent.
     #[arg(long, default_value_t = 12, requires = "search")]
-    per_round: usize,
-    /// Best trials repeated on the full mesh.
+    generations: usize,
+    /// Trials per generation.
+    #[arg(long, default_value_t = 12, requires = "search")]
+    per_generation: usize,
+    /// Best trials repeated with the full record of eight turns.
     #[arg(long, default_value_t = 3, requires = "search")]
     finalists: usize,
     /// Seed of the plan.
@@ -74,7 +77,7 @@ struct PlanArgs {
     seed: u64,
 }
 
-/// Turns recorded per trial of the search.
+/// Turns recorded per trial of the search, or --turns if that is less: the finalists have all of these.
 const SEARCH_TURNS: f64 = 4.0;
 
 /// Runs the subcommand.
@@ -96,9 +99,10 @@ fn case(args: &PaperArgs) -> anyhow::Result<Case> {
         let (key, value) = change
             .split_once('=')
             .ok_or_else(|| super::WrongUse::new(format!("--set {change}: expected KEY=VALUE")))?;
-        let value = value
-            .parse::<f64>()
-            .map_or_else(|_| value.into(), serde_json::Value::from);
+        // A whole number stays one: `tool.links` takes no other.
+        let whole = value.parse::<i64>().map(serde_json::Value::from);
+        let number = || value.parse::<f64>().map(serde_json::Value::from);
+        let value = whole.or_else(|_| number()).unwrap_or_else(|_| value.into());
         values.push((key, value));
     }
     let mut case = Case::new(config.with_values(values)?);
@@ -173,18 +177,24 @@ fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
         coarse: Config::load(&args.plan.coarse)?,
         full: Config::load(&args.plan.full)?,
         points: args.plan.points,
-        rounds: args.plan.rounds,
-        per_round: args.plan.per_round,
+        descents: args.plan.descents,
+        generations: args.plan.generations,
+        per_generation: args.plan.per_generation,
         finalists: args.plan.finalists,
         seed: args.plan.seed,
-        turns: SEARCH_TURNS,
+        turns: args.turns.min(SEARCH_TURNS),
+        full_turns: args.turns,
     };
     let path = args.out.join("search.csv");
+    let mut earlier = earlier_lines(&path)?;
     let mut table = csv::Writer::from_path(&path).with_context(|| format!("cannot write {}", path.display()))?;
     table.write_record(search::csv_header())?;
-    let total = plan.total();
-    let mut progress = Progress::counted(total as f64);
-    let trials = search::run(&plan, |trial| -> anyhow::Result<()> {
+    let mut progress = Progress::counted(plan.total() as f64);
+    let known = |index: usize, stage: Stage, parameters: &[String]| {
+        let line = earlier.get_mut(index).map(std::mem::take).unwrap_or_default();
+        Ok(Outcome::earlier(line, index, stage.word(), parameters))
+    };
+    let trials = search::run(&plan, known, |trial| -> anyhow::Result<()> {
         table.write_record(trial.csv())?;
         // A long search that is stopped keeps what it has.
         table.flush()?;
@@ -193,12 +203,12 @@ fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
     })?;
     progress.done();
     for (stage, trial) in search::leaders(&trials) {
-        let (closeness, agree) = score(trial.outcome.findings());
+        let (closeness, agree) = trial.outcome.score();
         println!(
             "{stage:<12} best: trial {:>4}, score {closeness:.3}, {agree} agree",
             trial.index
         );
-        if stage == "full" {
+        if stage == Stage::Confirmation.word() {
             let name = "best.yaml";
             let config = trial.config(&plan.full)?;
             write_text(Path::new(&args.out), name, &config.to_yaml()?)?;
@@ -207,4 +217,17 @@ fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
     }
     println!("{} trials: {}", trials.len(), path.display());
     Ok(())
+}
+
+/// Lines of the table that a stopped search left, if there is one.
+fn earlier_lines(path: &Path) -> anyhow::Result<Vec<Vec<String>>> {
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let mut table = csv::ReaderBuilder::new().flexible(true).from_path(path)?;
+    let mut lines = Vec::new();
+    for line in table.records() {
+        lines.push(line?.iter().map(str::to_owned).collect());
+    }
+    Ok(lines)
 }

@@ -291,16 +291,16 @@ impl Report<'_> {
             (
                 "joints",
                 format!(
-                    "{:?}, angle across the hinge {:?}, limit {:.2} deg, stop {:.2e} N m/rad, phase {:.1} deg, {:.1} deg from one to the next",
-                    joint.kind,
-                    joint.hinge_angle,
+                    "{}, angle across the hinge {}, limit {:.2} deg, stop {:.2e} N m/rad, phase {:.1} deg, {:.1} deg from one to the next",
+                    word(&joint.kind),
+                    word(&joint.hinge_angle),
                     joint.limit_deg,
                     joint.stop_stiffness,
                     joint.cross_phase_deg,
                     joint.cross_phase_step_deg
                 ),
             ),
-            ("path of the weight on bit", format!("{:?}", config.boundary.wob_path)),
+            ("path of the weight on bit", word(&config.boundary.wob_path)),
             ("contact pipe-guide", layer(&config.contact.inner)),
             ("contact guide-wall", layer(&config.contact.outer)),
             (
@@ -308,8 +308,12 @@ impl Report<'_> {
                 format!("{} 1/s, {:.2e} s", tool.damping.alpha, tool.damping.beta),
             ),
             (
-                "step, gamma",
-                format!("{} ms, {}", 1e3 * config.solver.time_step, config.solver.gamma),
+                "step, scheme",
+                format!(
+                    "{} ms, {}",
+                    1e3 * config.solver.time_step,
+                    config.solver.scheme_in_words()
+                ),
             ),
         ];
         Table::of_pairs(["Setting", "Value"], rows)
@@ -324,6 +328,14 @@ impl Report<'_> {
                 .map(|finding| vec![finding.key.to_owned(), finding.definition.to_owned()])
                 .collect(),
         }
+    }
+}
+
+/// A choice as the configuration writes it.
+fn word(choice: &impl serde::Serialize) -> String {
+    match serde_json::to_value(choice) {
+        Ok(serde_json::Value::String(word)) => word,
+        _ => String::new(),
     }
 }
 

@@ -146,7 +146,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .bold_line_style(RGBColor(225, 225, 225).stroke_width(SCALE))
         .axis_style(grey.stroke_width(SCALE))
         .set_all_tick_mark_size((4 * SCALE) as i32)
-        .x_labels(((plot_width / f64::from(SCALE) / 70.0) as usize).clamp(4, 10))
+        .x_labels(((plot_width / f64::from(SCALE) / 50.0) as usize).clamp(5, 10))
         .y_labels(((plot_height / f64::from(SCALE) / 45.0) as usize).clamp(4, 9))
         .x_label_formatter(&tick)
         .y_label_formatter(&tick)

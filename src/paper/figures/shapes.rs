@@ -32,7 +32,7 @@ pub(super) fn shapes(record: &Record, motion: &Motion, body: Body) -> Figure {
             &format!("({}) Displacement, {place}", letters[1]),
         ));
         if i == 0 {
-            panels.push(horizontal(record, motion, axis, &marks));
+            panels.push(horizontal(record, motion, axis, body, &marks));
         }
     }
     let words = motion.places.map(|s| motion.whirl[s].words());
@@ -72,9 +72,9 @@ fn plane(record: &Record, motion: &Motion, axis: &Axis, body: Body, marks: &[Str
         (x + w * low_x, z + w * low_z)
     };
     let shape = (0..stations.len()).map(at).collect();
-    Panel::new("(a) In the well's plane, 50 x", "horizontal (m)", "depth (m)")
+    Panel::new("(a1) In the well's plane, 50 x", "horizontal (m)", "depth (m)")
         .line(Line::new("bore axis", bore).dashed().color(6))
-        .line(Line::new("pipe", shape).color(0))
+        .line(Line::new(name(body), shape).color(0))
         .line(Line::new(marks[0].clone(), vec![at(motion.places[0])]).dots().color(1))
         .line(
             Line::new(marks[1].clone(), vec![at(motion.places[1])])
@@ -85,12 +85,20 @@ fn plane(record: &Record, motion: &Motion, axis: &Axis, body: Body, marks: &[Str
         .down()
 }
 
-fn horizontal(record: &Record, motion: &Motion, axis: &Axis, marks: &[String; 2]) -> Panel {
+/// Of the pipe in legends.
+fn name(body: Body) -> &'static str {
+    match body {
+        Body::Pipe => "pipe",
+        Body::Guide => "guide",
+    }
+}
+
+fn horizontal(record: &Record, motion: &Motion, axis: &Axis, body: Body, marks: &[String; 2]) -> Panel {
     let last = record.time.len().saturating_sub(1);
     let at = |s: usize| (record.stations.degrees(s), 1e3 * axis.y.row(last)[s]);
     let shape = (0..record.stations.len()).map(at).collect();
-    Panel::new("(a) Out of it, same instant", "inclination (deg)", "y (mm)")
-        .line(Line::new("pipe", shape).color(0))
+    Panel::new("(a2) Normal to it, same instant", "inclination (deg)", "y (mm)")
+        .line(Line::new(name(body), shape).color(0))
         .line(Line::new(marks[0].clone(), vec![at(motion.places[0])]).dots().color(1))
         .line(
             Line::new(marks[1].clone(), vec![at(motion.places[1])])

@@ -43,8 +43,8 @@ pub(super) fn pipe(record: &Record) -> Figure {
         height: 380,
         panels: vec![
             panel("(a) Whole record", [first, last]).span(2),
-            panel("(b) V1", [first, first + turn]),
-            panel("(c) V2", [last - turn, last]),
+            panel("(b) V1, the first turn", [first, first + turn]),
+            panel("(c) V2, the last turn", [last - turn, last]),
         ],
     }
 }
@@ -56,11 +56,9 @@ pub(super) fn guide(record: &Record, motion: &Motion) -> Figure {
     let mut panel = Panel::new("Speed of the guide pipe", "time (s)", "speed (r/min)");
     for (i, &station) in motion.places.iter().enumerate() {
         let name = format!("D{}, {:.1} deg", i + 1, record.stations.degrees(station));
-        panel = panel.line(
-            Line::new(name, history(record, &record.guide.spin, station, all))
-                .thin()
-                .color(i),
-        );
+        let line = Line::new(name, history(record, &record.guide.spin, station, all)).color(i);
+        // The guide turns nearly as one piece: the second curve lies on the first.
+        panel = panel.line(if i == 0 { line.wide() } else { line.thin() });
     }
     for (i, limit) in [-0.74, 0.97].into_iter().enumerate() {
         let name = if i == 0 { "paper's range" } else { "" };

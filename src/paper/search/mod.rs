@@ -1,11 +1,14 @@
 //! Looking for parameter sets that agree with as many findings as possible.
 //!
 //! The paper's dimensions, weight on bit and stiffnesses are unpublished; [`space`] says between which bounds they are looked for and
-//! why. The plan is seeded and takes no clock: a Latin hypercube over the whole space, then rounds of changes to the best so far. All
-//! of it on a coarse mesh; the best are run again on the full one.
+//! why. The plan is seeded and takes no clock: points with reasons, a Latin hypercube over the whole space on a coarse mesh, then an
+//! evolution strategy from the best points that lie apart, on the full mesh because wall forces depend on it; the best are run again with
+//! the full record. A table that a stopped search left is taken up where it ends.
 
+mod descent;
 mod outcome;
 mod plan;
+mod random;
 pub mod space;
 
 pub use outcome::{Outcome, Trial, csv_header};

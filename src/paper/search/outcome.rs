@@ -31,6 +31,15 @@ pub enum Outcome {
     },
     /// It did not.
     Failed(String),
+    /// Done by an earlier run of the same plan: its line of the table.
+    Earlier {
+        /// The line.
+        line: Vec<String>,
+        /// Its score, as written.
+        score: f64,
+        /// Findings that agree.
+        agree: usize,
+    },
 }
 
 impl Outcome {
@@ -46,22 +55,43 @@ impl Outcome {
         }
     }
 
-    /// The findings; none of a failed run.
-    pub fn findings(&self) -> &[Finding] {
+    /// From a line of the table; nothing if it is none, or of other parameters than these.
+    pub fn earlier(line: Vec<String>, index: usize, stage: &str, parameters: &[String]) -> Option<Self> {
+        let fits = line.len() == csv_header().len()
+            && line[0] == index.to_string()
+            && line[1] == stage
+            && line[PARAMETERS..].starts_with(parameters);
+        let (score, agree) = (line.get(2)?.parse().ok()?, line.get(3)?.parse().ok()?);
+        fits.then_some(Self::Earlier { line, score, agree })
+    }
+
+    /// Whether it ran and its energy audit held.
+    pub fn ran(&self) -> bool {
         match self {
-            Self::Ran { findings, .. } => findings,
-            Self::Failed(_) => &[],
+            Self::Ran { .. } => true,
+            Self::Failed(_) => false,
+            Self::Earlier { line, .. } => line.last().is_some_and(String::is_empty),
         }
     }
 
-    /// Mean closeness and number of agreements; nothing for a failed run.
+    /// Mean closeness, as written in the table so that a search taken up goes on as it would have, and number of agreements; nothing
+    /// for a failed run.
     pub fn score(&self) -> (f64, usize) {
         match self {
-            Self::Ran { findings, .. } => score(findings),
+            Self::Ran { findings, .. } => {
+                let (score, agree) = score(findings);
+                ((score * ROUND).round() / ROUND, agree)
+            }
             Self::Failed(_) => (0.0, 0),
+            Self::Earlier { score, agree, .. } => (*score, *agree),
         }
     }
 }
+
+/// Scores have four digits.
+const ROUND: f64 = 1e4;
+/// Columns of a line before the parameters.
+const PARAMETERS: usize = 6;
 
 /// Keys of the findings, in order.
 const KEYS: [&str; 20] = [
@@ -114,6 +144,9 @@ impl Trial {
 
     /// A line of the table.
     pub fn csv(&self) -> Vec<String> {
+        if let Outcome::Earlier { line, .. } = &self.outcome {
+            return line.clone();
+        }
         let (score, agree) = self.outcome.score();
         let mut line = vec![
             self.index.to_string(),
@@ -140,6 +173,7 @@ impl Trial {
                 line.extend((0..2 * KEYS.len()).map(|_| String::new()));
                 line.push(why.clone());
             }
+            Outcome::Earlier { .. } => {}
         }
         line
     }

@@ -1,41 +1,47 @@
-//! The seeded plan: a Latin hypercube, then changes to the best, then the best on the full mesh.
+//! The seeded plan: a Latin hypercube, then descents from the best points that lie apart, then the best with the full record.
 
+use super::descent::Descent;
 use super::outcome::{Outcome, Trial};
-use super::space::{DIMENSIONS, case, starts};
+use super::random::Random;
+use super::space::{DIMENSIONS, Scale, case, starts, written};
 use crate::config::Config;
-use crate::paper::record;
+use crate::paper::{Case, record};
 
 /// How much is tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// Coarse mesh: bounds and everything that the space does not change come from it.
+    /// Coarse mesh, for the Latin hypercube: bounds and everything that the space does not change come from it.
     pub coarse: Config,
     /// Full mesh.
     pub full: Config,
     /// Points of the Latin hypercube.
     pub points: usize,
-    /// Rounds of refinement.
-    pub rounds: usize,
-    /// Trials per round.
-    pub per_round: usize,
-    /// Best trials run again on the full mesh.
+    /// Descents, from the best trials that lie apart.
+    pub descents: usize,
+    /// Generations of a descent.
+    pub generations: usize,
+    /// Trials per generation.
+    pub per_generation: usize,
+    /// Best trials run again with the full record.
     pub finalists: usize,
     /// Seed.
     pub seed: u64,
     /// Turns recorded per trial.
     pub turns: f64,
+    /// Turns recorded of the finalists.
+    pub full_turns: f64,
 }
 
 impl Plan {
     /// Trials of the whole plan, if enough of them run.
     pub fn total(&self) -> usize {
-        starts().len() + self.points + self.rounds * self.per_round + self.finalists
+        starts().len() + self.points + self.descents * self.generations * self.per_generation + self.finalists
     }
 }
 
 /// The best trial of every stage that had one.
 pub fn leaders(trials: &[Trial]) -> Vec<(&'static str, &Trial)> {
-    [Stage::Start, Stage::Screening, Stage::Refinement, Stage::Full]
+    [Stage::Start, Stage::Screening, Stage::Descent, Stage::Confirmation]
         .iter()
         .filter_map(|stage| {
             let of_stage = trials.iter().filter(|trial| trial.stage == stage.word());
@@ -47,49 +53,45 @@ pub fn leaders(trials: &[Trial]) -> Vec<(&'static str, &Trial)> {
 /// Part of the plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// The usual values with different joints.
+    /// Values with reasons; full mesh.
     Start,
-    /// Latin hypercube.
+    /// Latin hypercube; coarse mesh.
     Screening,
-    /// Changes to the best.
-    Refinement,
-    /// The best on the full mesh.
-    Full,
+    /// Descents; full mesh.
+    Descent,
+    /// The best, full mesh and full record.
+    Confirmation,
 }
 
 impl Stage {
-    fn word(self) -> &'static str {
+    /// As the table says it.
+    pub fn word(self) -> &'static str {
         match self {
             Self::Start => "start",
             Self::Screening => "screening",
-            Self::Refinement => "refinement",
-            Self::Full => "full",
+            Self::Descent => "descent",
+            Self::Confirmation => "confirmation",
         }
     }
 }
 
-/// Of the trials so far, the parents of a round's changes.
-const PARENTS: usize = 5;
-/// Size of a change in the first round, as a part of the whole range; halved until the last.
-const FIRST_CHANGE: f64 = 0.2;
-/// Part of the coordinates that are changed at a time.
-const CHANGED: f64 = 0.35;
-
-/// Runs the plan; `done` is given every trial as it ends, in order.
+/// Runs the plan. `known` gives the outcome of a trial that an earlier run of the same plan has done, from its number and parameters as
+/// written; `done` is given every trial as it ends, in order.
 ///
 /// # Errors
-/// When `done` fails.
-pub fn run<E>(plan: &Plan, mut done: impl FnMut(&Trial) -> Result<(), E>) -> Result<Vec<Trial>, E> {
+/// When `known` or `done` fails.
+pub fn run<E>(
+    plan: &Plan,
+    mut known: impl FnMut(usize, Stage, &[String]) -> Result<Option<Outcome>, E>,
+    mut done: impl FnMut(&Trial) -> Result<(), E>,
+) -> Result<Vec<Trial>, E> {
     let mut random = Random::new(plan.seed);
     let mut trials: Vec<Trial> = Vec::new();
     let mut try_one = |trials: &mut Vec<Trial>, stage: Stage, point: Vec<f64>| {
-        let base = if stage == Stage::Full { &plan.full } else { &plan.coarse };
-        let outcome = match case(base, &point) {
-            Ok(mut case) => {
-                case.turns = plan.turns;
-                Outcome::of(record(&case, |_| ()))
-            }
-            Err(error) => Outcome::Failed(error.to_string()),
+        let parameters: Vec<String> = DIMENSIONS.iter().zip(&point).map(|(d, &at)| written(d, at)).collect();
+        let outcome = match known(trials.len(), stage, &parameters)? {
+            Some(outcome) => outcome,
+            None => outcome(plan, stage, &point),
         };
         let trial = Trial {
             index: trials.len(),
@@ -107,44 +109,85 @@ pub fn run<E>(plan: &Plan, mut done: impl FnMut(&Trial) -> Result<(), E>) -> Res
     for point in latin_hypercube(plan.points, &mut random) {
         try_one(&mut trials, Stage::Screening, point)?;
     }
-    for round in 0..plan.rounds {
-        let change = FIRST_CHANGE * 0.5_f64.powf(2.0 * round as f64 / plan.rounds.max(1) as f64);
-        let parents: Vec<Vec<f64>> = best(&trials, PARENTS).into_iter().map(|t| t.point.clone()).collect();
-        if parents.is_empty() {
-            break;
-        }
-        for k in 0..plan.per_round {
-            let parent = &parents[k % parents.len()];
-            let other = &parents[random.below(parents.len())];
-            let point = changed(parent, other, change, &mut random);
-            try_one(&mut trials, Stage::Refinement, point)?;
+    let mut descents = descents(&trials, plan.descents);
+    for _ in 0..plan.generations {
+        // Turn by turn, so that a search that is stopped has gone equally far with each.
+        for descent in &mut descents {
+            let first = trials.len();
+            for _ in 0..plan.per_generation {
+                let point = descent.sample(&mut random);
+                try_one(&mut trials, Stage::Descent, point)?;
+            }
+            let mut ranked: Vec<&Trial> = trials[first..].iter().collect();
+            ranked.sort_by(|a, b| better(a, b));
+            descent.learn(&ranked.iter().map(|trial| trial.point.as_slice()).collect::<Vec<_>>());
         }
     }
-    let finalists: Vec<Vec<f64>> = best(&trials, plan.finalists)
+    let on_full_mesh = trials.iter().filter(|trial| trial.stage == Stage::Descent.word());
+    let finalists: Vec<Vec<f64>> = best(on_full_mesh, plan.finalists)
         .into_iter()
-        .map(|t| t.point.clone())
+        .map(|trial| trial.point.clone())
         .collect();
     for point in finalists {
-        try_one(&mut trials, Stage::Full, point)?;
+        try_one(&mut trials, Stage::Confirmation, point)?;
     }
     Ok(trials)
 }
 
+fn outcome(plan: &Plan, stage: Stage, point: &[f64]) -> Outcome {
+    let base = match stage {
+        Stage::Screening => &plan.coarse,
+        Stage::Start | Stage::Descent | Stage::Confirmation => &plan.full,
+    };
+    match case(base, point) {
+        Ok(mut case) => {
+            if stage == Stage::Confirmation {
+                case.turns = plan.full_turns;
+                case.settling_turns = Case::new(case.config.clone()).settling_turns;
+            } else {
+                case.turns = plan.turns;
+            }
+            Outcome::of(record(&case, |_| ()))
+        }
+        Err(error) => Outcome::Failed(error.to_string()),
+    }
+}
+
+/// Distance of the descents' first points in the unit cube: a little more than half of that of two random points, sqrt(n / 6).
+const APART: f64 = 1.0;
+
+/// From the best trials that lie apart.
+fn descents(trials: &[Trial], count: usize) -> Vec<Descent> {
+    let moves = |k: &usize| !matches!(DIMENSIONS[*k].scale, Scale::Choice(_));
+    let free: Vec<usize> = (0..DIMENSIONS.len()).filter(moves).collect();
+    let mut chosen: Vec<&Trial> = Vec::new();
+    for trial in best(trials, trials.len()) {
+        let apart = |other: &&Trial| {
+            let squares = trial.point.iter().zip(&other.point).map(|(a, b)| (a - b).powi(2));
+            squares.sum::<f64>() >= APART * APART
+        };
+        if chosen.len() < count && chosen.iter().all(apart) {
+            chosen.push(trial);
+        }
+    }
+    chosen
+        .iter()
+        .map(|trial| Descent::new(&trial.point, free.clone()))
+        .collect()
+}
+
 /// The `count` best trials that ran, best first; of equals the earlier one.
 fn best<'a>(trials: impl IntoIterator<Item = &'a Trial>, count: usize) -> Vec<&'a Trial> {
-    let mut ran: Vec<&Trial> = trials
-        .into_iter()
-        .filter(|t| matches!(t.outcome, Outcome::Ran { .. }))
-        .collect();
-    ran.sort_by(|a, b| {
-        b.outcome
-            .score()
-            .0
-            .total_cmp(&a.outcome.score().0)
-            .then(a.index.cmp(&b.index))
-    });
+    let mut ran: Vec<&Trial> = trials.into_iter().filter(|trial| trial.outcome.ran()).collect();
+    ran.sort_by(|a, b| better(a, b));
     ran.truncate(count);
     ran
+}
+
+/// Higher score first, of equals the earlier one.
+fn better(a: &Trial, b: &Trial) -> std::cmp::Ordering {
+    let [(score_a, _), (score_b, _)] = [a, b].map(|trial| trial.outcome.score());
+    score_b.total_cmp(&score_a).then(a.index.cmp(&b.index))
 }
 
 /// One value in each of `count` equal parts of every dimension, in random order.
@@ -162,54 +205,6 @@ fn latin_hypercube(count: usize, random: &mut Random) -> Vec<Vec<f64>> {
     points
 }
 
-/// A parent with some coordinates taken from another parent or moved by about `change`, reflected at the bounds.
-fn changed(parent: &[f64], other: &[f64], change: f64, random: &mut Random) -> Vec<f64> {
-    parent
-        .iter()
-        .zip(other)
-        .map(|(&own, &others)| {
-            if random.unit() >= CHANGED {
-                return own;
-            }
-            if random.unit() < 0.3 {
-                return others;
-            }
-            // Sum of three even numbers: near enough to normal, and bounded.
-            let step = (random.unit() + random.unit() + random.unit() - 1.5) * 2.0 * change;
-            let moved = (own + step).rem_euclid(2.0);
-            (if moved > 1.0 { 2.0 - moved } else { moved }).min(1.0 - 1e-9)
-        })
-        .collect()
-}
-
-/// SplitMix64 (Steele, Lea, Flood, 2014): small, fast, the same everywhere.
-struct Random {
-    state: u64,
-}
-
-impl Random {
-    fn new(seed: u64) -> Self {
-        Self { state: seed }
-    }
-
-    fn next(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// 0 to 1, 1 excluded.
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        ((self.unit() * count as f64) as usize).min(count.saturating_sub(1))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -224,16 +219,5 @@ mod tests {
         }
         assert_eq!(points, latin_hypercube(16, &mut Random::new(7)));
         assert_ne!(points, latin_hypercube(16, &mut Random::new(8)));
-    }
-
-    #[test]
-    fn changes_stay_in_the_cube() {
-        let mut random = Random::new(1);
-        let parent = vec![0.01; DIMENSIONS.len()];
-        let other = vec![0.99; DIMENSIONS.len()];
-        for _ in 0..1000 {
-            let point = changed(&parent, &other, 0.5, &mut random);
-            assert!(point.iter().all(|x| (0.0..1.0).contains(x)), "{point:?}");
-        }
     }
 }
