@@ -74,9 +74,9 @@ fn record(motion: &Motion) -> Record {
             acceleration_square: acceleration([1.0, 40.0, 30.0]),
         },
         guide: Axis {
-            // A smooth shape that whirls as the pipe does.
-            y: series(&|s, t| 1e-3 * (degrees(s).to_radians() * 2.0).sin() * phase(s, t).cos()),
-            z: series(&|s, t| 1e-3 * (degrees(s).to_radians() * 2.0).sin() * phase(s, t).sin()),
+            // A smooth shape that whirls as the pipe does, and stands where the whirl turns over, or it would have a kink there.
+            y: series(&|s, t| 1e-3 * (degrees(s).to_radians() * 4.0).sin() * phase(s, t).cos()),
+            z: series(&|s, t| 1e-3 * (degrees(s).to_radians() * 4.0).sin() * phase(s, t).sin()),
             // Between -0.74 and 0.97 r/min once per turn.
             spin: series(&|_, t| TAU / 60.0 * (0.115 + 0.855 * (rotary_speed * t).sin())),
             acceleration: [Series::new(STATIONS), Series::new(STATIONS), Series::new(STATIONS)],
