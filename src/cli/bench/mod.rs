@@ -19,6 +19,7 @@ use self::document::Table;
 use self::measure::{Load, Measured, percentiles};
 use super::WrongUse;
 use crate::config::Config;
+use crate::mechanics::linear::Instructions;
 use crate::mechanics::phases::Phase;
 use crate::ros::health::diagnostics::describe;
 
@@ -51,6 +52,34 @@ pub struct BenchArgs {
     /// Values to change, as KEY=VALUE with the key's dotted path (may be given more than once).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
+    /// Vector instructions to use at most, to see what another machine would do [default: the best that this one has].
+    #[arg(long, value_enum)]
+    instructions: Option<Vectors>,
+}
+
+/// [`Instructions`] on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Vectors {
+    /// Without any.
+    Portable,
+    /// AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Vectors {
+    fn instructions(self) -> Instructions {
+        match self {
+            Self::Portable => Instructions::Portable,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => Instructions::Avx2,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => Instructions::Avx512,
+        }
+    }
 }
 
 /// Sets of runs.
@@ -110,6 +139,13 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
         && !(duration > 0.0 && duration.is_finite())
     {
         return Err(WrongUse::new(format!("--duration {duration}: a time above 0 s")).into());
+    }
+    if let Some(vectors) = args.instructions {
+        let instructions = vectors.instructions();
+        if !instructions.available() {
+            return Err(WrongUse::new(format!("--instructions: this machine does not have {instructions:?}")).into());
+        }
+        instructions.limit();
     }
     match args.cases {
         Some(cases) => run_cases(args, cases),
