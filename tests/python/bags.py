@@ -140,7 +140,7 @@ def write(folder):
                 stamp = START + index * PERIOD
                 writer.write(speed, stamp, store.serialize_cdr(float64(float(index)), float64.__msgtype__))
                 head = header(time(stamp // 10**9, stamp % 10**9), "flexible_tool")
-                message = bit_state(head, float(index), 4.2, 1e4, 0.5, 0.1, 0.2, 0.3)
+                message = bit_state(head, float(index), 4.2, 1e4, 0.5, 0.1, 0.2, 0.3, 0.9, 1.5, 1)
                 # Half an instant later, but written before the next.
                 writer.write(state, stamp + PERIOD // 2, store.serialize_cdr(message, bit_state.__msgtype__))
     print("hash", store.hash_rihs01("flexdrill/msg/BitState"))
