@@ -585,12 +585,14 @@ impl Assembler {
 }
 
 /// Lateral position (y, z) of the pipe relative to the guide, offset included (m).
+#[inline]
 pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
     let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
     station.offset + Vector2::new(pipe.y - state.q[station.guide + 1], pipe.z - state.q[station.guide + 2])
 }
 
 /// Local velocity of the inner gap.
+#[inline]
 fn inner_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
     let pipe = node(&state.v, station.pipe_above);
     let guide = node(&state.v, station.guide);
@@ -605,6 +607,7 @@ fn inner_velocity(model: &Model, station: &Station, state: &State) -> GapVector 
 }
 
 /// Local velocity of the outer gap.
+#[inline]
 fn outer_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
     let mut local = node(&state.v, station.guide);
     local.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[1]);
@@ -612,6 +615,7 @@ fn outer_velocity(model: &Model, station: &Station, state: &State) -> GapVector 
 }
 
 /// Forces on the pipe node and the guide node from the local force of the inner gap.
+#[inline]
 pub fn inner_forces(model: &Model, station: &Station, force: &GapVector) -> (GapVector, GapVector) {
     let mut pipe = *force;
     let turned = station.pipe_to_station.tr_mul(&force.fixed_rows::<3>(0));
@@ -623,6 +627,7 @@ pub fn inner_forces(model: &Model, station: &Station, force: &GapVector) -> (Gap
 }
 
 /// Force on the guide node from the local force of the outer gap.
+#[inline]
 pub fn outer_force(model: &Model, force: &GapVector) -> GapVector {
     let mut guide = *force;
     guide.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[1]);

@@ -78,6 +78,7 @@ impl Touch {
     }
 
     /// Both.
+    #[inline]
     pub fn force(&self) -> GapVector {
         let (n, f_n, f_t, f_a) = (self.direction, self.normal, self.tangential, self.axial);
         GapVector::from_column_slice(&[
@@ -90,23 +91,27 @@ impl Touch {
         ])
     }
 
+    #[inline]
     fn on_normal(&self) -> GapVector {
         let n = self.direction;
         GapVector::from_column_slice(&[0.0, n.x, n.y, 0.0, 0.0, 0.0])
     }
 
     /// Around: t = (-n_z, n_y), and the spin.
+    #[inline]
     fn on_around(&self) -> GapVector {
         let n = self.direction;
         GapVector::from_column_slice(&[0.0, -n.y, n.x, 1.0, 0.0, 0.0])
     }
 
+    #[inline]
     fn on_along(&self) -> GapVector {
         let n = self.direction;
         GapVector::from_column_slice(&[1.0, 0.0, 0.0, 0.0, n.y, -n.x])
     }
 
     /// The exact derivative with factors on those in displacement and in velocity.
+    #[inline(always)]
     pub fn tangent(&self, stiffness: f64, damping: f64) -> TangentTerms {
         let lateral = |v: Vector2<f64>| GapVector::from_column_slice(&[0.0, v.x, v.y, 0.0, 0.0, 0.0]);
         let n = self.direction;
@@ -157,6 +162,7 @@ impl GapLaw {
     ///
     /// Normal force F = k d (1 + c d') >= 0 with penetration d: continuous at onset, never pulling. Friction mu F v / sqrt(v^2 + v_s^2)
     /// separately around and along (Eq. 25).
+    #[inline(always)]
     pub fn touch(&self, lateral: Vector2<f64>, clearance: f64, velocity: &GapVector) -> Option<Touch> {
         let distance = lateral.norm();
         let depth = distance - clearance;
@@ -212,12 +218,14 @@ impl GapLaw {
     }
 
     /// v / sqrt(v^2 + v_s^2) and its derivative.
+    #[inline(always)]
     fn regularised(&self, speed: f64) -> (f64, f64) {
         regularised_sign(speed, self.slip_speed)
     }
 }
 
 /// Smooth sign of `speed` with width `width`, and its derivative.
+#[inline(always)]
 pub fn regularised_sign(speed: f64, width: f64) -> (f64, f64) {
     let root = (speed * speed + width * width).sqrt();
     (speed / root, width * width / (root * root * root))
