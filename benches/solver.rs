@@ -7,12 +7,13 @@ use std::hint::black_box;
 
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use criterion::{BatchSize, Bencher, BenchmarkId, Criterion, criterion_group, criterion_main};
-use flexdrill::config::Config;
-use flexdrill::mechanics::StepOutcome;
-use flexdrill::mechanics::assembly::Assembler;
-use flexdrill::mechanics::linear::{CondensedElimination, LinearSolver, Operator, StationElimination};
-use flexdrill::pacing::clock;
-use flexdrill::twin::{Inputs, Simulation};
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::assembly::Assembler;
+use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::linear::{CondensedElimination, LinearSolver, Operator, StationElimination};
+use flexdrill_core::twin::Simulation;
+use flexdrill_realtime::monotonic;
 
 const LINKS: [usize; 5] = [8, 16, 33, 66, 132];
 const INPUTS: Inputs = Inputs {
@@ -33,10 +34,10 @@ impl Measurement for ProcessorTime {
     type Value = u64;
 
     fn start(&self) -> u64 {
-        clock::processor_time()
+        monotonic::processor_time()
     }
     fn end(&self, start: u64) -> u64 {
-        clock::processor_time() - start
+        monotonic::processor_time() - start
     }
     fn add(&self, a: &u64, b: &u64) -> u64 {
         a + b

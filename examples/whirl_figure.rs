@@ -5,11 +5,13 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Context as _, bail, ensure};
-use flexdrill::analysis::WhirlKind;
-use flexdrill::config::{Config, ConfigError};
-use flexdrill::mechanics::{Body, StepOutcome};
-use flexdrill::paper::figures::{Figure, Line, Panel, svg};
-use flexdrill::twin::{Inputs, Simulation, Snapshot};
+use flexdrill_config::{Config, ConfigError};
+use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::WhirlKind;
+use flexdrill_core::tool::Body;
+use flexdrill_core::twin::{Simulation, Snapshot};
+use flexdrill_paper::figures::{Figure, Line, Panel, svg};
 
 /// Time between two samples (s), as the analysis has by default.
 const SPACING: f64 = 0.004;

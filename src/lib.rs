@@ -13,16 +13,8 @@
 //! - [`twin`]: one deterministic simulation.
 //! - [`analysis`]: what the motion means. [`mechanics`]: the paper.
 
-pub mod analysis;
 pub mod bag;
 pub mod cli;
-pub mod config;
 pub mod field_log;
-pub mod inputs;
-pub mod mechanics;
 pub mod messages;
-pub mod pacing;
-pub mod paper;
 pub mod ros;
-pub mod twin;
-pub mod verify;

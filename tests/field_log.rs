@@ -3,11 +3,11 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use flexdrill::config::Config;
 use flexdrill::field_log::{
-    FieldLogError, InputSequence, IssueKind, Mapping, Position, Range, Report, demo, read, read_range,
+    FieldLogError, InputSequence, IssueKind, Mapping, Position, Range, Report, read, read_range,
 };
-use flexdrill::inputs::{Door, InputKind};
+use flexdrill_config::Config;
+use flexdrill_core::inputs::{Door, InputKind};
 use proptest::prelude::*;
 
 fn config_file(name: &str) -> PathBuf {
@@ -54,8 +54,8 @@ fn places(report: &Report, kind: IssueKind) -> Vec<(u64, u64, u64)> {
 fn the_demo_log_is_what_its_generator_writes() {
     let written = std::fs::read_to_string(config_file("field_logs/demo.csv")).unwrap();
     assert!(
-        written == demo::demo_log(),
-        "config/field_logs/demo.csv is not up to date: flexdrill generate-demo-log config/field_logs/demo.csv"
+        written == xtask::demo_log::demo_log(),
+        "config/field_logs/demo.csv is not up to date: cargo xtask demo-log"
     );
 }
 
@@ -321,7 +321,7 @@ proptest! {
 
     #[test]
     fn damaged_demo_logs_never_panic(cut in 0usize..5000, insert in prop::collection::vec(any::<u8>(), 0..20)) {
-        let mut bytes = demo::demo_log().into_bytes();
+        let mut bytes = xtask::demo_log::demo_log().into_bytes();
         let cut = cut.min(bytes.len());
         bytes.splice(cut..cut, insert);
         if let Ok((_, report)) = read_text(&bytes, &rig_mapping()) {

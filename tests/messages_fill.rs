@@ -1,13 +1,13 @@
 //! Messages made from a snapshot say what the snapshot says.
 
-use flexdrill::analysis::{Severity, ShockLevel, WhirlKind};
-use flexdrill::mechanics::Body;
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::fill::{self, ShapeStyle};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::visualization_msgs::{Marker, MarkerArray};
 use flexdrill::messages::{BitState, ContactForces, JointDeflections, WhirlWarning, sensor_msgs};
-use flexdrill::twin::{ContactLayer, Snapshot};
+use flexdrill_core::motion::{Severity, ShockLevel, WhirlKind};
+use flexdrill_core::tool::Body;
+use flexdrill_core::twin::{ContactLayer, Snapshot};
 
 fn header() -> Header {
     Header {

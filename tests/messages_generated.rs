@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use flexdrill::messages::TypeInfo;
 use flexdrill::messages::generated::TYPES;
-use flexdrill::messages::generator::{self, Catalogue, schema};
+use xtask::messages::{Catalogue, schema};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -13,11 +13,11 @@ fn root() -> &'static Path {
 
 #[test]
 fn regenerating_gives_the_checked_in_file() {
-    let fresh = generator::generate(root()).unwrap();
-    let checked_in = std::fs::read_to_string(root().join(generator::OUTPUT)).unwrap();
+    let fresh = xtask::messages::generate(root()).unwrap();
+    let checked_in = std::fs::read_to_string(root().join(xtask::messages::OUTPUT)).unwrap();
     assert!(
         fresh == checked_in,
-        "src/messages/generated.rs is old: run `cargo run --release -- generate-messages`"
+        "src/messages/generated.rs is old: run `cargo xtask messages`"
     );
 }
 

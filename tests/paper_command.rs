@@ -171,7 +171,7 @@ fn a_small_search_lists_every_trial_and_is_taken_up() {
         .concat();
         let output = paper_of(1, &out, &more);
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        flexdrill::config::Config::load(out.join("best.yaml")).unwrap();
+        flexdrill_config::Config::load(out.join("best.yaml")).unwrap();
         std::fs::read_to_string(&path).unwrap()
     };
     let table = run();

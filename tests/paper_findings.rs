@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use flexdrill::paper::{
+use flexdrill_paper::{
     Axis, Finding, Layer, Record, Series, Stations, Verdict, contact_episodes, dominant_period, findings, rms,
 };
 

@@ -1,15 +1,17 @@
 //! The analysis on the real mechanics: a rotor that rolls in its clearance by physics, one that slides, and what doubtful
 //! inputs do to what is said of them.
 
-use flexdrill::analysis::{Severity, WhirlKind};
-use flexdrill::config::Config;
-use flexdrill::inputs::InputState;
-use flexdrill::mechanics::{Body, StepOutcome};
 use flexdrill::messages::WhirlWarning;
 use flexdrill::messages::fill;
 use flexdrill::messages::outputs::schedule;
 use flexdrill::messages::std_msgs::Header;
-use flexdrill::twin::{Frame, Inputs, Run, Simulation};
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::inputs::InputState;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::{Severity, WhirlKind};
+use flexdrill_core::tool::Body;
+use flexdrill_core::twin::{Frame, Run, Simulation};
 
 /// The closed-form case of a rolling rotor, d = 60 mm in D = 80 mm at 60 r/min, with both its stations watched.
 fn rolling_rotor() -> Config {

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::config::Config;
-use crate::inputs::units::kn_to_n;
-use crate::mechanics::JointKind;
+use flexdrill_config::Config;
+use flexdrill_core::tool::JointKind;
+use flexdrill_core::units::kn_to_n;
 
 /// Checks a configuration file and prints a summary.
 #[derive(Debug, Args)]

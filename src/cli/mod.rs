@@ -2,8 +2,6 @@
 
 mod bench;
 mod check;
-mod generate_demo_log;
-mod generate_messages;
 mod paper;
 mod progress;
 mod recover;
@@ -38,10 +36,6 @@ enum Command {
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
     Recover(recover::RecoverArgs),
-    #[command(hide = true)]
-    GenerateDemoLog(generate_demo_log::Args),
-    #[command(hide = true)]
-    GenerateMessages(generate_messages::Args),
     Verify(verify::VerifyArgs),
     Paper(Box<paper::PaperArgs>),
     Bench(bench::BenchArgs),
@@ -72,8 +66,6 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
         Command::Recover(args) => recover::run(&args),
-        Command::GenerateDemoLog(args) => generate_demo_log::run(&args),
-        Command::GenerateMessages(args) => generate_messages::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Bench(args) => bench::run(&args),

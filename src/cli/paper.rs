@@ -6,10 +6,10 @@ use anyhow::Context;
 use clap::Args;
 
 use super::progress::Progress;
-use crate::config::Config;
-use crate::paper::hinge::Hinge;
-use crate::paper::search::{self, Outcome, Plan, Stage};
-use crate::paper::{
+use flexdrill_config::Config;
+use flexdrill_paper::hinge::Hinge;
+use flexdrill_paper::search::{self, Outcome, Plan, Stage};
+use flexdrill_paper::{
     Case, Finding, PaperError, Record, Report, Verdict, figures, findings, findings_csv, record, write_figures,
     write_text,
 };

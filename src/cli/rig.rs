@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use super::{TimedInput, WrongUse, signals, source};
-use crate::inputs::InputKind;
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
 use crate::ros::network::Network;
 use crate::ros::rig_node::{RIG_NODE_NAME, RigNode};
+use flexdrill_core::inputs::InputKind;
 
 /// Time between two lines.
 const TELL: Duration = Duration::from_secs(5);

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{WrongUse, signals};
-use crate::config::Config;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
@@ -14,7 +13,8 @@ use crate::ros::node::{self, NodeSetup, RunSummary};
 use crate::ros::parameters::configured;
 use crate::ros::service::ServiceMapping;
 use crate::ros::{DEFAULT_NODE_NAME, logging};
-use crate::twin::Output;
+use flexdrill_config::Config;
+use flexdrill_core::twin::Output;
 
 /// The paper's case, so that the binary runs anywhere.
 const DEFAULT_CONFIG: &str = include_str!("../../config/default.yaml");
@@ -159,7 +159,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn rate(config: &Config, schedule: &crate::twin::Schedule, key: &str) -> String {
+fn rate(config: &Config, schedule: &flexdrill_core::twin::Schedule, key: &str) -> String {
     let of = |output| schedule.rate(output, config.solver.time_step);
     let rate = match key {
         "joint_deflections" => of(Output::JointDeflections),

@@ -8,9 +8,9 @@ use clap::Args;
 use super::{TimedInput, WrongUse};
 use crate::bag::{self, BagError};
 use crate::field_log::{self, Mapping, Position};
-use crate::inputs::InputKind;
 use crate::messages::Message;
 use crate::messages::std_msgs::Float64;
+use flexdrill_core::inputs::InputKind;
 
 /// Which part of a source is used, and how its columns are read.
 #[derive(Debug, Args)]

@@ -5,7 +5,7 @@ use std::io::IsTerminal;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::verify::{CASES, title};
+use flexdrill_verify::{CASES, title};
 
 /// Runs the closed-form verification cases and compares them with theory; fails when one is off.
 #[derive(Debug, Args)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::config::checker::Checker;
+use flexdrill_config::checker::Checker;
 
 /// A condition on one column; give exactly one of `values`, `above`, `below`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::config::ConfigError;
+use flexdrill_config::ConfigError;
 
 /// Why a field log could not be read.
 #[derive(Debug, thiserror::Error)]

@@ -3,7 +3,7 @@
 use super::mapping::Hookload;
 use super::report::{IssueKind, Issues, Tare};
 use super::table::Row;
-use crate::inputs::InputKind;
+use flexdrill_core::inputs::InputKind;
 
 const SPEED: usize = InputKind::RotarySpeed.index();
 const WEIGHT: usize = InputKind::WeightOnBit.index();

@@ -5,11 +5,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{Condition, TimeFormat};
-use crate::config::ConfigError;
-use crate::config::checker::{Bound, Checker};
-use crate::config::lines::Lines;
-use crate::config::reading;
-use crate::inputs::units::{klbf_to_kn, n_to_kn, rad_per_s_to_rpm};
+use flexdrill_config::ConfigError;
+use flexdrill_config::checker::{Bound, Checker};
+use flexdrill_config::lines::Lines;
+use flexdrill_config::reading;
+use flexdrill_core::units::{klbf_to_kn, n_to_kn, rad_per_s_to_rpm};
 
 /// Which column of a log is what.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,6 @@
 //! would on the rig, and the report names the rows. Rows are numbered as an editor shows them: the header is row 1.
 
 mod condition;
-pub mod demo;
 mod error;
 mod hookload;
 mod mapping;

@@ -8,7 +8,7 @@ use super::report::{Issues, Report, Summary};
 use super::spikes::{report_frozen, take_out_spikes};
 use super::table::{Row, read_rows};
 use super::{FieldLogError, InputSequence, Range, TimedInput};
-use crate::inputs::InputKind;
+use flexdrill_core::inputs::InputKind;
 
 /// Reads a whole log.
 ///

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::InputSequence;
-use crate::inputs::InputKind;
+use flexdrill_core::inputs::InputKind;
 
 /// Kinds of things in a log that are not as they should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

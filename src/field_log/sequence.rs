@@ -1,6 +1,6 @@
 //! What comes out of a log.
 
-use crate::inputs::InputKind;
+use flexdrill_core::inputs::InputKind;
 
 /// One sample as a topic would bring it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::report::{IssueKind, Issues};
 use super::table::Row;
-use crate::inputs::InputKind;
+use flexdrill_core::inputs::InputKind;
 
 /// Takes out single samples that are further than `limit` from both their neighbours, on the same side. Longer
 /// excursions stay: they may be true.

@@ -4,7 +4,7 @@ use super::mapping::{Mapping, WeightOnBitColumn};
 use super::report::{IssueKind, Issues};
 use super::{Condition, FieldLogError};
 #[cfg(doc)]
-use crate::inputs::InputKind;
+use flexdrill_core::inputs::InputKind;
 
 /// One row with a readable, advancing time.
 #[derive(Debug, Clone, Copy)]

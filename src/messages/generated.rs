@@ -1,4 +1,4 @@
-//! Generated from `msg/` and `src/messages/external/` by `flexdrill generate-messages`. Do not edit.
+//! Generated from `msg/` and `src/messages/external/` by `cargo xtask messages`. Do not edit.
 
 use super::TypeInfo;
 

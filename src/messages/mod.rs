@@ -3,7 +3,6 @@
 
 mod cdr;
 pub mod fill;
-pub mod generator;
 pub mod large_array;
 mod message;
 pub mod outputs;

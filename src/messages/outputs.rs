@@ -1,15 +1,18 @@
 //! From a frame to the messages that are due, in the order in which they are published. The node and a replay both
 //! use this, so that they give the same bytes.
 
+use super::builtin_interfaces::Time;
 use super::fill::{self, ShapeStyle};
+use super::sensor_msgs::JointState;
 use super::std_msgs::Header;
 use super::topics::{self, TopicInfo};
+use super::visualization_msgs::MarkerArray;
 use super::{
     AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, SessionInfo, WhirlState, WhirlWarning,
-    builtin_interfaces::Time, sensor_msgs::JointState, to_cdr_into, visualization_msgs::MarkerArray,
+    to_cdr_into,
 };
-use crate::config::Config;
-use crate::twin::{Frame, Output, RunInputs, Schedule, Timeline};
+use flexdrill_config::Config;
+use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
 
 /// A message ready to be sent and recorded.
 #[derive(Debug, Clone, Copy)]
@@ -230,12 +233,12 @@ pub fn run_inputs(message: &AppliedInputs, config: &Config) -> RunInputs {
         step: message.step,
         skipped: message.skipped_steps,
         reset: message.reset,
-        inputs: crate::twin::Inputs {
+        inputs: flexdrill_core::inputs::Inputs {
             rotary_speed: message.rotary_speed,
             weight_on_bit: message.weight_on_bit,
         },
         slew: [message.rotary_speed_slew, message.weight_on_bit_slew],
-        live: crate::mechanics::LiveParameters {
+        live: flexdrill_core::tool::LiveParameters {
             inner_friction: message.inner_friction,
             outer_friction: message.outer_friction,
             bit_friction_factor: message.bit_friction_factor,

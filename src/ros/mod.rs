@@ -10,7 +10,6 @@ pub mod publisher;
 pub mod raw;
 pub mod rig_node;
 pub mod service;
-pub mod solver;
 pub mod subscriber;
 
 use ros2_client::CreateError;
@@ -64,7 +63,7 @@ pub enum NodeError {
     Stopped(String),
     /// The model could not be built.
     #[error(transparent)]
-    Build(#[from] crate::twin::BuildError),
+    Build(#[from] flexdrill_core::twin::BuildError),
     /// The recording.
     #[error("recording: {0}")]
     Recording(#[from] crate::bag::BagError),

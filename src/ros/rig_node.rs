@@ -7,9 +7,9 @@ use super::args::{NodeIdentity, Remapping};
 use super::network::Network;
 use super::publisher::{Offer, TopicPublisher, dds_topic_name};
 use super::raw::encode;
-use crate::inputs::InputKind;
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics;
+use flexdrill_core::inputs::InputKind;
 
 /// Name of the node unless it is remapped.
 pub const RIG_NODE_NAME: &str = "flexdrill_rig";

@@ -1,6 +1,6 @@
 //! The default tool and the hard cases.
 
-use crate::config::{Config, ConfigError};
+use flexdrill_config::{Config, ConfigError};
 
 /// A tool and a load that the twin must keep pace with.
 pub(super) struct Case {

@@ -1,8 +1,8 @@
 //! What a run showed of the tool, after its first quarter.
 
 use super::document::Table;
-use crate::inputs::units::rad_per_s_to_rpm;
-use crate::twin::Snapshot;
+use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::rad_per_s_to_rpm;
 
 /// Kept over a run; nothing grows with its length.
 pub(super) struct Figures {
@@ -118,7 +118,7 @@ impl Figures {
             ]);
         }
         let kinds = |kind| last.whirl.kind.iter().filter(|&&k| k == kind).count();
-        use crate::analysis::WhirlKind::{Backward, Chaotic, Forward};
+        use flexdrill_core::motion::WhirlKind::{Backward, Chaotic, Forward};
         table.row([
             "whirl at the end: forward, backward, chaotic of all places".into(),
             format!(

@@ -4,12 +4,14 @@ use hdrhistogram::Histogram;
 
 use super::super::progress::Progress;
 use super::figures::Figures;
-use crate::config::Config;
-use crate::inputs::units::{kn_to_n, rpm_to_rad_per_s};
-use crate::mechanics::phases::{Phase, PhaseTimes};
-use crate::mechanics::{Counters, EnergyAudit, StepFailure, StepOutcome};
-use crate::pacing::clock;
-use crate::twin::{Inputs, Simulation, Snapshot};
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
+use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
+use flexdrill_core::dynamics::stepper::Counters;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::twin::{Simulation, Snapshot};
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_realtime::monotonic;
 
 /// Model time in one published frame (s).
 const FRAME: f64 = 0.02;
@@ -99,10 +101,10 @@ pub(super) fn run(
     mut every_frame: impl FnMut(f64),
 ) -> anyhow::Result<Measured> {
     let config = config.with_value("inputs.weight_on_bit.initial_kn", load.wob)?;
-    let began = clock::now();
+    let began = monotonic::now();
     let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
-    let start = seconds(clock::now() - began);
-    simulation.set_clock(clock::now);
+    let start = seconds(monotonic::now() - began);
+    simulation.set_clock(monotonic::now);
     let time_step = simulation.settings().time_step;
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(load.rpm),
@@ -119,11 +121,11 @@ pub(super) fn run(
     let mut failure = None;
     let mut progress = Progress::new(duration);
     let mut aside = 0;
-    let processor = clock::processor_time();
+    let processor = monotonic::processor_time();
     while steps < total {
-        let before = clock::now();
+        let before = monotonic::now();
         let outcome = simulation.advance(&inputs);
-        let mut took = clock::now() - before;
+        let mut took = monotonic::now() - before;
         match outcome {
             StepOutcome::Advanced { iterations, .. } => most_iterations = most_iterations.max(iterations),
             StepOutcome::Failed(failed) => {
@@ -135,9 +137,9 @@ pub(super) fn run(
         step_times.saturating_record(took);
         let ends_frame = steps % per_frame == 0;
         if ends_frame {
-            let before = clock::now();
+            let before = monotonic::now();
             simulation.snapshot(&mut last, true);
-            took += clock::now() - before;
+            took += monotonic::now() - before;
         }
         busy += took;
         frame += took;
@@ -145,17 +147,17 @@ pub(super) fn run(
             frame_times.saturating_record(frame);
             frame = 0;
             // What the bench itself does is not the model's.
-            let before = clock::processor_time();
+            let before = monotonic::processor_time();
             if steps * 4 >= total {
                 figures.take(&last);
             }
             let time = steps as f64 * time_step;
             progress.at(time);
             every_frame(time);
-            aside += clock::processor_time() - before;
+            aside += monotonic::processor_time() - before;
         }
     }
-    let processor = clock::processor_time() - processor - aside;
+    let processor = monotonic::processor_time() - processor - aside;
     progress.done();
     Ok(Measured {
         start,

@@ -3,7 +3,7 @@
 use super::document::Table;
 use super::machine::status_kb;
 use super::measure::{Load, run};
-use crate::config::Config;
+use flexdrill_config::Config;
 
 /// Model time between two samples (s).
 const EVERY: f64 = 60.0;

@@ -18,10 +18,10 @@ use clap::{Args, ValueEnum};
 use self::document::Table;
 use self::measure::{Load, Measured, percentiles};
 use super::WrongUse;
-use crate::config::Config;
-use crate::mechanics::linear::Instructions;
-use crate::mechanics::phases::Phase;
 use crate::ros::health::diagnostics::describe;
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::phases::Phase;
+use flexdrill_core::simd::instructions::Instructions;
 
 /// Runs a configuration at constant inputs as fast as it goes and prints its speed and its figures, as Markdown.
 #[derive(Debug, Args)]

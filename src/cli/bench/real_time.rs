@@ -3,9 +3,9 @@
 use super::cases::CASES;
 use super::document::Table;
 use super::measure::{Load, Measured, percentiles, run};
-use crate::config::Config;
-use crate::mechanics::phases::Phase;
 use crate::ros::health::diagnostics::describe;
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::phases::Phase;
 
 /// Runs all cases; gives the tables.
 ///

@@ -2,7 +2,7 @@
 
 use super::document::Table;
 use super::measure::{Load, percentiles, run};
-use crate::config::Config;
+use flexdrill_config::Config;
 
 /// Sizes of the tool: from a quarter of the paper's to four times it.
 const LINKS: [usize; 5] = [8, 16, 33, 66, 132];

@@ -2,11 +2,11 @@
 
 use super::cases::{CASES, Case};
 use super::document::Table;
-use crate::config::Config;
-use crate::inputs::units::{kn_to_n, rpm_to_rad_per_s};
-use crate::pacing::clock;
-use crate::twin::Inputs;
-use crate::verify::step_error::{Calm, Figure, Motion, Profile, Record, Statistics, StepErrorFailure, refined};
+use flexdrill_config::Config;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_realtime::monotonic;
+use flexdrill_verify::step_error::{Calm, Figure, Motion, Profile, Record, Statistics, StepErrorFailure, refined};
 
 /// The stable runs are shorter by this than the chaotic ones: after 5 s the run-up and a whole turn are over.
 const CALM_SHORTER: f64 = 6.0;
@@ -159,9 +159,9 @@ fn chaotic_rows(name: &str, config: &Config, motion: &Motion) -> Result<ChaoticR
         "{name}: three runs of {} s and three of an eighth of the step",
         motion.duration
     );
-    let began = clock::processor_time();
+    let began = monotonic::processor_time();
     let runs = Record::runs(config, motion)?;
-    let processor = (clock::processor_time() - began) as f64 * 1e-9;
+    let processor = (monotonic::processor_time() - began) as f64 * 1e-9;
     let fine = Record::runs(&refined(config)?, motion)?;
     let statistics = Statistics::of(&runs, &fine);
     let energy = |records: &[Record]| {

@@ -7,10 +7,10 @@ use anyhow::Context as _;
 use serde::Serialize;
 
 use super::player::Player;
-use crate::analysis::{Incident, IncidentKind, IncidentPlace, Severity};
-use crate::inputs::units::{n_to_kn, rad_to_deg};
-use crate::mechanics::Body;
-use crate::twin::Snapshot;
+use flexdrill_core::motion::{Incident, IncidentKind, IncidentPlace, Severity};
+use flexdrill_core::tool::Body;
+use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::{n_to_kn, rad_to_deg};
 
 /// Most rows that are printed; the JSON has all.
 const ROWS: usize = 40;

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::player::Player;
 use crate::cli::progress::Progress;
-use crate::config::Config;
-use crate::inputs::{Door, InputKind};
 use crate::messages::topics::TopicInfo;
-use crate::twin::RunInputs;
+use flexdrill_config::Config;
+use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::twin::RunInputs;
 
 /// A sample at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,14 +6,14 @@ use anyhow::{Context as _, bail};
 
 use super::summary::Tally;
 use crate::bag::{BagError, Recorder, Recording, Topic};
-use crate::config::Config;
-use crate::mechanics::{StepFailure, StepOutcome};
 use crate::messages::CdrError;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
-use crate::pacing::clock;
 use crate::ros::health::diagnostics::describe;
-use crate::twin::{Frame, Run, RunInputs, Simulation};
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::outcome::{StepFailure, StepOutcome};
+use flexdrill_core::twin::{Frame, Run, RunInputs, Simulation};
+use flexdrill_realtime::monotonic;
 
 /// Topics that a replay can give: those that do not tell of wall-clock time.
 fn replayed() -> impl Iterator<Item = &'static TopicInfo> {
@@ -58,7 +58,7 @@ impl Player {
             .collect();
         let recorder = Recorder::create(out, &recorded)?;
         let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
-        simulation.set_clock(clock::now);
+        simulation.set_clock(monotonic::now);
         let run = Run::new(simulation, schedule(&config));
         let mut player = Self {
             frame: run.new_frame(),
@@ -156,10 +156,10 @@ impl Player {
         self.run.capture(&mut self.frame);
         self.tally.take(&self.frame.snapshot);
         let (recorder, topics) = (&mut self.recorder, &self.topics);
-        let began = clock::now();
+        let began = monotonic::now();
         self.outputs
             .frame(&self.frame, |encoded| write(recorder, topics, encoded))?;
-        self.tally.publishing(clock::now().saturating_sub(began));
+        self.tally.publishing(monotonic::now().saturating_sub(began));
         Ok(())
     }
 

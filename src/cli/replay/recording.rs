@@ -7,11 +7,11 @@ use anyhow::{Context as _, bail};
 use super::player::Player;
 use crate::bag::{self, Bag};
 use crate::cli::progress::Progress;
-use crate::config::Config;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{AppliedInputs, JointDeflections, Message, SessionInfo, TwinStatus};
 use crate::ros::parameters::configured::with_values;
+use flexdrill_config::Config;
 
 /// What of a recording is needed.
 pub(super) struct Script {

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::incidents::{place_of_bit, place_of_shock};
-use crate::analysis::{Incident, IncidentLog, Observation};
-use crate::mechanics::phases::{Phase, PhaseTimes};
-use crate::twin::Snapshot;
+use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
+use flexdrill_core::motion::{Incident, IncidentLog, Observation};
+use flexdrill_core::twin::Snapshot;
 
 /// The largest value of something and where and when it was.
 #[derive(Debug, Clone, Copy, Default)]

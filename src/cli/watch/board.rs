@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use super::profile::HeldPeaks;
-use crate::inputs::units::rad_per_s_to_rpm;
 use crate::messages::{BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+use flexdrill_core::units::rad_per_s_to_rpm;
 
 /// A heart that has not beaten for this long is lost: ten beats at the default 5 Hz.
 const HEARTBEAT_LOST: Duration = Duration::from_secs(2);

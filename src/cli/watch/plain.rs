@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::board::Board;
 use super::words;
-use crate::inputs::units::rad_per_s_to_rpm;
+use flexdrill_core::units::rad_per_s_to_rpm;
 
 pub(super) fn print(board: &Board, now: Instant) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();

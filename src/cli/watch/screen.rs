@@ -14,8 +14,8 @@ use ratatui::widgets::{Axis, Block, Borders, Cell, Chart, Dataset, GraphType, Pa
 use super::board::{Board, HISTORY};
 use super::profile::binned;
 use super::words;
-use crate::inputs::units::{rad_per_s_to_rpm, rad_to_deg};
 use crate::messages::{TwinStatus, WhirlState, WhirlWarning};
+use flexdrill_core::units::{rad_per_s_to_rpm, rad_to_deg};
 
 const GOOD: Color = Color::Green;
 const DOUBTFUL: Color = Color::Yellow;

@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 
 use super::board::{Board, Heartbeat};
-use crate::inputs::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
 use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning};
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
 
 pub(super) fn state(code: u8) -> &'static str {
     match code {

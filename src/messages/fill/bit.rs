@@ -2,7 +2,7 @@
 
 use crate::messages::BitState;
 use crate::messages::std_msgs::Header;
-use crate::twin::Snapshot;
+use flexdrill_core::twin::Snapshot;
 
 /// Fills `out`.
 pub fn bit_state(snapshot: &Snapshot, header: &Header, out: &mut BitState) {

@@ -3,7 +3,7 @@
 use super::{copy, largest};
 use crate::messages::ContactForces;
 use crate::messages::std_msgs::Header;
-use crate::twin::Snapshot;
+use flexdrill_core::twin::Snapshot;
 
 /// Fills `out`. The largest forces are those of the publishing interval, not of the instant.
 pub fn contact_forces(snapshot: &Snapshot, header: &Header, out: &mut ContactForces) {

@@ -4,7 +4,7 @@ use super::{copy, largest};
 use crate::messages::JointDeflections;
 use crate::messages::sensor_msgs::JointState;
 use crate::messages::std_msgs::Header;
-use crate::twin::Snapshot;
+use flexdrill_core::twin::Snapshot;
 
 /// Fills `out`.
 pub fn joint_deflections(snapshot: &Snapshot, header: &Header, out: &mut JointDeflections) {

@@ -1,4 +1,4 @@
-//! Messages made from a [`Snapshot`](crate::twin::Snapshot): one function per type, each filling a message that keeps
+//! Messages made from a [`Snapshot`](flexdrill_core::twin::Snapshot): one function per type, each filling a message that keeps
 //! its memory from one time to the next.
 
 mod arrows;

@@ -7,7 +7,7 @@ use super::arrows::{POINTS_PER_ARROW, colour, push_arrow};
 use crate::messages::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use crate::messages::std_msgs::{ColorRGBA, Header};
 use crate::messages::visualization_msgs::{Marker, MarkerArray};
-use crate::twin::{ContactLayer, Snapshot};
+use flexdrill_core::twin::{ContactLayer, Snapshot};
 
 /// How the tool is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,12 +1,12 @@
 //! [`WhirlState`] and [`WhirlWarning`].
 
 use super::copy;
-use crate::analysis::{Severity, WhirlKind, WhirlWarningLevel};
-use crate::inputs::units::n_to_kn;
-use crate::mechanics::Body;
 use crate::messages::std_msgs::Header;
 use crate::messages::{WhirlState, WhirlWarning};
-use crate::twin::Snapshot;
+use flexdrill_core::motion::{Severity, WhirlKind, WhirlWarningLevel};
+use flexdrill_core::tool::Body;
+use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::n_to_kn;
 
 fn body_code(body: Body) -> u8 {
     match body {

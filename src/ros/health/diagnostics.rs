@@ -1,10 +1,10 @@
 //! `/diagnostics`: seven items judged from the status and the newest snapshot, with hysteresis.
 
 use super::motion::MotionEvidence;
-use crate::inputs::units::{n_to_kn, rad_per_s_to_rpm};
-use crate::mechanics::StepFailure;
 use crate::messages::TwinStatus;
 use crate::messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
+use flexdrill_core::dynamics::outcome::StepFailure;
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
 /// Judgements in a row that must be better before an item's level falls.
 const CALM: u32 = 3;
@@ -184,14 +184,14 @@ fn solver(status: &TwinStatus, previous: &TwinStatus, evidence: &Evidence) -> Ju
 /// Cause and place of a failed step in words.
 pub fn describe(failure: &StepFailure) -> String {
     let cause = match failure.cause {
-        crate::mechanics::FailureCause::NotConverged => "Newton's iterations did not converge",
-        crate::mechanics::FailureCause::NotFinite => "a number is not finite",
-        crate::mechanics::FailureCause::Singular => "the linear system is singular",
-        crate::mechanics::FailureCause::OutOfRange => "a displacement or tilt left the model's range",
+        flexdrill_core::dynamics::outcome::FailureCause::NotConverged => "Newton's iterations did not converge",
+        flexdrill_core::dynamics::outcome::FailureCause::NotFinite => "a number is not finite",
+        flexdrill_core::dynamics::outcome::FailureCause::Singular => "the linear system is singular",
+        flexdrill_core::dynamics::outcome::FailureCause::OutOfRange => "a displacement or tilt left the model's range",
     };
     let body = match failure.body {
-        crate::mechanics::Body::Pipe => "pipe",
-        crate::mechanics::Body::Guide => "guide pipe",
+        flexdrill_core::tool::Body::Pipe => "pipe",
+        flexdrill_core::tool::Body::Guide => "guide pipe",
     };
     format!(
         "{cause} (station {} of the {body}, worst value {:.3e}, sub-step {:.3e} s)",
@@ -323,11 +323,11 @@ mod tests {
     #[test]
     fn a_failure_is_told_with_cause_and_place() {
         let failure = StepFailure {
-            cause: crate::mechanics::FailureCause::NotConverged,
+            cause: flexdrill_core::dynamics::outcome::FailureCause::NotConverged,
             time: 1.5,
             step: 1e-5,
             station: 42,
-            body: crate::mechanics::Body::Guide,
+            body: flexdrill_core::tool::Body::Guide,
             value: 3.0,
         };
         let evidence = Evidence {

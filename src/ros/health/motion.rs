@@ -1,10 +1,10 @@
 //! What the analysis says of the tool's motion, as items of `/diagnostics`: whirl, stick-slip and lateral shock.
 
 use super::diagnostics::Judgement;
-use crate::analysis::{Severity, ShockLevel, WhirlWarningLevel};
-use crate::inputs::units::rad_per_s_to_rpm;
 use crate::messages::diagnostic_msgs::DiagnosticStatus;
-use crate::twin::Snapshot;
+use flexdrill_core::motion::{Severity, ShockLevel, WhirlWarningLevel};
+use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::rad_per_s_to_rpm;
 
 /// Levels of the motion with what led to them, of the newest snapshot.
 #[derive(Debug, Clone, Copy, Default)]

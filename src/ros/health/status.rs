@@ -3,16 +3,16 @@
 use std::sync::atomic::Ordering;
 
 use super::meters::StepTimes;
-use crate::inputs::{Door, InputKind};
-use crate::mechanics::phases::{Phase as StepPhase, PhaseTimes};
-use crate::mechanics::{EnergyAudit, FailureCause, StepFailure};
 use crate::messages::TwinStatus;
 use crate::messages::std_msgs::Header;
-use crate::pacing::RealTimeFactor;
 use crate::ros::node::publishers::Publishers;
 use crate::ros::node::recording::RecordingThread;
-use crate::ros::solver::link::{Gauges, Phase};
-use crate::twin::{Snapshot, SolverCounters};
+use flexdrill_core::dynamics::outcome::{EnergyAudit, FailureCause, StepFailure};
+use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
+use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::twin::{Snapshot, SolverCounters};
+use flexdrill_realtime::RealTimeFactor;
+use flexdrill_realtime::link::{Gauges, Phase};
 
 /// Span of the real-time factor (s).
 const FACTOR_SPAN: f64 = 1.0;

@@ -10,13 +10,13 @@ use ros2_client::{Node, Parameter, ParameterValue};
 use rustdds::DomainParticipant;
 
 use super::rig::Gate;
-use crate::config::Config;
 use crate::messages::outputs::{self, ParameterChange};
 use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use crate::ros::NodeError;
 use crate::ros::parameters::{ParameterStore, Task, configured};
 use crate::ros::service::{ServiceMapping, ServiceServer, at_once, shared};
-use crate::ros::solver::link::{Command, Gauges, Phase};
+use flexdrill_config::Config;
+use flexdrill_realtime::link::{Command, Gauges, Phase};
 
 /// Longest wait for the solver to hand out its state.
 const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);

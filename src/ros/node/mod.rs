@@ -1,6 +1,6 @@
 //! The node: what runs where, and how it begins and ends.
 //!
-//! - the solver's thread: [`super::solver`];
+//! - the solver's thread: [`flexdrill_realtime`];
 //! - the publisher's thread: `publish`; the recorder's thread: `recording`;
 //! - tokio tasks: inputs and clock (`rig`), services and parameters (`control`).
 
@@ -29,17 +29,17 @@ use super::args::{NodeIdentity, Remapping};
 use super::network::Network;
 use super::parameters::{self, Parameters, configured};
 use super::service::ServiceMapping;
-use super::solver::Solver;
-use super::solver::clock::{SimulatedClock, WallClock};
-use super::solver::link::{Gauges, Targets, link};
 use super::{DEFAULT_NODE_NAME, NodeError, logging};
 use crate::bag::Recording;
-use crate::config::Config;
-use crate::inputs::{Door, InputKind};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
-use crate::pacing::clock;
-use crate::twin::{BuildError, Run, Simulation};
+use flexdrill_config::Config;
+use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::twin::{BuildError, Run, Simulation};
+use flexdrill_realtime::Solver;
+use flexdrill_realtime::clock::{SimulatedClock, WallClock};
+use flexdrill_realtime::link::{Gauges, Targets, link};
+use flexdrill_realtime::monotonic;
 
 /// Length of a period of the solver (s): inputs take effect this fast.
 const PERIOD: f64 = 5e-3;
@@ -266,7 +266,7 @@ fn build(config: &Config, checkpoint: Option<&[u8]>) -> Result<Run, BuildError> 
     if let Some(bytes) = checkpoint {
         simulation.restore(bytes)?;
     }
-    simulation.set_clock(clock::now);
+    simulation.set_clock(monotonic::now);
     tracing::info!(
         "the tool is at its start after {:.1} s; model time runs",
         began.elapsed().as_secs_f64()
@@ -341,7 +341,7 @@ async fn joined(thread: std::thread::JoinHandle<()>, most: Duration) -> bool {
 fn time_of_inputs(simulated: Option<Arc<AtomicU64>>) -> Now {
     match simulated {
         Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as f64 * 1e-9),
-        None => Arc::new(|| clock::now() as f64 * 1e-9),
+        None => Arc::new(|| monotonic::now() as f64 * 1e-9),
     }
 }
 

@@ -10,19 +10,19 @@ use super::control::Change;
 use super::publishers::Publishers;
 use super::recording::RecordingThread;
 use super::rig::{Now, Received};
-use crate::config::Config;
-use crate::inputs::{Door, InputKind};
 use crate::messages::diagnostic_msgs::DiagnosticArray;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
-use crate::pacing::clock;
 use crate::ros::health::diagnostics::{Diagnostics, Evidence, describe};
 use crate::ros::health::motion::MotionEvidence;
 use crate::ros::health::status::{Sources, StatusKeeper};
-use crate::ros::solver::link::{Gauges, PublisherEnd, Report};
-use crate::twin::RunInputs;
+use flexdrill_config::Config;
+use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::twin::RunInputs;
+use flexdrill_realtime::link::{Gauges, PublisherEnd, Report};
+use flexdrill_realtime::monotonic;
 
 /// How often the rings are looked at: the delay that publishing adds.
 const LOOK: Duration = Duration::from_millis(1);
@@ -76,7 +76,7 @@ impl Publisher {
     /// When the meters cannot be made.
     pub fn new(parts: PublisherParts) -> Result<Self, hdrhistogram::CreationError> {
         let status = StatusKeeper::new(parts.config.solver.time_step, parts.config.hash())?;
-        let now = clock::now();
+        let now = monotonic::now();
         Ok(Self {
             parts,
             outputs: None,
@@ -125,7 +125,7 @@ impl Publisher {
         while let Ok(received) = self.parts.received.try_recv() {
             self.record_received(received);
         }
-        let now = clock::now();
+        let now = monotonic::now();
         self.status.note(now, &self.parts.gauges);
         let rates = self.parts.config.outputs.rates;
         if due(&mut self.next_status, now, rates.status) {
@@ -157,12 +157,12 @@ impl Publisher {
                 self.status.take(&frame.snapshot);
                 self.evidence.motion = MotionEvidence::of(&frame.snapshot);
                 let parts = &self.parts;
-                let began = clock::now();
+                let began = monotonic::now();
                 let sent = self
                     .outputs
                     .as_mut()
                     .map_or(Ok(()), |outputs| outputs.frame(&frame, |encoded| parts.send(encoded)));
-                self.status.add_publishing(clock::now().saturating_sub(began));
+                self.status.add_publishing(monotonic::now().saturating_sub(began));
                 // There is room: no more frames are in circulation than the ring holds.
                 let _ = self.parts.end.empty.push(frame);
                 sent
@@ -233,7 +233,7 @@ impl Publisher {
             gauges: &parts.gauges,
             door: &door,
             now: (parts.now)(),
-            wall: clock::now(),
+            wall: monotonic::now(),
             publishers: &parts.publishers,
             recording: parts.recording.as_ref(),
         };

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use ros2_client::Node;
 use rustdds::DomainParticipant;
 
-use crate::config::Config;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::ros::NodeError;
 use crate::ros::args::{NodeIdentity, Remapping};
 use crate::ros::publisher::{Offer, TopicCounters, TopicPublisher};
+use flexdrill_config::Config;
 
 /// Rate for which topics that are sent on change are sized (Hz).
 const CHANGES_RATE: f64 = 50.0;

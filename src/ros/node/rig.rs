@@ -11,13 +11,13 @@ use rustdds::policy::{Durability, History, Reliability};
 use rustdds::{DomainParticipant, QosPolicyBuilder, TopicKind};
 use serde::de::DeserializeOwned;
 
-use crate::inputs::{Door, InputKind, Rejection};
 use crate::messages::rosgraph_msgs::Clock;
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics::TopicInfo;
 use crate::ros::NodeError;
 use crate::ros::publisher::dds_topic_name;
-use crate::ros::solver::link::Targets;
+use flexdrill_core::inputs::{Door, InputKind, Rejection};
+use flexdrill_realtime::link::Targets;
 
 /// Samples kept for a moment in which the node is busy; each is looked at in turn, so the newest wins.
 const DEPTH: i32 = 10;

@@ -10,9 +10,9 @@ use ros2_client::{Parameter, ParameterValue};
 use serde_json::Value;
 
 use super::store::{Declaration, ParameterStore};
-use crate::config::{Config, ConfigError, NumberKey, Schema};
 use crate::ros::args::Override;
 use crate::ros::args::value::show;
+use flexdrill_config::{Config, ConfigError, NumberKey, Schema};
 
 /// Parameters that are not in the configuration.
 pub const USE_SIM_TIME: &str = "use_sim_time";

@@ -1,0 +1,162 @@
+//! `boundary`: what holds and drives the tool, Table 1 of the paper and its variants.
+
+use serde::{Deserialize, Serialize};
+
+use super::checker::Checker;
+use super::place::{At, Mesh};
+use flexdrill_core::tool::{Body, Direction, Place, Support, WobPath};
+
+/// Supports, drive and load path.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Boundary {
+    /// `paper` or `none`. Default paper.
+    pub preset: Preset,
+    /// Whether the preset holds u at the bottom. Default free.
+    pub bottom_axial: BottomAxial,
+    /// How the weight on bit reaches the tool. Default guide.
+    pub wob_path: WobPath,
+    /// What turns the first pipe node. Default top.
+    pub drive: Drive,
+    /// Beside those of the preset. Default none.
+    pub supports: Vec<Held>,
+}
+
+/// Sets of supports.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Preset {
+    /// Table 1: top u, v, w of both pipes, bottom v, w of both. The guide's spin is left free: its curvature keeps it.
+    #[default]
+    Paper,
+    /// Only `supports`.
+    None,
+}
+
+/// The axial direction at the bottom.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BottomAxial {
+    /// The text's: weight on bit moves the end.
+    #[default]
+    Free,
+    /// The print of Table 1, for comparison: then weight on bit goes into the support.
+    Fixed,
+}
+
+/// What turns the pipe.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Drive {
+    /// The first pipe node follows the commanded speed.
+    #[default]
+    Top,
+    /// Nothing; the first node is as the supports say.
+    None,
+}
+
+/// Directions held at zero.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Held {
+    /// Where.
+    pub at: At,
+    /// `pipe` or `guide`.
+    pub body: Body,
+    /// Any of u (axial), v (horizontal), w (towards the low side), psi (spin), phi_y, phi_z (tilts).
+    pub fix: Vec<Direction>,
+}
+
+impl Default for Boundary {
+    fn default() -> Self {
+        Self {
+            preset: Preset::default(),
+            bottom_axial: BottomAxial::default(),
+            wob_path: WobPath::Guide,
+            drive: Drive::default(),
+            supports: Vec::new(),
+        }
+    }
+}
+
+impl Boundary {
+    pub(super) fn check(&self, c: &mut Checker, mesh: &Mesh) {
+        c.below("supports", |c| {
+            for (index, held) in self.supports.iter().enumerate() {
+                c.below(index, |c| {
+                    held.at.check(c, mesh);
+                    c.require(
+                        !held.fix.is_empty(),
+                        "fix",
+                        "[]",
+                        "",
+                        "at least one of u, v, w, psi, phi_y, phi_z",
+                        "a support that holds nothing is a mistake",
+                    );
+                    let spin_held_at_drive = self.drive == Drive::Top
+                        && held.body == Body::Pipe
+                        && matches!(held.at.place(mesh), Place::Top | Place::All | Place::Station(0))
+                        && held.fix.contains(&Direction::Psi);
+                    c.require(
+                        !spin_held_at_drive,
+                        "fix",
+                        "psi of the driven node",
+                        "",
+                        "without psi, or boundary.drive none",
+                        "the drive sets the spin there",
+                    );
+                });
+            }
+        });
+        let nothing_held = self.preset == Preset::None && self.supports.is_empty();
+        c.require(
+            !nothing_held,
+            "supports",
+            "[]",
+            "",
+            "given when the preset is none",
+            "the tool would fall without end",
+        );
+        c.require(
+            self.preset == Preset::Paper || self.bottom_axial == BottomAxial::Free,
+            "bottom_axial",
+            "fixed",
+            "",
+            "free when the preset is none",
+            "it belongs to the preset; hold u at the bottom with a support",
+        );
+    }
+
+    pub(super) fn describe(&self, mesh: &Mesh) -> Vec<Support> {
+        use Direction::{U, V, W};
+        let mut supports = Vec::new();
+        if self.preset == Preset::Paper {
+            let bottom = match self.bottom_axial {
+                BottomAxial::Free => vec![V, W],
+                BottomAxial::Fixed => vec![U, V, W],
+            };
+            for (place, directions) in [(Place::Top, vec![U, V, W]), (Place::Bottom, bottom)] {
+                for body in [Body::Pipe, Body::Guide] {
+                    supports.push(Support {
+                        place,
+                        body,
+                        directions: directions.clone(),
+                    });
+                }
+            }
+        }
+        supports.extend(self.supports.iter().map(|held| Support {
+            place: held.at.place(mesh),
+            body: held.body,
+            directions: held.fix.clone(),
+        }));
+        supports
+    }
+
+    /// Whether a support holds the guide's spin.
+    pub fn holds_guide_spin(&self) -> bool {
+        self.supports
+            .iter()
+            .any(|held| held.body == Body::Guide && held.fix.contains(&Direction::Psi))
+    }
+}

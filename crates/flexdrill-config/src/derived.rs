@@ -1,0 +1,65 @@
+//! Numbers that follow from a configuration.
+
+use super::Config;
+use flexdrill_core::tool::JointKind;
+use flexdrill_core::units::rad_to_deg;
+
+/// How large the system is, held directions included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Unknowns {
+    /// Nodes of the flexible pipe: two at a joint.
+    pub pipe_nodes: usize,
+    /// Nodes of the guide pipe: one per station.
+    pub guide_nodes: usize,
+    /// Multipliers of the joints.
+    pub joint_rows: usize,
+}
+
+impl Unknowns {
+    /// Six per node and one per joint row.
+    pub fn total(&self) -> usize {
+        6 * (self.pipe_nodes + self.guide_nodes) + self.joint_rows
+    }
+}
+
+impl Config {
+    /// Size of the system.
+    pub fn unknowns(&self) -> Unknowns {
+        let (links, elements) = (self.tool.links, self.tool.elements_per_link);
+        let rows_per_joint = match self.tool.joint.kind {
+            JointKind::Universal | JointKind::BallCage => 4,
+            JointKind::Revolute => 5,
+        };
+        Unknowns {
+            pipe_nodes: links * (elements + 1),
+            guide_nodes: links * elements + 1,
+            joint_rows: rows_per_joint * (links - 1),
+        }
+    }
+
+    /// Length of a link along the path (m).
+    pub fn link_length(&self) -> f64 {
+        self.well.length() / self.tool.links as f64
+    }
+
+    /// Largest build angle that one joint must take (deg); 0 in a straight well.
+    pub fn build_angle_per_link_deg(&self) -> f64 {
+        rad_to_deg(self.link_length() / self.well.smallest_radius())
+    }
+
+    /// Largest sagitta of a link's chord (m): L^2 / 8R.
+    pub fn chord_sagitta(&self) -> f64 {
+        self.link_length().powi(2) / (8.0 * self.well.smallest_radius())
+    }
+
+    /// Smallest clearance between pipe and guide (m), without the chord's sagitta.
+    pub fn inner_clearance(&self) -> f64 {
+        let contact = self.tool.pipe.contact_diameters(self.tool.elements_per_link);
+        (self.tool.guide.inner_diameter - contact.into_iter().fold(0.0, f64::max)) / 2.0
+    }
+
+    /// Clearance between guide and wall (m).
+    pub fn outer_clearance(&self) -> f64 {
+        (self.well.hole_diameter - self.tool.guide.outer_diameter) / 2.0
+    }
+}

@@ -1,0 +1,387 @@
+//! The YAML configuration: one schema for the tool, the well, the solver, the run, the inputs, the whirl thresholds and
+//! the outputs.
+//!
+//! SI units; a key with another unit carries it in its name. Unknown keys are refused. Only `well` and `tool` must be
+//! given; every other key has the default that its field documents. What is out of bounds is reported with file, line,
+//! key, value, bound and unit, all problems at once.
+//!
+//! The plain structs here are the schema; [`Config`] is a checked whole of them and cannot be changed but by
+//! [`Config::with_value`], which checks again.
+
+mod boundary;
+pub mod checker;
+mod contact;
+mod derived;
+mod environment;
+mod error;
+mod inputs;
+pub mod lines;
+mod loads;
+mod outputs;
+mod pipe;
+mod place;
+pub mod reading;
+mod run;
+mod sized;
+mod solver;
+mod start;
+mod tool;
+mod vibration;
+mod warnings;
+mod well;
+mod whirl;
+
+use std::ops::Deref;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+pub use boundary::{BottomAxial, Boundary, Drive, Held, Preset};
+pub use checker::NumberKey;
+pub use contact::{Contact, Layer};
+pub use derived::Unknowns;
+pub use environment::Environment;
+pub use error::{ConfigError, Problem};
+pub use inputs::{InputsConfig, RotarySpeed, WeightOnBit};
+pub use loads::{History, Load, Mass};
+pub use outputs::{Outputs, Rates};
+pub use pipe::{Guide, Piece, Pipe};
+pub use place::At;
+pub use run::Run;
+pub use solver::{Solver, TimeScheme};
+pub use start::{Initial, Start};
+pub use tool::{Bit, Damping, Joint, Material, Tool};
+pub use vibration::{Shock, Steps, StickSlip};
+pub use well::{Section, Well};
+pub use whirl::{InputTrust, Level, Levels, Watched, Whirl};
+
+use checker::Checker;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::WhirlSettings;
+use flexdrill_core::tool::{LiveParameters, ToolDescription};
+use flexdrill_core::twin::SimulationSettings;
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use lines::Lines;
+use place::Mesh;
+
+/// Keys without a default.
+const REQUIRED: &[&str] = &[
+    "well",
+    "well.sections",
+    "well.hole_diameter",
+    "tool",
+    "tool.links",
+    "tool.pipe",
+    "tool.guide",
+    "tool.guide.outer_diameter",
+    "tool.guide.inner_diameter",
+    "tool.joint",
+    "tool.joint.limit_deg",
+    "tool.bit",
+    "tool.bit.diameter",
+];
+
+/// The whole schema, top level.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Schema {
+    /// What the file is for.
+    #[serde(default)]
+    pub run: Run,
+    /// The bore. Required.
+    pub well: Well,
+    /// The tool in it. Required.
+    pub tool: Tool,
+    /// Gap layers.
+    #[serde(default)]
+    pub contact: Contact,
+    /// Gravity, buoyancy.
+    #[serde(default)]
+    pub environment: Environment,
+    /// Supports, drive, load path.
+    #[serde(default)]
+    pub boundary: Boundary,
+    /// Beside gravity, drive and bit. Default none.
+    #[serde(default)]
+    pub loads: Vec<Load>,
+    /// Added to nodes. Default none.
+    #[serde(default)]
+    pub masses: Vec<Mass>,
+    /// `static` or `as_given`. Default static.
+    #[serde(default)]
+    pub start: Start,
+    /// With `start: as_given`.
+    #[serde(default)]
+    pub initial: Initial,
+    /// Time integration.
+    #[serde(default)]
+    pub solver: Solver,
+    /// What the rig sends.
+    #[serde(default)]
+    pub inputs: InputsConfig,
+    /// Analysis and warnings.
+    #[serde(default)]
+    pub whirl: Whirl,
+    /// Speed ripple of the bit.
+    #[serde(default)]
+    pub stick_slip: StickSlip,
+    /// Collisions.
+    #[serde(default)]
+    pub shock: Shock,
+    /// Publishing.
+    #[serde(default)]
+    pub outputs: Outputs,
+}
+
+/// A checked configuration. Fields are read through [`Schema`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Config {
+    schema: Schema,
+}
+
+impl Deref for Config {
+    type Target = Schema;
+
+    fn deref(&self) -> &Schema {
+        &self.schema
+    }
+}
+
+impl Config {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not YAML of this schema, or does not make sense.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigError> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Read {
+            path: path.to_path_buf(),
+            reason,
+        })?;
+        Self::from_text(&path.display().to_string(), &text)
+    }
+
+    /// Reads and checks a text; `name` stands for the file in errors.
+    ///
+    /// # Errors
+    /// When the text is not YAML of this schema, or does not make sense.
+    pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
+        let lines = Lines::of(text);
+        let schema = serde_saphyr::from_str(text)
+            .map_err(|error| reading::syntax_error(name, text, &lines, REQUIRED, &error))?;
+        Self::checked(name, &lines, schema)
+    }
+
+    /// Checks a schema built in code; `name` stands for the file in errors.
+    ///
+    /// # Errors
+    /// When it does not make sense.
+    pub fn from_schema(name: &str, schema: Schema) -> Result<Self, ConfigError> {
+        Self::checked(name, &Lines::default(), schema)
+    }
+
+    fn checked(name: &str, lines: &Lines, schema: Schema) -> Result<Self, ConfigError> {
+        let mut checker = Checker::new(name, lines);
+        schema.check(&mut checker);
+        if checker.problems.is_empty() {
+            Ok(Self { schema })
+        } else {
+            Err(ConfigError::Invalid {
+                problems: checker.problems,
+            })
+        }
+    }
+
+    /// A copy with one value changed, checked as a whole. `key` is a dotted path (`contact.inner.friction_axial`) of a
+    /// key that [`Config::to_yaml`] shows.
+    ///
+    /// # Errors
+    /// When the key does not exist, or the value is of the wrong type or out of bounds.
+    pub fn with_value(&self, key: &str, value: impl Into<serde_json::Value>) -> Result<Self, ConfigError> {
+        self.with_values([(key, value)])
+    }
+
+    /// The same with several values, for keys that only make sense together.
+    ///
+    /// # Errors
+    /// As [`Config::with_value`].
+    pub fn with_values<'a, V: Into<serde_json::Value>>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, V)>,
+    ) -> Result<Self, ConfigError> {
+        let wrong_type = |key: &str, value: &serde_json::Value, message: String| ConfigError::WrongType {
+            key: key.to_string(),
+            value: value.to_string(),
+            message,
+        };
+        let mut schema = self.schema.clone();
+        for (key, value) in values {
+            let value = value.into();
+            let mut tree = serde_json::to_value(&schema).map_err(|error| wrong_type(key, &value, error.to_string()))?;
+            let pointer = format!("/{}", key.replace('.', "/"));
+            let Some(place) = tree.pointer_mut(&pointer) else {
+                return Err(ConfigError::UnknownKey { key: key.to_string() });
+            };
+            *place = value.clone();
+            schema = serde_json::from_value(tree).map_err(|error| wrong_type(key, &value, error.to_string()))?;
+        }
+        Self::from_schema("parameter", schema)
+    }
+
+    /// Every numeric key with value, limits, unit and the reason of the limits.
+    pub fn numbers(&self) -> Vec<NumberKey> {
+        let lines = Lines::default();
+        let mut checker = Checker::new("", &lines);
+        self.schema.check(&mut checker);
+        checker.numbers
+    }
+
+    /// The tool, for the mechanics.
+    pub fn tool(&self) -> ToolDescription {
+        let mesh = self.mesh();
+        let tool = &self.tool;
+        let elements = tool.elements_per_link;
+        ToolDescription {
+            well: self.well.describe(),
+            links: tool.links,
+            elements_per_link: elements,
+            material: tool.material.describe(),
+            pipe_sections: tool.pipe.element_sections(elements),
+            pipe_contact_diameters: tool.pipe.contact_diameters(elements),
+            guide_section: tool.guide.section(),
+            guide_bending_factor: tool.guide.bending_factor,
+            guide_fixed: tool.guide.fixed,
+            hole_diameter: self.well.hole_diameter,
+            joint: tool.joint.describe(),
+            rayleigh: tool.damping.describe(),
+            inner: self.contact.inner.describe(),
+            outer: self.contact.outer.describe(),
+            slip_speed: self.contact.slip_speed,
+            bit: tool.bit.describe(),
+            gravity: self.environment.effective_gravity(),
+            supports: self.boundary.describe(&mesh),
+            drive_top: self.boundary.drive == Drive::Top,
+            wob_path: self.boundary.wob_path,
+            loads: self.loads.iter().map(|load| load.describe(&mesh)).collect(),
+            masses: self.masses.iter().map(|mass| mass.describe(&mesh)).collect(),
+            initial_pipe_velocity: self.initial.velocity,
+            initial_pipe_displacement: self.initial.displacement,
+            initial_spin_rate: rpm_to_rad_per_s(self.initial.spin_rpm),
+            static_start: self.start == Start::Static,
+        }
+    }
+
+    /// How the simulation runs.
+    pub fn simulation(&self) -> SimulationSettings {
+        let (speed, weight) = (&self.inputs.rotary_speed, &self.inputs.weight_on_bit);
+        SimulationSettings {
+            time_step: self.solver.time_step,
+            scheme: self.solver.describe(),
+            max_iterations: self.solver.max_iterations,
+            max_halvings: self.solver.max_halvings,
+            initial_inputs: Inputs {
+                rotary_speed: rpm_to_rad_per_s(speed.initial_rpm),
+                weight_on_bit: kn_to_n(weight.initial_kn),
+            },
+            rotary_speed_slew: rpm_to_rad_per_s(speed.slew_rpm_per_s),
+            weight_on_bit_slew: kn_to_n(weight.slew_kn_per_s),
+            whirl: self.whirl_settings(),
+            stick_slip: self.stick_slip.describe(),
+            shock: self.shock.describe(),
+            watched: self.whirl.places(self.mesh().last_station()),
+            whirl_sample_interval: 1.0 / self.whirl.sample_rate,
+        }
+    }
+
+    /// Parameters that may change while running, as configured.
+    pub fn live(&self) -> LiveParameters {
+        let (inner, outer) = (&self.contact.inner, &self.contact.outer);
+        LiveParameters {
+            inner_friction: [inner.friction_tangential, inner.friction_axial],
+            outer_friction: [outer.friction_tangential, outer.friction_axial],
+            bit_friction_factor: self.tool.bit.friction_factor,
+        }
+    }
+
+    /// Settings of the whirl analysis.
+    pub fn whirl_settings(&self) -> WhirlSettings {
+        self.whirl.describe()
+    }
+
+    /// The complete configuration, defaults included; reads back to an equal one.
+    ///
+    /// # Errors
+    /// When the serializer fails, which a checked configuration gives no cause for.
+    pub fn to_yaml(&self) -> Result<String, serde_saphyr::SerializeError> {
+        serde_saphyr::to_string(&self.schema)
+    }
+
+    /// SHA-256, in hex, over all values in the schema's order: equal for files that differ only in layout, comments or
+    /// written-out defaults.
+    pub fn hash(&self) -> String {
+        let mut hasher = Sha256::new();
+        // JSON of plain numbers, strings and lists: it cannot fail, and if it did the hash would only be less telling.
+        hasher.update(serde_json::to_vec(&self.schema).unwrap_or_default());
+        hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    fn mesh(&self) -> Mesh {
+        self.schema.mesh()
+    }
+}
+
+impl Schema {
+    fn mesh(&self) -> Mesh {
+        Mesh {
+            links: self.tool.links,
+            elements_per_link: self.tool.elements_per_link,
+            length: self.well.length(),
+        }
+    }
+
+    fn check(&self, c: &mut Checker) {
+        let mesh = self.mesh();
+        c.below("run", |c| self.run.check(c));
+        c.below("well", |c| self.well.check(c));
+        c.below("tool", |c| self.tool.check(c));
+        let guide = self.tool.guide.outer_diameter;
+        c.require(
+            guide < self.well.hole_diameter,
+            "well.hole_diameter",
+            self.well.hole_diameter,
+            "m",
+            format!("above the guide's outer diameter, {guide} m"),
+            "the guide lies in the hole",
+        );
+        c.below("contact", |c| self.contact.check(c));
+        c.below("environment", |c| self.environment.check(c));
+        c.below("boundary", |c| self.boundary.check(c, &mesh));
+        let guide_may_spin = self.well.is_straight() && !self.tool.guide.fixed && !self.boundary.holds_guide_spin();
+        c.require(
+            !guide_may_spin,
+            "boundary.supports",
+            "nothing that holds the guide's psi",
+            "",
+            "given psi of the guide in a straight well",
+            "only curvature keeps the guide from turning",
+        );
+        c.below("loads", |c| {
+            for (index, load) in self.loads.iter().enumerate() {
+                c.below(index, |c| load.check(c, &mesh));
+            }
+        });
+        c.below("masses", |c| {
+            for (index, mass) in self.masses.iter().enumerate() {
+                c.below(index, |c| mass.check(c, &mesh));
+            }
+        });
+        c.below("initial", |c| self.initial.check(c, self.start));
+        c.below("solver", |c| self.solver.check(c));
+        c.below("inputs", |c| self.inputs.check(c));
+        c.below("whirl", |c| self.whirl.check(c, &mesh));
+        c.below("stick_slip", |c| self.stick_slip.check(c));
+        c.below("shock", |c| self.shock.check(c));
+        c.below("outputs", |c| self.outputs.check(c));
+    }
+}

@@ -1,0 +1,172 @@
+//! `loads` and `masses`: what acts on single nodes.
+
+use serde::{Deserialize, Serialize};
+
+use super::checker::{Bound, Checker, number};
+use super::place::{At, Mesh};
+use flexdrill_core::tool::{Body, Direction, LoadHistory, PointLoad, PointMass};
+use flexdrill_core::units::deg_to_rad;
+
+const FORCE: Bound = Bound::within(-1e9, 1e9);
+const FORCE_REASON: &str = "in N or N m; more would break any tool";
+const TIME: Bound = Bound::within(0.0, 1e6);
+const TIME_REASON: &str = "seconds of model time since the start";
+
+/// A force (N) or moment (N m) on one node, in the node's own frame. At a joint it acts on the end of the link above.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Where.
+    pub at: At,
+    /// `pipe` or `guide`.
+    pub body: Body,
+    /// u, v, w for forces, psi, phi_y, phi_z for moments.
+    pub direction: Direction,
+    /// How much, when.
+    pub history: History,
+}
+
+/// A load in time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum History {
+    /// `constant: 500`.
+    Constant(f64),
+    /// `ramp: {rate: 1000, start: 0, end: 1}`: grows from `start` (s) to `end` (s), then stays.
+    Ramp {
+        /// N/s or N m/s.
+        rate: f64,
+        /// s. Default 0.
+        #[serde(default)]
+        start: f64,
+        /// s.
+        end: f64,
+    },
+    /// `sine: {amplitude: 100, frequency: 2, phase_deg: 0}`.
+    Sine {
+        /// N or N m.
+        amplitude: f64,
+        /// Hz.
+        frequency: f64,
+        /// Default 0.
+        #[serde(default)]
+        phase_deg: f64,
+    },
+    /// `table: [[0, 0], [1, 500]]`: linear between (s, N or N m) points, held outside.
+    Table(Vec<(f64, f64)>),
+}
+
+/// A mass (kg) added to one node.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mass {
+    /// Where.
+    pub at: At,
+    /// `pipe` or `guide`.
+    pub body: Body,
+    /// kg.
+    pub mass: f64,
+}
+
+impl Load {
+    pub(super) fn check(&self, c: &mut Checker, mesh: &Mesh) {
+        self.at.check(c, mesh);
+        c.below("history", |c| self.history.check(c));
+    }
+
+    pub(super) fn describe(&self, mesh: &Mesh) -> PointLoad {
+        PointLoad {
+            place: self.at.place(mesh),
+            body: self.body,
+            direction: self.direction,
+            history: self.history.describe(),
+        }
+    }
+}
+
+impl History {
+    fn check(&self, c: &mut Checker) {
+        match self {
+            Self::Constant(value) => c.number("constant", *value, FORCE, "N or N m", FORCE_REASON),
+            Self::Ramp { rate, start, end } => c.below("ramp", |c| {
+                c.number("rate", *rate, FORCE, "N/s or N m/s", FORCE_REASON);
+                c.number("start", *start, TIME, "s", TIME_REASON);
+                c.number("end", *end, TIME, "s", TIME_REASON);
+                let bound = format!("after start, {} s", number(*start));
+                c.require(
+                    end > start,
+                    "end",
+                    number(*end),
+                    "s",
+                    bound,
+                    "the ramp would have no time to grow",
+                );
+            }),
+            Self::Sine {
+                amplitude,
+                frequency,
+                phase_deg,
+            } => c.below("sine", |c| {
+                c.number("amplitude", *amplitude, FORCE, "N or N m", FORCE_REASON);
+                let reason = "the step could not follow a faster one";
+                c.number("frequency", *frequency, Bound::within(0.0, 10_000.0), "Hz", reason);
+                c.number("phase_deg", *phase_deg, Bound::within(-360.0, 360.0), "deg", "one turn");
+            }),
+            Self::Table(points) => c.below("table", |c| {
+                c.require(!points.is_empty(), "", "[]", "", "at least one [time, value] pair", "");
+                let mut before = f64::NEG_INFINITY;
+                for (index, &(time, value)) in points.iter().enumerate() {
+                    c.below(index, |c| {
+                        c.number("0", time, TIME, "s", TIME_REASON);
+                        c.number("1", value, FORCE, "N or N m", FORCE_REASON);
+                        let bound = format!("after the pair before, {} s", number(before));
+                        c.require(time > before, "0", number(time), "s", bound, "times must increase");
+                    });
+                    before = time;
+                }
+            }),
+        }
+    }
+
+    fn describe(&self) -> LoadHistory {
+        match self {
+            Self::Constant(value) => LoadHistory::Constant(*value),
+            Self::Ramp { rate, start, end } => LoadHistory::Ramp {
+                rate: *rate,
+                start: *start,
+                end: *end,
+            },
+            Self::Sine {
+                amplitude,
+                frequency,
+                phase_deg,
+            } => LoadHistory::Sine {
+                amplitude: *amplitude,
+                frequency: *frequency,
+                phase: deg_to_rad(*phase_deg),
+            },
+            Self::Table(points) => LoadHistory::Table(points.clone()),
+        }
+    }
+}
+
+impl Mass {
+    pub(super) fn check(&self, c: &mut Checker, mesh: &Mesh) {
+        self.at.check(c, mesh);
+        c.number(
+            "mass",
+            self.mass,
+            Bound::within(0.0, 1e6),
+            "kg",
+            "a mass on a node is not negative",
+        );
+    }
+
+    pub(super) fn describe(&self, mesh: &Mesh) -> PointMass {
+        PointMass {
+            place: self.at.place(mesh),
+            body: self.body,
+            mass: self.mass,
+        }
+    }
+}

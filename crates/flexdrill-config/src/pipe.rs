@@ -1,0 +1,218 @@
+//! `tool.pipe` and `tool.guide`: sections of both pipes.
+
+use serde::{Deserialize, Serialize};
+
+use super::checker::{Bound, Checker};
+use flexdrill_core::tool::Tube;
+
+const DIAMETER: Bound = Bound::above(0.0, 2.0);
+const DIAMETER_REASON: &str = "given in metres";
+
+/// The flexible pipe's links, all alike: either uniform (`outer_diameter`, `inner_diameter`) or stepped (`pieces`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pipe {
+    /// m. Required unless there are pieces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outer_diameter: Option<f64>,
+    /// m, 0 is a solid bar. Required unless there are pieces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inner_diameter: Option<f64>,
+    /// Diameter with which the pipe meets the guide (m), where it is not the steel's outer diameter. Default: that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_diameter: Option<f64>,
+    /// A stepped link, top to bottom, without gaps. Default: uniform.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pieces: Vec<Piece>,
+}
+
+/// A piece of a stepped link. An element takes the piece at its middle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Piece {
+    /// Where it begins, as a fraction of the link from its top.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// m.
+    pub outer_diameter: f64,
+    /// m.
+    pub inner_diameter: f64,
+}
+
+/// The guide pipe: one continuous tube that does not turn by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Guide {
+    /// m. Required.
+    pub outer_diameter: f64,
+    /// m. Required.
+    pub inner_diameter: f64,
+    /// Factor on the bending stiffness: 1 for a plain tube, less for a slotted one. Default 1.
+    #[serde(default = "one")]
+    pub bending_factor: f64,
+    /// Every node held in all directions, as the outer beam of the paper's Fig. 8. Default false.
+    #[serde(default)]
+    pub fixed: bool,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn check_tube(c: &mut Checker, outer: f64, inner: f64) {
+    c.number("outer_diameter", outer, DIAMETER, "m", DIAMETER_REASON);
+    c.number("inner_diameter", inner, Bound::within(0.0, 2.0), "m", DIAMETER_REASON);
+    if inner >= outer {
+        c.wrong(
+            "inner_diameter",
+            inner,
+            "m",
+            format!("below the outer diameter, {outer} m"),
+            "the wall would be gone",
+        );
+    }
+}
+
+impl Pipe {
+    pub(super) fn check(&self, c: &mut Checker) {
+        match (self.outer_diameter, self.inner_diameter, self.pieces.is_empty()) {
+            (Some(outer), Some(inner), true) => check_tube(c, outer, inner),
+            (None, None, false) => self.check_pieces(c),
+            (_, _, true) => c.wrong(
+                "",
+                "incomplete",
+                "",
+                "given by outer_diameter and inner_diameter, or by pieces",
+                "there is no default for the tool's sections",
+            ),
+            (_, _, false) => c.wrong(
+                "pieces",
+                "given beside a uniform section",
+                "",
+                "the only section given",
+                "leave out outer_diameter and inner_diameter",
+            ),
+        }
+        if let Some(contact) = self.contact_diameter {
+            c.number("contact_diameter", contact, DIAMETER, "m", DIAMETER_REASON);
+        }
+    }
+
+    fn check_pieces(&self, c: &mut Checker) {
+        let mut end = 0.0;
+        c.below("pieces", |c| {
+            for (index, piece) in self.pieces.iter().enumerate() {
+                c.below(index, |c| {
+                    check_tube(c, piece.outer_diameter, piece.inner_diameter);
+                    // 1e-9: decimals such as 0.2 + 0.1 are not exact.
+                    let follows = (piece.from - end).abs() < 1e-9;
+                    c.require(
+                        follows,
+                        "from",
+                        piece.from,
+                        "",
+                        end,
+                        "pieces follow one another without gap or overlap, from 0 to 1",
+                    );
+                    c.number(
+                        "to",
+                        piece.to,
+                        Bound::above(piece.from, 1.0),
+                        "",
+                        "a fraction of the link's length, after `from`",
+                    );
+                    end = piece.to;
+                });
+            }
+            let last = self.pieces.len().saturating_sub(1);
+            c.below(last, |c| {
+                c.require(
+                    (end - 1.0).abs() < 1e-9,
+                    "to",
+                    end,
+                    "",
+                    "1 for the last piece",
+                    "pieces cover the link",
+                );
+            });
+        });
+    }
+
+    fn piece_at(&self, fraction: f64) -> Tube {
+        if let (Some(outer_diameter), Some(inner_diameter)) = (self.outer_diameter, self.inner_diameter) {
+            return Tube {
+                outer_diameter,
+                inner_diameter,
+            };
+        }
+        let piece = self
+            .pieces
+            .iter()
+            .find(|piece| fraction <= piece.to)
+            .or(self.pieces.last());
+        piece.map_or(
+            Tube {
+                outer_diameter: 0.0,
+                inner_diameter: 0.0,
+            },
+            |piece| Tube {
+                outer_diameter: piece.outer_diameter,
+                inner_diameter: piece.inner_diameter,
+            },
+        )
+    }
+
+    /// Section of each of a link's elements: the piece at the element's middle.
+    pub fn element_sections(&self, elements: usize) -> Vec<Tube> {
+        (0..elements)
+            .map(|element| self.piece_at((element as f64 + 0.5) / elements as f64))
+            .collect()
+    }
+
+    /// Contact diameter (m) at each of a link's stations: `contact_diameter`, or the thicker of the pieces that meet there.
+    pub fn contact_diameters(&self, elements: usize) -> Vec<f64> {
+        (0..=elements)
+            .map(|station| {
+                self.contact_diameter.unwrap_or_else(|| {
+                    let fraction = station as f64 / elements as f64;
+                    let above = self.piece_at((fraction - 1e-9).max(0.0));
+                    let below = self.piece_at((fraction + 1e-9).min(1.0));
+                    above.outer_diameter.max(below.outer_diameter)
+                })
+            })
+            .collect()
+    }
+
+    /// Ends of pieces (fractions of the link) that fall inside an element, whose section is then that at its middle.
+    pub fn pieces_off_mesh(&self, elements: usize) -> Vec<f64> {
+        self.pieces
+            .iter()
+            .map(|piece| piece.to)
+            .filter(|to| {
+                let position = to * elements as f64;
+                (position - position.round()).abs() > 1e-6
+            })
+            .collect()
+    }
+}
+
+impl Guide {
+    pub(super) fn check(&self, c: &mut Checker) {
+        check_tube(c, self.outer_diameter, self.inner_diameter);
+        c.number(
+            "bending_factor",
+            self.bending_factor,
+            Bound::above(0.0, 10.0),
+            "",
+            "1 is a plain tube; without any bending stiffness the guide would fold",
+        );
+    }
+
+    pub(super) fn section(&self) -> Tube {
+        Tube {
+            outer_diameter: self.outer_diameter,
+            inner_diameter: self.inner_diameter,
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Turns the YAML reader's errors into ours: key path, value and place.
+
+use super::error::ConfigError;
+use super::lines::Lines;
+
+/// Words the error of reading `text`, the content of the file `name`. `required` are the keys without a default, to name
+/// the one that is missing.
+pub fn syntax_error(
+    name: &str,
+    text: &str,
+    lines: &Lines,
+    required: &[&str],
+    error: &serde_saphyr::Error,
+) -> ConfigError {
+    let (mut line, mut column) = error.location().map_or((0, 0), |place| (place.line(), place.column()));
+    let mut key = lines.key_at(line, column).to_string();
+    let mut message = plain_message(error);
+    if let serde_saphyr::Error::SerdeMissingField { field, .. } = error.without_snippet() {
+        // The reader notices a missing key only at the end of its parent, or later.
+        let missing = required.iter().find(|path| {
+            let (parent, name) = path.rsplit_once('.').unwrap_or(("", path));
+            name == *field && !lines.has(path) && (parent.is_empty() || lines.has(parent))
+        });
+        if let Some(path) = missing {
+            let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+            (line, column) = lines.place(parent).unwrap_or((1, 1));
+            key = (*path).to_string();
+            message = "must be given, it has no default".to_string();
+        }
+    } else if let Some(wanted) = wanted_scalar(&message) {
+        let value = scalar_at(text, line, column);
+        return ConfigError::Syntax {
+            file: name.to_string(),
+            line,
+            column,
+            key: format!("{key} = {value}"),
+            message: wanted.to_string(),
+        };
+    }
+    ConfigError::Syntax {
+        file: name.to_string(),
+        line,
+        column,
+        key,
+        message,
+    }
+}
+
+/// The reader's message without its snippet and place, which [`ConfigError::Syntax`] says in its own way.
+fn plain_message(error: &serde_saphyr::Error) -> String {
+    let text = error.without_snippet().to_string();
+    let end = text.find(" at line ").unwrap_or(text.len());
+    text[..end].trim_end_matches([',', ':', ' ']).to_string()
+}
+
+fn wanted_scalar(message: &str) -> Option<&'static str> {
+    let kind = message.strip_prefix("invalid ")?;
+    if kind.starts_with("floating") {
+        Some("must be a number")
+    } else if kind.starts_with('u') {
+        Some("must be a whole number, 0 or more")
+    } else if kind.starts_with("bool") {
+        Some("must be true or false")
+    } else {
+        None
+    }
+}
+
+/// The plain scalar that begins at a place (1-based).
+fn scalar_at(text: &str, line: u64, column: u64) -> String {
+    let (Ok(line), Ok(column)) = (usize::try_from(line), usize::try_from(column)) else {
+        return String::new();
+    };
+    let row = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
+    let rest: String = row.chars().skip(column.saturating_sub(1)).collect();
+    let end = rest.find([',', '}', ']', '#']).unwrap_or(rest.len());
+    rest[..end].trim().to_string()
+}

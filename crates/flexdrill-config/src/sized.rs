@@ -1,0 +1,81 @@
+//! The same tool with another number of links, to see how its cost grows.
+
+use super::{Config, ConfigError, Section};
+use flexdrill_core::units::rad_to_deg;
+
+/// Shortest piece of the path worth a section (m); less is rounding.
+const SHORTEST: f64 = 1e-9;
+
+impl Config {
+    /// A copy with `links` links of the same length. The path keeps its beginning: a shorter tool ends earlier in it, a longer one goes
+    /// on straight below it, as a lateral does behind the curve. So every size has links of the same length, mesh and joints, and as
+    /// much of the curve as it can fill.
+    ///
+    /// # Errors
+    /// When the result does not make sense: no links, or loads and supports at places that are no more.
+    pub fn with_links(&self, links: usize) -> Result<Self, ConfigError> {
+        let mut schema = self.schema.clone();
+        let whole = schema.well.length();
+        let mut left = whole * links as f64 / schema.tool.links as f64;
+        schema.tool.links = links;
+        schema.well.sections = schema
+            .well
+            .sections
+            .iter()
+            .map_while(|s| begin_of(s, &mut left))
+            .collect();
+        if left > SHORTEST {
+            schema.well.sections.push(Section::Straight { length: left });
+        }
+        Self::from_schema("a tool of another size", schema)
+    }
+}
+
+/// As much of a section as fits into what is `left` (m), which becomes less.
+fn begin_of(section: &Section, left: &mut f64) -> Option<Section> {
+    if *left <= SHORTEST {
+        return None;
+    }
+    let length = section.length().min(*left);
+    *left -= length;
+    Some(match *section {
+        Section::Straight { .. } => Section::Straight { length },
+        whole @ Section::Arc { .. } if length == section.length() => whole,
+        Section::Arc { radius, .. } => Section::Arc {
+            radius,
+            build_angle_deg: rad_to_deg(length / radius),
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_keep_their_length_and_the_path_its_beginning() {
+        let config = Config::load("../../config/default.yaml").unwrap();
+        let link = config.well.length() / 33.0;
+        for links in [1, 8, 16, 33, 66, 132] {
+            let sized = config.with_links(links).unwrap();
+            assert_eq!(sized.tool.links, links);
+            // Rounding of angles to degrees and back.
+            assert!((sized.well.length() / links as f64 - link).abs() < 1e-12);
+        }
+        assert_eq!(config.with_links(33).unwrap(), config);
+        // Half of the links fill half of the quarter circle; twice as many go on level for its length.
+        let end = |links| config.with_links(links).unwrap().well.end_inclination_deg();
+        assert!((end(11) - 30.0).abs() < 1e-9 && (end(66) - 90.0).abs() < 1e-9);
+        assert_eq!(config.with_links(66).unwrap().well.sections.len(), 2);
+    }
+
+    #[test]
+    fn a_tool_without_links_is_refused() {
+        assert!(
+            Config::load("../../config/default.yaml")
+                .unwrap()
+                .with_links(0)
+                .is_err()
+        );
+    }
+}

@@ -1,0 +1,312 @@
+//! `tool`: the flexible pipe, its joints, the guide pipe and the bit.
+
+use serde::{Deserialize, Serialize};
+
+use super::checker::{Bound, Checker};
+use super::pipe::{Guide, Pipe};
+use flexdrill_core::tool::{BitDescription, HingeAngle, JointDescription, JointKind, Material as Steel, Rayleigh};
+use flexdrill_core::units::deg_to_rad;
+
+/// The tool.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tool {
+    /// Number of links; they share the well's length equally. Required.
+    pub links: usize,
+    /// Beam elements per link. Default 5, the paper's.
+    #[serde(default = "five")]
+    pub elements_per_link: usize,
+    /// Of both pipes. Default steel.
+    #[serde(default)]
+    pub material: Material,
+    /// The flexible pipe. Required.
+    pub pipe: Pipe,
+    /// The guide pipe. Required.
+    pub guide: Guide,
+    /// The joints. Required.
+    pub joint: Joint,
+    /// Rayleigh damping.
+    #[serde(default)]
+    pub damping: Damping,
+    /// The bit. Required.
+    pub bit: Bit,
+}
+
+fn five() -> usize {
+    5
+}
+
+/// Isotropic, linear elastic.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Material {
+    /// Pa. Default 206e9, steel.
+    pub youngs_modulus: f64,
+    /// Default 0.3, steel.
+    pub poisson_ratio: f64,
+    /// kg/m3. Default 7850, steel.
+    pub density: f64,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            youngs_modulus: 206e9,
+            poisson_ratio: 0.3,
+            density: 7850.0,
+        }
+    }
+}
+
+/// The joints between links.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Joint {
+    /// `universal`, `ball_cage` or `revolute`. Default universal.
+    #[serde(default = "universal")]
+    pub kind: JointKind,
+    /// Bend angle at which the stop begins. Required.
+    pub limit_deg: f64,
+    /// N m/rad. Default 2e5, of the order of 4EI/l of a link.
+    #[serde(default = "default_stop_stiffness")]
+    pub stop_stiffness: f64,
+    /// Hunt-Crossley damping of the stop (s/rad). Default 0.5.
+    #[serde(default = "half")]
+    pub stop_damping: f64,
+    /// Angle of the first cross about the shaft. Default 0.
+    #[serde(default)]
+    pub cross_phase_deg: f64,
+    /// Turn from one cross to the next. Default 90.
+    #[serde(default = "ninety")]
+    pub cross_phase_step_deg: f64,
+    /// Angle that a `revolute` joint keeps across its hinge: `straight` links, or `as_built` in the well. Default straight.
+    #[serde(default)]
+    pub hinge_angle: HingeAngle,
+}
+
+fn universal() -> JointKind {
+    JointKind::Universal
+}
+
+fn default_stop_stiffness() -> f64 {
+    2e5
+}
+
+fn half() -> f64 {
+    0.5
+}
+
+fn ninety() -> f64 {
+    90.0
+}
+
+/// C = alpha M + beta K.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Damping {
+    /// 1/s. Default 2.
+    pub alpha: f64,
+    /// s. Default 1e-4.
+    pub beta: f64,
+}
+
+impl Default for Damping {
+    fn default() -> Self {
+        Self { alpha: 2.0, beta: 1e-4 }
+    }
+}
+
+/// The bit, Eq. 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bit {
+    /// m. Required.
+    pub diameter: f64,
+    /// eta of Eq. 1. Default 0.235, the paper's.
+    #[serde(default = "paper_eta")]
+    pub friction_factor: f64,
+    /// Speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s). Default 0.1.
+    #[serde(default = "tenth")]
+    pub slip_rate: f64,
+}
+
+fn paper_eta() -> f64 {
+    0.235
+}
+
+fn tenth() -> f64 {
+    0.1
+}
+
+impl Bit {
+    /// Torque of Eq. 1 per weight on bit (m): N m per N.
+    pub fn torque_arm(&self) -> f64 {
+        self.friction_factor * self.diameter / 3.0
+    }
+}
+
+impl Tool {
+    pub(super) fn check(&self, c: &mut Checker) {
+        c.count(
+            "links",
+            self.links,
+            1,
+            500,
+            "more than 500 links cannot be stepped in useful time",
+        );
+        c.count(
+            "elements_per_link",
+            self.elements_per_link,
+            1,
+            50,
+            "a link is short and stiff; the paper takes 5",
+        );
+        c.below("material", |c| self.material.check(c));
+        c.below("pipe", |c| self.pipe.check(c));
+        c.below("guide", |c| self.guide.check(c));
+        if (1..=50).contains(&self.elements_per_link) {
+            let widest = self
+                .pipe
+                .contact_diameters(self.elements_per_link)
+                .into_iter()
+                .fold(0.0, f64::max);
+            c.require(
+                widest < self.guide.inner_diameter,
+                "guide.inner_diameter",
+                self.guide.inner_diameter,
+                "m",
+                format!("above the pipe's contact diameter, {widest} m"),
+                "the pipe turns inside the guide",
+            );
+        }
+        c.below("joint", |c| self.joint.check(c));
+        c.below("damping", |c| self.damping.check(c));
+        c.below("bit", |c| self.bit.check(c));
+    }
+}
+
+impl Material {
+    fn check(&self, c: &mut Checker) {
+        let reason = "in Pa; steel is 206e9";
+        c.number(
+            "youngs_modulus",
+            self.youngs_modulus,
+            Bound::within(1e6, 1e14),
+            "Pa",
+            reason,
+        );
+        let reason = "outside, an isotropic material would gain energy when loaded";
+        c.number(
+            "poisson_ratio",
+            self.poisson_ratio,
+            Bound::within(-0.99, 0.5),
+            "",
+            reason,
+        );
+        let reason = "the mass matrix must be positive; steel is 7850";
+        c.number("density", self.density, Bound::within(1.0, 1e6), "kg/m3", reason);
+    }
+
+    pub(super) fn describe(&self) -> Steel {
+        Steel {
+            youngs_modulus: self.youngs_modulus,
+            poisson_ratio: self.poisson_ratio,
+            density: self.density,
+        }
+    }
+}
+
+impl Joint {
+    fn check(&self, c: &mut Checker) {
+        let reason = "tilts are small in the model; a joint that never stops may be set to 45";
+        c.number("limit_deg", self.limit_deg, Bound::above(0.0, 45.0), "deg", reason);
+        let reason = "0 switches the stop off";
+        c.number(
+            "stop_stiffness",
+            self.stop_stiffness,
+            Bound::within(0.0, 1e12),
+            "N m/rad",
+            reason,
+        );
+        let reason = "0 is elastic; far above 1 the stop hardly opens within a step";
+        c.number(
+            "stop_damping",
+            self.stop_damping,
+            Bound::within(0.0, 1e3),
+            "s/rad",
+            reason,
+        );
+        let reason = "one turn";
+        c.number(
+            "cross_phase_deg",
+            self.cross_phase_deg,
+            Bound::within(-360.0, 360.0),
+            "deg",
+            reason,
+        );
+        c.number(
+            "cross_phase_step_deg",
+            self.cross_phase_step_deg,
+            Bound::within(-360.0, 360.0),
+            "deg",
+            reason,
+        );
+    }
+
+    pub(super) fn describe(&self) -> JointDescription {
+        JointDescription {
+            kind: self.kind,
+            limit: deg_to_rad(self.limit_deg),
+            stop_stiffness: self.stop_stiffness,
+            stop_damping: self.stop_damping,
+            cross_phase: deg_to_rad(self.cross_phase_deg),
+            cross_phase_step: deg_to_rad(self.cross_phase_step_deg),
+            hinge_angle: self.hinge_angle,
+        }
+    }
+}
+
+impl Damping {
+    fn check(&self, c: &mut Checker) {
+        let reason = "damping only takes energy";
+        c.number("alpha", self.alpha, Bound::within(0.0, 1e5), "1/s", reason);
+        c.number("beta", self.beta, Bound::within(0.0, 1.0), "s", reason);
+    }
+
+    pub(super) fn describe(&self) -> Rayleigh {
+        Rayleigh {
+            alpha: self.alpha,
+            beta: self.beta,
+        }
+    }
+}
+
+impl Bit {
+    fn check(&self, c: &mut Checker) {
+        c.number(
+            "diameter",
+            self.diameter,
+            Bound::above(0.0, 2.0),
+            "m",
+            "given in metres",
+        );
+        let reason = "0 is a bit without torque; rock and bit rarely exceed 1";
+        c.number(
+            "friction_factor",
+            self.friction_factor,
+            Bound::within(0.0, 5.0),
+            "",
+            reason,
+        );
+        let reason = "0 would make the torque jump at standstill";
+        c.number("slip_rate", self.slip_rate, Bound::within(1e-4, 10.0), "rad/s", reason);
+    }
+
+    pub(super) fn describe(&self) -> BitDescription {
+        BitDescription {
+            diameter: self.diameter,
+            friction_factor: self.friction_factor,
+            slip_rate: self.slip_rate,
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! What is allowed but probably not meant.
+
+use super::Config;
+use flexdrill_core::units::{deg_to_rad, rad_to_deg};
+
+impl Config {
+    /// Sentences for a person, most important first; empty when there is nothing to say.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        self.warn_of_joint_limit(&mut warnings);
+        self.warn_of_sagitta(&mut warnings);
+        let off_mesh = self.tool.pipe.pieces_off_mesh(self.tool.elements_per_link);
+        if !off_mesh.is_empty() {
+            warnings.push(format!(
+                "tool.pipe.pieces end at {off_mesh:?} of the link, inside an element; each of the {} elements takes the piece at its middle",
+                self.tool.elements_per_link
+            ));
+        }
+        let (bit, hole) = (self.tool.bit.diameter, self.well.hole_diameter);
+        if (bit - hole).abs() > 0.02 * hole {
+            warnings.push(format!(
+                "tool.bit.diameter {bit} m and well.hole_diameter {hole} m differ by more than 2 %: a bit cuts its own diameter"
+            ));
+        }
+        for (name, rate) in self.rates() {
+            if rate * self.solver.time_step > 1.0 {
+                warnings.push(format!(
+                    "outputs.rates.{name} {rate} Hz is faster than the model's step of {} s",
+                    self.solver.time_step
+                ));
+            }
+        }
+        if self.whirl.sample_rate * self.solver.time_step > 1.0 {
+            warnings.push(format!(
+                "whirl.sample_rate {} Hz is faster than the model's step of {} s",
+                self.whirl.sample_rate, self.solver.time_step
+            ));
+        }
+        warnings
+    }
+
+    fn rates(&self) -> [(&'static str, f64); 3] {
+        let rates = &self.outputs.rates;
+        [
+            ("joint_deflections", rates.joint_deflections),
+            ("contact_forces", rates.contact_forces),
+            ("bit_state", rates.bit_state),
+        ]
+    }
+
+    fn warn_of_joint_limit(&self, warnings: &mut Vec<String>) {
+        let (limit, needed) = (self.tool.joint.limit_deg, self.build_angle_per_link_deg());
+        if self.tool.links < 2 {
+            return;
+        }
+        if limit <= needed {
+            warnings.push(format!(
+                "tool.joint.limit_deg {limit} deg is not above the {needed:.2} deg that each joint must take in the arc: all stops carry load from the start; take more links or a larger limit"
+            ));
+        }
+        // A link that leans from one side of the gap to the other bends both its joints.
+        let lean = rad_to_deg((2.0 * self.inner_clearance() / self.link_length()).atan());
+        if limit > needed + 2.0 * lean && limit < 45.0 {
+            warnings.push(format!(
+                "tool.joint.limit_deg {limit} deg can hardly be reached: the gap lets a joint bend to about {:.1} deg",
+                needed + 2.0 * lean
+            ));
+        }
+    }
+
+    fn warn_of_sagitta(&self, warnings: &mut Vec<String>) {
+        let (sagitta, clearance) = (self.chord_sagitta(), self.inner_clearance());
+        if sagitta > clearance {
+            warnings.push(format!(
+                "a straight link of {:.3} m does not fit into the curved guide: its chord lies {:.1} mm off the centre line, the clearance is {:.1} mm; take more links",
+                self.link_length(),
+                sagitta * 1e3,
+                clearance * 1e3
+            ));
+        }
+        let tilt = deg_to_rad(self.build_angle_per_link_deg());
+        if tilt > 0.2 {
+            warnings.push(format!(
+                "a link turns by {:.1} deg in the arc: tilts are not small any more",
+                rad_to_deg(tilt)
+            ));
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! `well`: the bore.
+
+use serde::{Deserialize, Serialize};
+
+use super::checker::{Bound, Checker};
+use flexdrill_core::tool::{WellDescription, WellSection};
+use flexdrill_core::units::deg_to_rad;
+
+/// The bore: its centre line from the kick-off down and its diameter. The tool fills it from end to end.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Well {
+    /// Inclination at the top, 0 is straight down, 90 horizontal. Default 0.
+    #[serde(default)]
+    pub start_inclination_deg: f64,
+    /// One after another from the top. Required.
+    pub sections: Vec<Section>,
+    /// Diameter of the hole (m). Required.
+    pub hole_diameter: f64,
+}
+
+/// One section of the well path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Section {
+    /// `straight: {length: 1.0}`.
+    Straight {
+        /// m.
+        length: f64,
+    },
+    /// `arc: {radius: 3.2, build_angle_deg: 90}`.
+    Arc {
+        /// m.
+        radius: f64,
+        /// Change of inclination, builds only.
+        build_angle_deg: f64,
+    },
+}
+
+impl Section {
+    /// Length along the path (m).
+    pub fn length(&self) -> f64 {
+        match *self {
+            Self::Straight { length } => length,
+            Self::Arc {
+                radius,
+                build_angle_deg,
+            } => radius * deg_to_rad(build_angle_deg),
+        }
+    }
+}
+
+impl Well {
+    /// Length along the path (m).
+    pub fn length(&self) -> f64 {
+        self.sections.iter().map(Section::length).sum()
+    }
+
+    /// Inclination at the bottom (deg).
+    pub fn end_inclination_deg(&self) -> f64 {
+        self.start_inclination_deg + self.sections.iter().map(Section::build_deg).sum::<f64>()
+    }
+
+    /// Whether no section bends.
+    pub fn is_straight(&self) -> bool {
+        !self
+            .sections
+            .iter()
+            .any(|section| matches!(section, Section::Arc { .. }))
+    }
+
+    /// Smallest radius of curvature (m), infinite for a straight well.
+    pub fn smallest_radius(&self) -> f64 {
+        self.sections
+            .iter()
+            .fold(f64::INFINITY, |smallest, section| match section {
+                Section::Arc { radius, .. } => smallest.min(*radius),
+                Section::Straight { .. } => smallest,
+            })
+    }
+
+    pub(super) fn check(&self, c: &mut Checker) {
+        c.number(
+            "start_inclination_deg",
+            self.start_inclination_deg,
+            Bound::within(0.0, 180.0),
+            "deg",
+            "0 is straight down, 180 straight up",
+        );
+        c.require(
+            !self.sections.is_empty(),
+            "sections",
+            "[]",
+            "",
+            "at least one section",
+            "the tool lies along them",
+        );
+        c.below("sections", |c| {
+            for (index, section) in self.sections.iter().enumerate() {
+                c.below(index, |c| section.check(c));
+            }
+        });
+        let end = self.end_inclination_deg();
+        c.require(
+            end <= 180.0,
+            "sections",
+            format!("{end} at the bottom"),
+            "deg",
+            "at most 180 deg",
+            "beyond, the well would come back under itself",
+        );
+        c.number(
+            "hole_diameter",
+            self.hole_diameter,
+            Bound::above(0.0, 2.0),
+            "m",
+            "a bore of a slim drilling tool, given in metres",
+        );
+    }
+
+    pub(super) fn describe(&self) -> WellDescription {
+        WellDescription {
+            start_inclination: deg_to_rad(self.start_inclination_deg),
+            sections: self.sections.iter().map(Section::describe).collect(),
+        }
+    }
+}
+
+impl Section {
+    fn build_deg(&self) -> f64 {
+        match self {
+            Self::Straight { .. } => 0.0,
+            Self::Arc { build_angle_deg, .. } => *build_angle_deg,
+        }
+    }
+
+    fn check(&self, c: &mut Checker) {
+        match *self {
+            Self::Straight { length } => c.below("straight", |c| {
+                c.number(
+                    "length",
+                    length,
+                    Bound::above(0.0, 1000.0),
+                    "m",
+                    "the model is of one tool, not of a whole drill string",
+                );
+            }),
+            Self::Arc {
+                radius,
+                build_angle_deg,
+            } => c.below("arc", |c| {
+                c.number(
+                    "radius",
+                    radius,
+                    Bound::within(0.5, 10_000.0),
+                    "m",
+                    "below 0.5 m the frames of neighbouring stations differ too much for small tilts",
+                );
+                c.number(
+                    "build_angle_deg",
+                    build_angle_deg,
+                    Bound::above(0.0, 180.0),
+                    "deg",
+                    "arcs build inclination; use `straight` for none",
+                );
+            }),
+        }
+    }
+
+    fn describe(&self) -> WellSection {
+        match *self {
+            Self::Straight { length } => WellSection::Straight { length },
+            Self::Arc {
+                radius,
+                build_angle_deg,
+            } => WellSection::Arc {
+                radius,
+                angle: deg_to_rad(build_angle_deg),
+            },
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! Every configuration file that is shipped loads, and reads back from what it writes.
+
+use std::path::{Path, PathBuf};
+
+use flexdrill_config::Config;
+
+fn shipped() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config");
+    let mut files: Vec<PathBuf> = [root.clone(), root.join("verify")]
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(folder).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "yaml"))
+        .collect();
+    files.sort();
+    assert!(files.len() >= 2, "no configuration files found in {}", root.display());
+    files
+}
+
+#[test]
+fn all_load_and_round_trip() {
+    for path in shipped() {
+        let config = Config::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let text = config.to_yaml().unwrap();
+        let again = Config::from_text("written", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_eq!(config, again, "{}", path.display());
+        assert_eq!(config.hash(), again.hash());
+        assert_eq!(config.hash().len(), 64);
+    }
+}
+
+/// The default file writes out the schema's defaults: a file that gives only what is required must mean the same.
+#[test]
+fn default_file_is_the_schemas_defaults() {
+    let minimal = "
+run: {title: \"The paper's case\"}
+well:
+  sections: [{arc: {radius: 3.2, build_angle_deg: 90}}]
+  hole_diameter: 0.118
+tool:
+  links: 33
+  pipe: {outer_diameter: 0.063, inner_diameter: 0.032}
+  guide: {outer_diameter: 0.102, inner_diameter: 0.080}
+  joint: {limit_deg: 6}
+  bit: {diameter: 0.118}
+";
+    let minimal = Config::from_text("minimal", minimal).unwrap();
+    let file = Config::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config/default.yaml")).unwrap();
+    assert_eq!(minimal, file);
+    assert!(file.warnings().is_empty(), "{:?}", file.warnings());
+}

@@ -1,0 +1,286 @@
+//! Energy audit of a step: work of every force by the trapezoid rule over the step, against the change of what is stored.
+//!
+//! With F the sum of all forces, Newmark gives exactly dT = dq . (F_0 + F_1)/2 - D, where D is the scheme's own loss. Linear elastic
+//! forces then store exactly what they take, so the audit's error is what is left: the quadrature of contacts, stops and joint
+//! rows, and Newton's residual. See `docs/decisions/energy_audit.md`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dynamics::assembly::{Assembler, inner_forces, outer_force};
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::outcome::EnergyAudit;
+use crate::dynamics::state::{State, joint_rotations};
+use crate::elements::element_form::{add, load};
+use crate::model::Model;
+use crate::simd::instructions::Instructions;
+#[cfg(target_arch = "x86_64")]
+use crate::simd::vector::{Avx2, Avx512};
+use crate::simd::vector::{Portable, Vector};
+use crate::tool::description::Direction;
+
+/// Forces and energies at one end of a step that the trapezoid rule needs at the other.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EnergyPoint {
+    /// Friction of both layers on every unknown (N, N m).
+    friction: Vec<f64>,
+    /// Geometric-stiffness force N G q with the axial force in use.
+    geometric: Vec<f64>,
+    /// Rayleigh damping's force C v.
+    damping: Vec<f64>,
+    /// M a.
+    inertia: Vec<f64>,
+    /// Point loads.
+    loads: Vec<f64>,
+    /// Kinetic, elastic, geometric, contact and stop energy (J).
+    stored: f64,
+    /// Part of `stored` that is kinetic.
+    kinetic: f64,
+    /// Part of `stored` in the geometric stiffness.
+    geometric_energy: f64,
+    /// Power of contact and stop damping (W).
+    contact_dissipation: f64,
+    /// Torque of the drive (N m).
+    pub drive_torque: f64,
+    bit_torque: f64,
+    weight_on_bit: f64,
+}
+
+impl EnergyPoint {
+    /// Room for `model`.
+    pub fn new(model: &Model) -> Self {
+        Self {
+            friction: vec![0.0; model.unknowns()],
+            geometric: vec![0.0; model.unknowns()],
+            damping: vec![0.0; model.unknowns()],
+            inertia: vec![0.0; model.unknowns()],
+            loads: vec![0.0; model.loads.len()],
+            stored: 0.0,
+            kinetic: 0.0,
+            geometric_energy: 0.0,
+            contact_dissipation: 0.0,
+            drive_torque: 0.0,
+            bit_torque: 0.0,
+            weight_on_bit: 0.0,
+        }
+    }
+
+    /// Whether it is for the same model as `other`.
+    pub fn fits(&self, other: &Self) -> bool {
+        self.friction.len() == other.friction.len()
+            && self.geometric.len() == other.geometric.len()
+            && self.damping.len() == other.damping.len()
+            && self.inertia.len() == other.inertia.len()
+            && self.loads.len() == other.loads.len()
+    }
+
+    /// Takes another point's values without allocating.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.friction.copy_from_slice(&other.friction);
+        self.geometric.copy_from_slice(&other.geometric);
+        self.damping.copy_from_slice(&other.damping);
+        self.inertia.copy_from_slice(&other.inertia);
+        self.loads.copy_from_slice(&other.loads);
+        let Self {
+            stored,
+            kinetic,
+            geometric_energy,
+            contact_dissipation,
+            drive_torque,
+            bit_torque,
+            weight_on_bit,
+            ..
+        } = *other;
+        self.kinetic = kinetic;
+        (self.stored, self.geometric_energy, self.contact_dissipation) =
+            (stored, geometric_energy, contact_dissipation);
+        (self.drive_torque, self.bit_torque, self.weight_on_bit) = (drive_torque, bit_torque, weight_on_bit);
+    }
+
+    /// Evaluates at `state`, whose residual (reactions still in it) the assembler holds.
+    pub fn evaluate(&mut self, model: &Model, state: &State, conditions: &Conditions, assembler: &Assembler) {
+        let mut stored = match assembler.instructions() {
+            Instructions::Portable => self.elements::<Portable>(model, state, conditions),
+            // SAFETY: chosen only where the processor was found to have these instructions.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => unsafe { self.elements_avx2(model, state, conditions) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { self.elements_avx512(model, state, conditions) },
+        };
+        for point in &model.masses {
+            for k in 0..3 {
+                let u = point.unknown + k;
+                let v = state.v[u];
+                self.kinetic += 0.5 * point.mass * v * v;
+                self.inertia[u] += point.mass * state.a[u];
+                self.damping[u] += conditions.rayleigh.alpha * point.mass * v;
+            }
+        }
+        stored += self.kinetic;
+        self.friction.fill(0.0);
+        self.contact_dissipation = 0.0;
+        for (s, station) in model.stations.iter().enumerate() {
+            if let Some(touch) = &assembler.inner[s] {
+                let (pipe, guide) = inner_forces(model, station, &touch.friction_force());
+                for k in 0..6 {
+                    self.friction[station.pipe_above + k] += pipe[k];
+                    self.friction[station.guide + k] += guide[k];
+                }
+                stored += touch.energy;
+                self.contact_dissipation += touch.dissipation;
+            }
+            if let Some(touch) = &assembler.outer[s] {
+                let guide = outer_force(model, &touch.friction_force());
+                (0..6).for_each(|k| self.friction[station.guide + k] += guide[k]);
+                stored += touch.energy;
+                self.contact_dissipation += touch.dissipation;
+            }
+        }
+        for joint in &assembler.joints {
+            stored += joint.energy;
+            self.contact_dissipation += joint.dissipation;
+        }
+        for (value, load) in self.loads.iter_mut().zip(&model.loads) {
+            *value = load.load.history.at(conditions.time);
+        }
+        self.stored = stored;
+        self.drive_torque = model.driven.map_or(0.0, |driven| assembler.residual[driven]);
+        self.bit_torque = assembler.bit_torque;
+        self.weight_on_bit = conditions.weight_on_bit;
+    }
+
+    /// Forces of the elements, and their kinetic energy. Returns the elastic and geometric energy.
+    #[inline(always)]
+    fn elements<V: Vector>(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
+        self.geometric.fill(0.0);
+        self.damping.fill(0.0);
+        self.inertia.fill(0.0);
+        let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
+        let zero = V::splat(0.0);
+        let (mut elastic, mut geometric, mut kinetic) = (zero, zero, zero);
+        let tensions = state.pipe_axial.iter().chain(&state.guide_axial);
+        for (element, &tension) in model.elements.list.iter().zip(tensions) {
+            let forms = &model.elements.kinds[element.kind as usize];
+            let nodes = [element.nodes[0] as usize, element.nodes[1] as usize];
+            let q = forms.to_own::<V>([load(&state.q, nodes[0]), load(&state.q, nodes[1])]);
+            let v = forms.to_own::<V>([load(&state.v, nodes[0]), load(&state.v, nodes[1])]);
+            let a = forms.to_own::<V>([load(&state.a, nodes[0]), load(&state.a, nodes[1])]);
+            let bent = forms.stiffness.product(q);
+            let moving = forms.mass.product(v);
+            let stiff = forms.stiffness.product(v);
+            let tension = V::splat(tension);
+            let mut stretched = forms.geometric.product(q);
+            let mut damped = [zero; 2];
+            for n in 0..2 {
+                stretched[n] = stretched[n].times(tension);
+                damped[n] = moving[n].times(alpha).plus_product(stiff[n], beta);
+                elastic = elastic.plus_product(q[n], bent[n]);
+                geometric = geometric.plus_product(q[n], stretched[n]);
+                kinetic = kinetic.plus_product(v[n], moving[n]);
+            }
+            let inert = forms.from_own(forms.mass.product(a));
+            let (stretched, damped) = (forms.from_own(stretched), forms.from_own(damped));
+            for n in 0..2 {
+                add(&mut self.geometric, nodes[n], stretched[n]);
+                add(&mut self.damping, nodes[n], damped[n]);
+                add(&mut self.inertia, nodes[n], inert[n]);
+            }
+        }
+        self.kinetic = 0.5 * sum(kinetic);
+        self.geometric_energy = 0.5 * sum(geometric);
+        0.5 * sum(elastic) + self.geometric_energy
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn elements_avx2(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
+        self.elements::<Avx2>(model, state, conditions)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+    fn elements_avx512(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
+        self.elements::<Avx512>(model, state, conditions)
+    }
+}
+
+/// Sum of the lanes that belong to a node.
+#[inline(always)]
+fn sum<V: Vector>(lanes: V) -> f64 {
+    let mut out = [0.0; 8];
+    lanes.store(&mut out);
+    out[..6].iter().sum()
+}
+
+/// dq . (f0 + f1) / 2 for the forces of both ends of a step.
+fn mean_work(moved: &[f64], before: &[f64], after: &[f64]) -> f64 {
+    // Eight sums, so that the compiler can use vectors.
+    let mut sums = [0.0; 8];
+    let (moved, before, after) = (moved.as_chunks::<8>(), before.as_chunks::<8>(), after.as_chunks::<8>());
+    for ((dq, f0), f1) in moved.0.iter().zip(before.0).zip(after.0) {
+        for k in 0..8 {
+            sums[k] += dq[k] * (f0[k] + f1[k]);
+        }
+    }
+    for ((dq, f0), f1) in moved.1.iter().zip(before.1).zip(after.1) {
+        sums[0] += dq * (f0 + f1);
+    }
+    0.5 * sums.iter().sum::<f64>()
+}
+
+impl EnergyAudit {
+    /// Adds the step of size `h` from `(s0, e0)` to `(s1, e1)`. `room` holds a value per unknown and is overwritten.
+    pub fn add_step(
+        &mut self,
+        model: &Model,
+        h: f64,
+        (s0, e0): (&State, &EnergyPoint),
+        (s1, e1): (&State, &EnergyPoint),
+        room: &mut [f64],
+    ) {
+        for (moved, (q1, q0)) in room.iter_mut().zip(s1.q.iter().zip(&s0.q)) {
+            *moved = q1 - q0;
+        }
+        let moved = &*room;
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
+        if let Some(driven) = model.driven {
+            self.drive += mean(e0.drive_torque, e1.drive_torque) * moved[driven];
+        }
+        let bottom = &model.stations[model.last()];
+        self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved[bottom.guide];
+        self.bit += mean(e0.bit_torque, e1.bit_torque) * moved[bottom.pipe_above + Direction::Psi as usize];
+        for (k, load) in model.loads.iter().enumerate() {
+            self.loads += mean(e0.loads[k], e1.loads[k]) * moved[load.unknown];
+        }
+        self.friction -= mean_work(moved, &e0.friction, &e1.friction);
+        self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
+        self.gravity += mean_work(moved, &model.weight, &model.weight);
+        for point in &model.masses {
+            let down = (0..3).map(|k| point.gravity[k] * moved[point.unknown + k]);
+            self.gravity += point.mass * down.sum::<f64>();
+        }
+        self.rayleigh_damping += mean_work(moved, &e0.damping, &e1.damping);
+        // The scheme's own loss: what inertia took less what became kinetic energy.
+        self.numerical_damping += mean_work(moved, &e0.inertia, &e1.inertia) - (e1.kinetic - e0.kinetic);
+        let geometric_work = mean_work(moved, &e0.geometric, &e1.geometric);
+        self.axial_update += (e1.geometric_energy - e0.geometric_energy) - geometric_work;
+        self.stored += e1.stored - e0.stored;
+        let worked_in = self.drive + self.weight_on_bit + self.gravity + self.loads + self.axial_update;
+        let taken = self.bit + self.friction + self.contact_damping + self.rayleigh_damping + self.numerical_damping;
+        self.error = worked_in - taken - self.stored;
+    }
+}
+
+/// Largest violation of the joint rows: translations (m) and rotations (-).
+pub fn joint_violation(model: &Model, state: &State) -> (f64, f64) {
+    let mut worst = (0.0_f64, 0.0_f64);
+    for (j, joint) in model.joints.iter().enumerate() {
+        let station = &model.stations[model.joint_stations[j]];
+        let open = joint.upper * crate::dynamics::state::translation(&state.q, station.pipe_above)
+            - joint.lower * crate::dynamics::state::translation(&state.q, station.pipe_below);
+        worst.0 = worst.0.max(open.norm());
+        let rows = joint.rows(&joint_rotations(model, j, &state.q));
+        worst.1 = rows.iter().fold(worst.1, |w, row| w.max(row.value.abs()));
+    }
+    worst
+}

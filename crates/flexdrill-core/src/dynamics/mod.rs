@@ -1,0 +1,20 @@
+//! The whole tool in motion: residual, tangent, scheme, Newton, steps, statics, energy.
+
+pub mod assembly;
+pub mod conditions;
+pub mod energy;
+pub mod halving;
+pub mod newton;
+pub mod outcome;
+pub mod phases;
+pub mod scheme;
+pub mod state;
+pub mod statics;
+pub mod stepper;
+
+pub use newton::Tolerances;
+pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
+pub use scheme::Scheme;
+pub use state::State;
+pub use statics::StartError;
+pub use stepper::{Counters, Forcing, SolverKind, Stepper, StepperCheckpoint};

@@ -1,0 +1,80 @@
+//! What a step came to.
+
+use serde::{Deserialize, Serialize};
+
+use crate::tool::description::Body;
+
+/// Result of one advance by the configured step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepOutcome {
+    /// The step was taken.
+    Advanced {
+        /// Newton iterations over all sub-steps, rejected ones included.
+        iterations: u32,
+        /// Deepest split that was needed: the smallest sub-step is step / 2^halvings.
+        halvings: u32,
+    },
+    /// No sub-step size down to the limit converged; the state is that before the step.
+    Failed(StepFailure),
+}
+
+/// Why and where a step or sub-step was not accepted.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct StepFailure {
+    /// Why.
+    pub cause: FailureCause,
+    /// Model time at the start of the sub-step (s).
+    pub time: f64,
+    /// Size of the sub-step (s).
+    pub step: f64,
+    /// Station of the worst residual or correction, 0-based from the top.
+    pub station: usize,
+    /// Which pipe, where that makes sense.
+    pub body: Body,
+    /// Worst residual (N or N m) or, for a singular system, the pivot.
+    pub value: f64,
+}
+
+/// Causes of a rejected step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FailureCause {
+    /// Newton's corrections did not shrink below the limits in the allowed iterations.
+    NotConverged,
+    /// A number in the state or residual is not finite.
+    NotFinite,
+    /// A pivot of the linear system vanished.
+    Singular,
+    /// A displacement or tilt left the range in which the model holds.
+    OutOfRange,
+}
+
+/// Energy since the start (J). Signs: `drive`, `weight_on_bit`, `gravity` and `loads` are work done on the tool; `bit`,
+/// `friction`, `contact_damping`, `rayleigh_damping`, `numerical_damping` are taken from it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergyAudit {
+    /// Work of the top drive.
+    pub drive: f64,
+    /// Work of the weight on bit.
+    pub weight_on_bit: f64,
+    /// Work of gravity.
+    pub gravity: f64,
+    /// Work of the configured point loads.
+    pub loads: f64,
+    /// Energy taken by the rock.
+    pub bit: f64,
+    /// Energy taken by friction in both layers.
+    pub friction: f64,
+    /// Energy taken by the damping of contacts and joint stops.
+    pub contact_damping: f64,
+    /// Energy taken by Rayleigh damping.
+    pub rayleigh_damping: f64,
+    /// Energy taken by the time integration itself.
+    pub numerical_damping: f64,
+    /// Work of updating the axial force in the geometric stiffness between steps.
+    pub axial_update: f64,
+    /// Change of kinetic plus elastic plus contact energy since the start.
+    pub stored: f64,
+    /// Work in, less energy out, less stored: zero for an exact integration.
+    pub error: f64,
+}

@@ -1,0 +1,145 @@
+//! The start: the tool as given, or at rest under gravity and weight on bit.
+
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::outcome::StepFailure;
+use crate::dynamics::scheme::Scheme;
+use crate::dynamics::stepper::Stepper;
+use crate::linear::Singular;
+
+/// Why the tool could not be started.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum StartError {
+    /// The mass matrix with the constraints is singular.
+    #[error("station {}: the accelerations at the start have no solution (pivot {:e}); a body without mass or support?", .0.station, .0.pivot)]
+    Singular(Singular),
+    /// No step size brought the tool closer to rest.
+    #[error("the tool did not come to rest: {:?} at station {} of the {:?} after {:.3} s of settling, residual {:e}", .0.cause, .0.station, .0.body, .0.time, .0.value)]
+    Step(StepFailure),
+    /// Still moving after all steps.
+    #[error(
+        "the tool did not come to rest within {steps} steps: fastest node still moves at {speed:e} m/s (limit {limit:e}); is it supported in every direction?"
+    )]
+    Moving {
+        /// Steps made.
+        steps: u32,
+        /// Largest velocity left (m/s or rad/s).
+        speed: f64,
+        /// Limit (m/s or rad/s).
+        limit: f64,
+    },
+}
+
+/// Mass-proportional damping while settling (1/s): the softest motions have periods of a few tenths of a second.
+const SETTLING_ALPHA: f64 = 30.0;
+/// First and largest pseudo time step (s).
+const STEPS: [f64; 2] = [1e-3, 5.0];
+/// At rest when nothing moves faster (m/s, rad/s) over steps of the largest size: ten times what Newton's tolerance lets through there.
+const REST: f64 = 1e-6;
+/// Steps before giving up.
+const MOST_STEPS: u32 = 2000;
+
+impl Stepper {
+    /// Starts from the description's initial displacement and velocity, with accelerations in balance.
+    ///
+    /// # Errors
+    /// [`StartError::Singular`].
+    pub fn start_as_given(&mut self, weight_on_bit: f64) -> Result<(), StartError> {
+        let conditions = self.conditions(0.0, weight_on_bit);
+        let (model, newton, state, _) = self.parts();
+        let d = &model.description;
+        for station in &model.stations {
+            for first in [station.pipe_above, station.pipe_below] {
+                let to_node = station.pipe_to_station.transpose();
+                let displacement = to_node * nalgebra::Vector3::from(d.initial_pipe_displacement);
+                let velocity = to_node * nalgebra::Vector3::from(d.initial_pipe_velocity);
+                for k in 0..3 {
+                    state.q[first + k] = displacement[k];
+                    state.v[first + k] = velocity[k];
+                }
+                state.v[first + 3] = d.initial_spin_rate;
+            }
+        }
+        for &unknown in &model.held {
+            state.q[unknown] = 0.0;
+            state.v[unknown] = 0.0;
+        }
+        state.update_axial(model);
+        newton
+            .balance_accelerations(model, state, &conditions)
+            .map_err(StartError::Singular)?;
+        let state = self.state().clone();
+        self.start_from(&state, weight_on_bit);
+        Ok(())
+    }
+
+    /// Brings the tool to rest under gravity and `weight_on_bit` by damped steps of growing size. Friction and bit torque of the regularised
+    /// laws vanish at rest, so it is left out on the way.
+    ///
+    /// # Errors
+    /// When steps fail at the smallest size or the tool keeps moving.
+    pub fn settle(&mut self, weight_on_bit: f64) -> Result<(), StartError> {
+        self.start_as_given(weight_on_bit)?;
+        let conditions = settling(self.conditions(0.0, weight_on_bit));
+        let (model, newton, state, trial) = self.parts();
+        let scheme = Scheme::newmark(1.0);
+        let mut h = STEPS[0];
+        let mut speed = f64::INFINITY;
+        let mut at_largest = 0;
+        let mut steps = 0;
+        while steps < MOST_STEPS {
+            steps += 1;
+            trial.predict_axial(model, state, 0.0);
+            match newton.step(model, scheme, h, &conditions, state, trial) {
+                Ok(iterations) => {
+                    std::mem::swap(state, trial);
+                    speed = state.v.iter().fold(0.0, |worst: f64, v| worst.max(v.abs()));
+                    if iterations <= 4 {
+                        h = (h * 1.5).min(STEPS[1]);
+                    }
+                    if speed < REST && h == STEPS[1] {
+                        at_largest += 1;
+                        if at_largest >= 3 {
+                            break;
+                        }
+                    }
+                }
+                Err((_, failure)) => {
+                    h *= 0.25;
+                    if h < 1e-7 {
+                        return Err(StartError::Step(failure));
+                    }
+                }
+            }
+        }
+        if at_largest < 3 {
+            return Err(StartError::Moving {
+                steps,
+                speed,
+                limit: REST,
+            });
+        }
+        let mut rest = self.state().clone();
+        rest.v.fill(0.0);
+        rest.a.fill(0.0);
+        rest.time = 0.0;
+        let conditions = self.conditions(0.0, weight_on_bit);
+        let (model, newton, _, trial) = self.parts();
+        newton.polish_rest(model, &mut rest, trial, &conditions);
+        // What is still unbalanced becomes an acceleration, so that the first step begins in balance.
+        newton
+            .balance_accelerations(model, &mut rest, &conditions)
+            .map_err(StartError::Singular)?;
+        self.start_from(&rest, weight_on_bit);
+        Ok(())
+    }
+}
+
+fn settling(mut conditions: Conditions) -> Conditions {
+    for layer in [&mut conditions.inner, &mut conditions.outer] {
+        layer.surface.friction_tangential = 0.0;
+        layer.surface.friction_axial = 0.0;
+    }
+    conditions.bit_torque = 0.0;
+    conditions.rayleigh.alpha += SETTLING_ALPHA;
+    conditions
+}

@@ -1,0 +1,42 @@
+//! Numbers with their first and second derivatives in three variables, of which the joint rows' gradients and Hessians (the exact
+//! tangents) are made.
+
+use crate::simd::number::Number;
+
+/// A value with gradient and Hessian in (psi, phi_y, phi_z).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jet<T> {
+    /// Value.
+    pub value: T,
+    /// First derivatives.
+    pub gradient: [T; 3],
+    /// Second derivatives.
+    pub hessian: [[T; 3]; 3],
+}
+
+impl<T: Number> Jet<T> {
+    /// Zero.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        let zero = T::of(0.0);
+        Self {
+            value: zero,
+            gradient: [zero; 3],
+            hessian: [[zero; 3]; 3],
+        }
+    }
+
+    /// Adds `factor` times `other`.
+    #[inline(always)]
+    pub fn add(&mut self, factor: T, other: &Self) {
+        self.value = self.value + factor * other.value;
+        for k in 0..3 {
+            self.gradient[k] = self.gradient[k] + factor * other.gradient[k];
+            for l in k..3 {
+                let sum = self.hessian[k][l] + factor * other.hessian[k][l];
+                self.hessian[k][l] = sum;
+                self.hessian[l][k] = sum;
+            }
+        }
+    }
+}

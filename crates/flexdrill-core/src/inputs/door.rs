@@ -1,0 +1,226 @@
+//! The door that every sample from the rig comes through.
+
+use super::{InputKind, InputRule, InputRules, InputState, Rejection, RejectionReason};
+use crate::inputs::Inputs;
+
+/// Keeps the last good sample of each input and what became of the others.
+///
+/// Times are seconds on any one clock that the caller chooses; they need not begin at 0.
+#[derive(Debug, Clone)]
+pub struct Door {
+    rules: InputRules,
+    channels: [Channel; 2],
+}
+
+/// What became of the samples of one input.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Taken.
+    pub accepted: u64,
+    /// Refused, by [`RejectionReason::index`].
+    pub rejected: [u64; RejectionReason::COUNT],
+}
+
+impl Counts {
+    /// Refused for any reason.
+    pub fn rejected_total(&self) -> u64 {
+        self.rejected.iter().sum()
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Channel {
+    good: Option<Sample>,
+    /// Of the newest sample, if that was refused.
+    refused: Option<Rejection>,
+    last_rejection: Option<Rejection>,
+    counts: Counts,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Sample {
+    value: f64,
+    time: f64,
+}
+
+impl Door {
+    /// A door that has seen no sample.
+    pub fn new(rules: InputRules) -> Self {
+        Self {
+            rules,
+            channels: [Channel::default(); 2],
+        }
+    }
+
+    /// Changes limits, ages and safe values; samples seen are kept.
+    pub fn set_rules(&mut self, rules: InputRules) {
+        self.rules = rules;
+    }
+
+    /// The rule of an input.
+    pub fn rule(&self, kind: InputKind) -> &InputRule {
+        &self.rules[kind.index()]
+    }
+
+    /// Takes or refuses a sample (r/min or kN) received at `time` (s).
+    ///
+    /// # Errors
+    /// Says why the sample was refused; the last good one stays.
+    pub fn offer(&mut self, kind: InputKind, value: f64, time: f64) -> Result<(), Rejection> {
+        let last_time = self.channels[kind.index()].good.map(|sample| sample.time);
+        let judged = judge(self.rule(kind), value, time, last_time);
+        let channel = &mut self.channels[kind.index()];
+        match judged {
+            Ok(value) => {
+                channel.good = Some(Sample { value, time });
+                channel.refused = None;
+                channel.counts.accepted += 1;
+                Ok(())
+            }
+            Err(reason) => {
+                let rejection = Rejection {
+                    kind,
+                    value,
+                    time,
+                    reason,
+                };
+                channel.counts.rejected[reason.index()] += 1;
+                channel.last_rejection = Some(rejection);
+                // An old sample that comes late says nothing about the newest.
+                if !matches!(reason, RejectionReason::TimeBackwards { .. }) {
+                    channel.refused = Some(rejection);
+                }
+                Err(rejection)
+            }
+        }
+    }
+
+    /// State of an input at `now` (s).
+    pub fn state(&self, kind: InputKind, now: f64) -> InputState {
+        let (channel, rule) = (&self.channels[kind.index()], self.rule(kind));
+        if let Some(rejection) = channel.refused
+            && age(now, rejection.time) < rule.max_age
+        {
+            return InputState::Rejected;
+        }
+        match self.age(kind, now) {
+            None => InputState::NotReceived,
+            Some(age) if age >= rule.max_age => InputState::Stale,
+            Some(age) if age >= rule.slow_age => InputState::Slow,
+            Some(_) => InputState::Ok,
+        }
+    }
+
+    /// The worse of both inputs' states.
+    pub fn quality(&self, now: f64) -> InputState {
+        self.state(InputKind::RotarySpeed, now)
+            .worse(self.state(InputKind::WeightOnBit, now))
+    }
+
+    /// Age (s) of the last good sample; `None` before the first.
+    pub fn age(&self, kind: InputKind, now: f64) -> Option<f64> {
+        self.channels[kind.index()].good.map(|sample| age(now, sample.time))
+    }
+
+    /// The last good sample as taken (r/min or kN); `None` before the first.
+    pub fn last_good(&self, kind: InputKind) -> Option<f64> {
+        self.channels[kind.index()].good.map(|sample| sample.value)
+    }
+
+    /// What became of the samples so far.
+    pub fn counts(&self, kind: InputKind) -> Counts {
+        self.channels[kind.index()].counts
+    }
+
+    /// The sample refused last, whatever came after it.
+    pub fn last_rejection(&self, kind: InputKind) -> Option<Rejection> {
+        self.channels[kind.index()].last_rejection
+    }
+
+    /// What is asked for at `now` (s), in the unit of the samples: the last good value, held while it ages, then brought
+    /// to the safe value; the start value before the first sample. Always within the limits.
+    pub fn target(&self, kind: InputKind, now: f64) -> f64 {
+        let rule = self.rule(kind);
+        let value = match self.channels[kind.index()].good {
+            None => rule.initial,
+            Some(sample) => {
+                let over = age(now, sample.time) - rule.max_age - rule.hold_before_safe;
+                if over > 0.0 {
+                    towards(sample.value, rule.safe, rule.safe_ramp * over)
+                } else {
+                    sample.value
+                }
+            }
+        };
+        // `max` and `min` instead of `clamp`, which panics on limits that are not in order.
+        value.max(rule.min).min(rule.max)
+    }
+
+    /// What the twin is asked for at `now` (s), SI.
+    pub fn targets(&self, now: f64) -> Inputs {
+        let si = |kind: InputKind| kind.to_si(self.target(kind, now));
+        Inputs {
+            rotary_speed: si(InputKind::RotarySpeed),
+            weight_on_bit: si(InputKind::WeightOnBit),
+        }
+    }
+
+    /// To be called when the caller's clock was set anew (a simulated clock that started over): the samples' ages count
+    /// from `now` on, and no sample is refused for being before them.
+    pub fn clock_set(&mut self, now: f64) {
+        for channel in &mut self.channels {
+            if let Some(sample) = &mut channel.good {
+                sample.time = now;
+            }
+            if let Some(rejection) = &mut channel.refused {
+                rejection.time = now;
+            }
+        }
+    }
+}
+
+/// The value to take, or why not.
+fn judge(rule: &InputRule, value: f64, time: f64, last_time: Option<f64>) -> Result<f64, RejectionReason> {
+    if let Some(last) = last_time
+        && time < last
+    {
+        return Err(RejectionReason::TimeBackwards { by: last - time });
+    }
+    if !value.is_finite() || !time.is_finite() {
+        return Err(RejectionReason::NotFinite);
+    }
+    let value = if rule.min >= 0.0 && value < 0.0 {
+        if value < -rule.tare_error {
+            return Err(if rule.tare_error > 0.0 {
+                RejectionReason::Negative {
+                    tare_error: rule.tare_error,
+                }
+            } else {
+                RejectionReason::BelowMinimum { min: rule.min }
+            });
+        }
+        0.0
+    } else {
+        value
+    };
+    if value < rule.min {
+        return Err(RejectionReason::BelowMinimum { min: rule.min });
+    }
+    if value > rule.max {
+        return Err(RejectionReason::AboveMaximum { max: rule.max });
+    }
+    Ok(value)
+}
+
+/// Never negative: a sample can be stamped a little after `now` is read.
+fn age(now: f64, time: f64) -> f64 {
+    (now - time).max(0.0)
+}
+
+fn towards(from: f64, to: f64, by: f64) -> f64 {
+    if from > to {
+        (from - by).max(to)
+    } else {
+        (from + by).min(to)
+    }
+}

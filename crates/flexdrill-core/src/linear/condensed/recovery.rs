@@ -1,0 +1,174 @@
+//! The way back: from the bottom up, every unknown of the swept stations, then those inside the condensed spans.
+
+use nalgebra::Matrix6;
+
+use super::super::reduction::PLACES;
+use super::guide_lanes::{LANES, expand_lanes};
+use super::guide_span::expand;
+use super::operator::{Edge, Matrices, Operator, place};
+use super::pivots::{halves_mut, load};
+use super::span::{End, scatter};
+use super::sweep::{CondensedElimination, Mode};
+use super::{GUIDE, MULTIPLIER, SIZE, U};
+use crate::simd::vector::Vector;
+
+impl CondensedElimination {
+    /// From the bottom up: every swept station's unknowns.
+    #[inline(always)]
+    pub(super) fn recover<V: Vector>(&mut self, operator: &Operator, rhs: &mut [f64]) {
+        let layout = operator.layout();
+        // Rotations, displacement, guide of the station below.
+        let mut below = [0.0; 12];
+        for (swept, columns) in self.swept.iter().zip(&self.columns).rev() {
+            let offset = layout.offset(swept.station);
+            // Two sums in each half: half as long a chain.
+            let (mut even, mut odd): ([V; 2], [V; 2]) = (load(&columns[12]), [V::splat(0.0); 2]);
+            for j in 0..6 {
+                let (first, second): ([V; 2], [V; 2]) = (load(&columns[2 * j]), load(&columns[2 * j + 1]));
+                for half in 0..2 {
+                    even[half] = even[half].minus_product(first[half], V::splat(below[2 * j]));
+                    odd[half] = odd[half].minus_product(second[half], V::splat(below[2 * j + 1]));
+                }
+            }
+            let mut x = [0.0; SIZE];
+            for (half, place) in halves_mut(&mut x).iter_mut().enumerate() {
+                even[half].plus(odd[half]).store(place);
+            }
+            let matrices = swept.node.map(|node| &operator.matrices[operator.nodes[node].matrices]);
+            match (swept.node, matrices) {
+                (Some(node), Some(matrices)) if matrices.reduction.is_some() => {
+                    let open = self.modes[node] == Mode::Open;
+                    let edge;
+                    let edge = if open {
+                        let coupling = &operator.lasting.upper[swept.station].pipe;
+                        edge = Edge::of(coupling, &Matrix6::zeros(), None);
+                        &edge
+                    } else {
+                        &operator.edges[operator.spans[node].edge]
+                    };
+                    let start = if open {
+                        &matrices.own_start.rows
+                    } else {
+                        &matrices.start.rows
+                    };
+                    let rhs = &mut rhs[offset..offset + 24];
+                    recover_joint(
+                        matrices,
+                        start,
+                        &edge.multiplier_rows,
+                        self.offsets[node],
+                        &x,
+                        &below,
+                        rhs,
+                    );
+                }
+                _ => {
+                    for k in 0..12 {
+                        rhs[offset + k] = x[place(k)];
+                    }
+                    if layout.is_large(swept.station) {
+                        rhs[offset + 18] = x[MULTIPLIER];
+                    }
+                }
+            }
+            below[..6].copy_from_slice(&x[..6]);
+            below[6..].copy_from_slice(&x[GUIDE..GUIDE + 6]);
+        }
+    }
+
+    /// Inner stations of the spans that were condensed.
+    #[inline(always)]
+    pub(super) fn recover_spans<V: Vector>(&mut self, operator: &Operator, rhs: &mut [f64]) {
+        let layout = operator.layout();
+        for (k, span) in operator.spans.iter().enumerate() {
+            if self.modes[k] == Mode::Open || span.inner == 0 {
+                continue;
+            }
+            let ends = End::of(operator, k);
+            let room = k * self.room..(k + 1) * self.room;
+            let first = layout.offset(span.first);
+            let still = &mut self.pipes[room.clone()];
+            operator.pipes[span.pipe].expand::<V>(&ends.values(&ends.pipe, rhs), still);
+            scatter(still, first, span.inner, rhs);
+            if self.modes[k] == Mode::Still {
+                let still = &mut self.guides[room];
+                operator.guides[span.guide]
+                    .body
+                    .expand::<V>(&ends.values(&ends.guide, rhs), still);
+                scatter(still, first + 6, span.inner, rhs);
+            } else if !self.grouped[k] {
+                let values = ends.values(&ends.guide, rhs);
+                let (mut top, mut bottom) = ([0.0; 6], [0.0; 6]);
+                top.copy_from_slice(&values[..6]);
+                bottom.copy_from_slice(&values[6..]);
+                let solved = &self.solved[span.first..span.first + span.inner];
+                expand::<V>(solved, &top, &bottom, |node, x| {
+                    let at = first + 12 * node + 6;
+                    rhs[at..at + 6].copy_from_slice(&x[..6]);
+                });
+            }
+        }
+        for g in 0..self.groups.len() {
+            self.recover_group::<V>(operator, g, rhs);
+        }
+    }
+
+    /// Guides that were eliminated together.
+    #[inline(always)]
+    fn recover_group<V: Vector>(&mut self, operator: &Operator, g: usize, rhs: &mut [f64]) {
+        let group = &self.groups[g];
+        let nodes = operator.guides[group.guide].body.nodes();
+        let (mut top, mut bottom) = ([[0.0; LANES]; 6], [[0.0; LANES]; 6]);
+        for (lane, &k) in group.spans.iter().enumerate() {
+            let ends = End::of(operator, k);
+            for i in 0..6 {
+                top[i][lane] = rhs[ends.guide[0] + i];
+                bottom[i][lane] = rhs[ends.guide[1] + i];
+            }
+        }
+        let inner = &mut self.lane_values[..nodes];
+        let solved = &self.solved_lanes[g * self.longest..g * self.longest + nodes];
+        expand_lanes::<V>(solved, &top, &bottom, inner);
+        for (lane, &k) in group.spans.iter().enumerate().take(group.count) {
+            let first = operator.layout().offset(operator.spans[k].first) + 6;
+            for (node, inner) in inner.iter().enumerate() {
+                for (to, from) in rhs[first + 12 * node..first + 12 * node + 6].iter_mut().zip(inner) {
+                    *to = from[lane];
+                }
+            }
+        }
+    }
+}
+
+/// All 24 unknowns of a joint station from its 16, `x`; `rhs` holds its right-hand side. `start` and `next` are the rows of the start
+/// below's displacement over its own six unknowns and over the six of the pipe's next node, `below`.
+#[inline(always)]
+fn recover_joint(
+    matrices: &Matrices,
+    start: &[[f64; 3]; 6],
+    next: &[[f64; 3]; 6],
+    c: [f64; 3],
+    x: &[f64; SIZE],
+    below: &[f64; 12],
+    rhs: &mut [f64],
+) {
+    let Some(reduction) = &matrices.reduction else { return };
+    let mut rest = [rhs[12], rhs[13], rhs[14]];
+    for (place, &x) in PLACES.into_iter().zip(x) {
+        rhs[place] = x;
+    }
+    let turned = reduction.turned([x[U], x[U + 1], x[U + 2]]);
+    for k in 0..3 {
+        rhs[12 + k] = turned[k] + c[k];
+    }
+    // The rows of that displacement: what the other unknowns leave is the multipliers' part.
+    for k in 0..6 {
+        for i in 0..3 {
+            rest[i] -= start[k][i] * rhs[12 + k] + next[k][i] * below[k];
+        }
+    }
+    for i in 0..3 {
+        rhs[18 + i] =
+            reduction.recover[0][i] * rest[0] + reduction.recover[1][i] * rest[1] + reduction.recover[2][i] * rest[2];
+    }
+}

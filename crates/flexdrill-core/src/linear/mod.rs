@@ -1,0 +1,38 @@
+//! The linear system of a Newton iteration and the two ways to solve it.
+//!
+//! Unknowns are ordered by station, so the matrix is block tridiagonal (Eq. 41 over the whole tool). A plain station has a
+//! block of 12 (pipe node, guide node), a joint station one of 24 (end of the link above, guide, start of the link below, multipliers,
+//! padding).
+
+mod block;
+mod changes;
+mod condensed;
+mod elimination;
+mod reduction;
+mod sparse;
+mod system;
+
+pub use changes::{Changes, ContactBlock, JointChange, Touching};
+pub use condensed::{CondensedElimination, Operator};
+pub use elimination::StationElimination;
+pub use sparse::SparseReference;
+pub(super) use system::add_columns;
+pub use system::{BlockSystem, Coupling, Diagonal, JOINT_BLOCK, Layout, PLAIN_BLOCK};
+
+/// A pivot vanished: the system has no unique solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Singular {
+    /// Station of the block, 0-based.
+    pub station: usize,
+    /// Size of the best pivot found.
+    pub pivot: f64,
+}
+
+/// Solves the block system of one Newton iteration.
+pub trait LinearSolver: Send {
+    /// Solves `system x = rhs`; `rhs` becomes x.
+    ///
+    /// # Errors
+    /// When a block cannot be factorised.
+    fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular>;
+}

@@ -1,0 +1,221 @@
+//! One watched place: what it is, its samples, and what is held of it between evaluations.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use super::classify::Verdict;
+use super::orbit_window::OrbitWindow;
+use super::settings::WhirlSettings;
+use super::severity::{Evidence, PlaceSeverity};
+use super::{Severity, WhirlKind};
+use crate::tool::description::Body;
+
+/// How much faster time that did not look chaotic takes away from time that did.
+const CHAOS_FADES: f64 = 1.5;
+
+/// A place whose orbit is watched.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WatchedPlace {
+    /// Station index from the top.
+    pub station: usize,
+    /// Which pipe moves: the flexible pipe in the guide, or the guide in the hole.
+    pub body: Body,
+    /// Along the path from the kick-off (m).
+    pub measured_depth: f64,
+    /// rad.
+    pub inclination: f64,
+    /// Half the difference of the diameters (m), Eq. 27 or 31.
+    pub clearance: f64,
+    /// Outer diameter of the moving body where it touches (m), for the rate of rolling without slip.
+    pub body_diameter: f64,
+}
+
+impl WatchedPlace {
+    /// Whirl rate over rotary speed of rolling without slip, `-d / (D - d)`. The guide is not driven, so its rate is not
+    /// tied to the rotary speed.
+    pub fn rolling_ratio(&self) -> Option<f64> {
+        (self.body == Body::Pipe && self.clearance > 0.0).then(|| -self.body_diameter / (2.0 * self.clearance))
+    }
+}
+
+/// One sample of one watched place.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlaceSample {
+    /// Horizontal displacement of the body from the gap's centre (m).
+    pub y: f64,
+    /// Displacement towards the low side (m).
+    pub z: f64,
+    /// Largest normal force since the sample before (N).
+    pub normal_force: f64,
+    /// Part of the time since the sample before in contact, 0 to 1; 0 or 1 where only the instant is known.
+    pub contact_share: f64,
+}
+
+impl PlaceSample {
+    /// Where the motion was after that part of the way to `next`.
+    pub(super) fn between(&self, next: &Self, part: f64) -> Self {
+        let mix = |a: f64, b: f64| a + (b - a) * part;
+        Self {
+            y: mix(self.y, next.y),
+            z: mix(self.z, next.z),
+            normal_force: mix(self.normal_force, next.normal_force),
+            contact_share: mix(self.contact_share, next.contact_share),
+        }
+    }
+}
+
+/// What is known of a place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Place {
+    pub(super) place: WatchedPlace,
+    pub(super) window: OrbitWindow,
+    pub(super) last: PlaceSample,
+    pub(super) kind: WhirlKind,
+    candidate: WhirlKind,
+    agreeing: u32,
+    /// How long the motion has looked chaotic (s), less the time that it did not.
+    chaotic_for: f64,
+    pub(super) whirl_rate: f64,
+    pub(super) whirl_ratio: f64,
+    pub(super) orbit_radius: f64,
+    pub(super) used_window: f64,
+    pub(super) evidence: Evidence,
+    pub(super) severity: PlaceSeverity,
+    /// Model time of the newest evaluation (s).
+    pub(super) evaluated: f64,
+}
+
+/// What an evaluation needs to know beside the motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Circumstances {
+    /// Mean rotary speed over the window (rad/s); none while the tool stands.
+    pub(super) rotary_speed: Option<f64>,
+    /// +1 or -1, the sign of the rotation.
+    pub(super) sense: f64,
+    /// Time for which motion must look chaotic to be called so (s).
+    pub(super) chaos_time: f64,
+    /// Time between two evaluations (s).
+    pub(super) evaluation_interval: f64,
+}
+
+impl Place {
+    pub(super) fn new(place: WatchedPlace, window: OrbitWindow) -> Self {
+        Self {
+            place,
+            window,
+            last: PlaceSample::default(),
+            kind: WhirlKind::None,
+            candidate: WhirlKind::None,
+            agreeing: 0,
+            chaotic_for: 0.0,
+            whirl_rate: 0.0,
+            whirl_ratio: 0.0,
+            orbit_radius: 0.0,
+            used_window: 0.0,
+            evidence: Evidence::default(),
+            severity: PlaceSeverity::default(),
+            evaluated: 0.0,
+        }
+    }
+
+    /// Forgets the motion; the level stands.
+    pub(super) fn restart(&mut self) {
+        self.window.clear();
+        self.kind = WhirlKind::None;
+        self.candidate = WhirlKind::None;
+        self.agreeing = 0;
+        self.chaotic_for = 0.0;
+        self.whirl_rate = 0.0;
+        self.whirl_ratio = 0.0;
+        self.orbit_radius = 0.0;
+        self.evidence = Evidence::default();
+    }
+
+    /// Forgets the level too.
+    pub(super) fn reset(&mut self) {
+        self.restart();
+        self.severity = PlaceSeverity::default();
+        self.used_window = 0.0;
+        self.evaluated = 0.0;
+    }
+
+    /// Takes over a verdict; its kind only when enough evaluations in a row agree.
+    pub(super) fn accept(
+        &mut self,
+        verdict: &Verdict,
+        evidence: Evidence,
+        circumstances: &Circumstances,
+        settings: &WhirlSettings,
+    ) {
+        if verdict.kind == self.candidate {
+            self.agreeing = self.agreeing.saturating_add(1);
+        } else {
+            self.candidate = verdict.kind;
+            self.agreeing = 1;
+        }
+        let interval = circumstances.evaluation_interval;
+        let confirmed_for = match verdict.kind {
+            WhirlKind::None | WhirlKind::Chaotic => 0.0,
+            WhirlKind::Forward | WhirlKind::Backward => settings.confirmation_turns * TAU / verdict.rate.abs(),
+        };
+        let needed = ((confirmed_for / interval).ceil() as u32).max(settings.confirmations);
+        // By chance chaos looks like something else now and then, so its time is summed up instead of counted in a row.
+        self.chaotic_for = if verdict.kind == WhirlKind::Chaotic {
+            (self.chaotic_for + interval).min(circumstances.chaos_time)
+        } else {
+            (self.chaotic_for - CHAOS_FADES * interval).max(0.0)
+        };
+        let confirmed = match verdict.kind {
+            WhirlKind::Chaotic => self.chaotic_for >= circumstances.chaos_time,
+            _ => self.agreeing >= needed,
+        };
+        if confirmed {
+            self.kind = verdict.kind;
+        }
+        if self.kind == verdict.kind {
+            self.whirl_rate = verdict.rate * circumstances.sense;
+        }
+        self.whirl_ratio = circumstances
+            .rotary_speed
+            .map_or(0.0, |speed| self.whirl_rate / speed.abs());
+        self.orbit_radius = verdict.radius;
+        self.used_window = verdict.window;
+        // While the kind is in dispute the doubt shows.
+        let confidence = evidence.confidence * if self.kind == verdict.kind { 1.0 } else { 0.5 };
+        self.evidence = Evidence {
+            kind: self.kind,
+            confidence,
+            rolling: self.rolls(settings),
+            ..evidence
+        };
+    }
+
+    /// The kind that the level stands for: while it is held or latched, the one that led to it.
+    pub(super) fn level_kind(&self) -> WhirlKind {
+        match (self.severity.level, self.kind) {
+            (Severity::Ok, _) => WhirlKind::None,
+            (_, WhirlKind::None) => self.severity.kind,
+            (_, kind) => kind,
+        }
+    }
+
+    /// Whirl rate over that of rolling without slip, for backward whirl of the driven pipe: 1 rolls, less slides, 0 is
+    /// no such whirl. The sliding speed at the contact is spin x radius x (1 - this).
+    pub(super) fn rolling_share(&self) -> f64 {
+        match self.place.rolling_ratio() {
+            Some(rolling) if self.kind == WhirlKind::Backward => self.whirl_ratio / rolling,
+            _ => 0.0,
+        }
+    }
+
+    fn rolls(&self, settings: &WhirlSettings) -> bool {
+        let wider = if self.evidence.rolling {
+            1.0 + settings.hysteresis
+        } else {
+            1.0
+        };
+        let share = self.rolling_share();
+        share > 0.0 && (share - 1.0).abs() <= settings.rolling_tolerance * wider
+    }
+}

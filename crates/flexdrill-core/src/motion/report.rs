@@ -1,0 +1,122 @@
+//! Results of the analysis, as plain arrays.
+
+use serde::{Deserialize, Serialize};
+
+use crate::tool::description::Body;
+
+/// Kinds of whirl, in the words of D-WIS. The discriminants are those of the messages.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[repr(u8)]
+pub enum WhirlKind {
+    /// No orbit worth the name.
+    #[default]
+    None = 0,
+    /// In the sense of the rotation.
+    Forward = 1,
+    /// Against it.
+    Backward = 2,
+    /// Large motion without a steady direction.
+    Chaotic = 3,
+}
+
+/// How bad.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[repr(u8)]
+pub enum Severity {
+    /// Nothing to do.
+    #[default]
+    Ok = 0,
+    /// Keep an eye on it.
+    Watch = 1,
+    /// Act soon.
+    Warning = 2,
+    /// Act now.
+    Critical = 3,
+}
+
+/// One entry per watched station and pipe; all arrays of the same length.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct WhirlReport {
+    /// Station index from the top.
+    pub station: Vec<usize>,
+    /// m.
+    pub measured_depth: Vec<f64>,
+    /// rad.
+    pub inclination: Vec<f64>,
+    /// Which pipe.
+    pub body: Vec<Body>,
+    /// Kind.
+    pub kind: Vec<WhirlKind>,
+    /// Signed rate of the orbit (rad/s), positive in the sense of the rotation.
+    pub whirl_rate: Vec<f64>,
+    /// `whirl_rate` over the rotary speed; 0 when the tool does not turn.
+    pub whirl_ratio: Vec<f64>,
+    /// Root mean square radius about the running mean (m).
+    pub orbit_radius: Vec<f64>,
+    /// Largest distance from the gap's centre in the window over the clearance.
+    pub clearance_ratio: Vec<f64>,
+    /// Part of the window in contact, 0 to 1.
+    pub contact_duty: Vec<f64>,
+    /// 0 to 1, lowered by doubtful inputs.
+    pub confidence: Vec<f64>,
+    /// Level of the place.
+    pub severity: Vec<Severity>,
+    /// Kind of whirl that the level stands for, also while it is only held.
+    pub level_kind: Vec<WhirlKind>,
+    /// Whether the whirl is backward and so near to rolling without slip that it counts one level more.
+    pub rolling: Vec<bool>,
+    /// `whirl_rate` over that of rolling without slip, `-spin d / (D - d)`, for backward whirl of the driven pipe: 1
+    /// rolls, less slides; 0 where there is no such whirl.
+    pub rolling_share: Vec<f64>,
+    /// Largest normal force in the window (N).
+    pub peak_force: Vec<f64>,
+}
+
+/// State of the warning logic.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct WhirlWarningLevel {
+    /// Level.
+    pub severity: Severity,
+    /// Kind of whirl behind it.
+    pub kind: WhirlKind,
+    /// Index into the [`WhirlReport`] of the place behind it.
+    pub entry: usize,
+    /// rad/s over rad/s.
+    pub whirl_ratio: f64,
+    /// As in [`WhirlReport::rolling_share`].
+    pub rolling_share: f64,
+    /// Backward whirl so near to rolling without slip that it counts one level more.
+    pub rolling: bool,
+    /// Largest distance over clearance.
+    pub clearance_ratio: f64,
+    /// 0 to 1.
+    pub contact_duty: f64,
+    /// Largest normal force in the window (N).
+    pub peak_force: f64,
+    /// Confidence in the kind, 0 to 1, lowered by doubtful inputs.
+    pub confidence: f64,
+    /// Length of the window (s).
+    pub window: f64,
+    /// Model time at which the level was reached (s).
+    pub since: f64,
+    /// Number of changes so far.
+    pub sequence: u64,
+}
+
+/// State of the shock watch.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct ShockLevel {
+    /// Level.
+    pub severity: Severity,
+    /// 0 pipe in guide, 1 guide in hole.
+    pub layer: usize,
+    /// Station index from the top.
+    pub station: usize,
+    /// Impulse above the resting force (N s): the largest since the level was reached; of the last interval while all is
+    /// well.
+    pub impulse: f64,
+    /// Model time at which the level was reached (s).
+    pub since: f64,
+}

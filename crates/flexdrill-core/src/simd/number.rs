@@ -1,0 +1,152 @@
+//! What the joints' formulas are written over: one number, or one of each of eight joints at once.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use crate::simd::vector::Vector;
+
+/// A number to compute with.
+pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+    /// From one number.
+    fn of(x: f64) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        x
+    }
+}
+
+/// Eight numbers.
+#[derive(Debug, Clone, Copy)]
+pub struct Eight<V>(pub V);
+
+impl<V: Vector> Eight<V> {
+    /// From memory.
+    #[inline(always)]
+    pub fn load(from: &[f64; 8]) -> Self {
+        Self(V::load(from))
+    }
+
+    /// To memory.
+    #[inline(always)]
+    pub fn store(self, to: &mut [f64; 8]) {
+        self.0.store(to);
+    }
+
+    /// Sine and cosine, to two units in the last place of 1 for arguments up to 1e6.
+    #[inline(always)]
+    pub fn sin_cos(self) -> (Self, Self) {
+        // x = n pi/2 + r with |r| <= pi/4; n times the first two parts of pi/2, of 33 bits each, is exact.
+        const PARTS: [f64; 3] = [
+            1.570_796_326_734_125_6,
+            6.077_100_506_303_966e-11,
+            2.022_266_248_795_950_6e-21,
+        ];
+        // Adding and subtracting 3 x 2^51 rounds to a whole number.
+        const ROUND: f64 = 6_755_399_441_055_744.0;
+        const SINE: [f64; 8] = series(1);
+        const COSINE: [f64; 9] = series(0);
+        let whole = |x: Self| (x + Self::of(ROUND)) - Self::of(ROUND);
+        let n = whole(self * Self::of(std::f64::consts::FRAC_2_PI));
+        let r = ((self - n * Self::of(PARTS[0])) - n * Self::of(PARTS[1])) - n * Self::of(PARTS[2]);
+        let s = r * r;
+        let (mut sine, mut cosine) = (Self::of(SINE[7]), Self::of(COSINE[8]));
+        for k in (0..7).rev() {
+            sine = sine * s + Self::of(SINE[k]);
+        }
+        for k in (0..8).rev() {
+            cosine = cosine * s + Self::of(COSINE[k]);
+        }
+        sine = sine * r;
+        // Quadrant n mod 4 as two bits: `odd` exchanges sine and cosine, `upper` turns both round.
+        let floor = |x: Self| whole(x - Self::of(0.25));
+        let pairs = floor(n * Self::of(0.5));
+        let odd = n - pairs * Self::of(2.0);
+        let upper = pairs - floor(pairs * Self::of(0.5)) * Self::of(2.0);
+        let even = Self::of(1.0) - odd;
+        let sign = Self::of(1.0) - upper * Self::of(2.0);
+        (sign * (even * sine + odd * cosine), sign * (even * cosine - odd * sine))
+    }
+}
+
+/// (-1)^k / (2 k + first)!.
+const fn series<const N: usize>(first: u32) -> [f64; N] {
+    let mut c = [0.0; N];
+    c[0] = 1.0;
+    let mut k = 1;
+    while k < N {
+        let m = (2 * k + first as usize) as f64;
+        c[k] = -c[k - 1] / (m * (m - 1.0));
+        k += 1;
+    }
+    c
+}
+
+impl<V: Vector> Number for Eight<V> {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        Self(V::splat(x))
+    }
+}
+
+impl<V: Vector> Add for Eight<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.plus(other.0))
+    }
+}
+
+impl<V: Vector> Sub for Eight<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.minus(other.0))
+    }
+}
+
+impl<V: Vector> Mul for Eight<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0.times(other.0))
+    }
+}
+
+impl<V: Vector> Neg for Eight<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(V::splat(0.0).minus(self.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::vector::Portable;
+
+    #[test]
+    fn sine_and_cosine() {
+        for k in 0..20_000 {
+            let x = (k as f64 - 10_000.0) * 0.731_3;
+            let at: [f64; 8] = std::array::from_fn(|lane| x + 0.1 * lane as f64);
+            let (sin, cos) = Eight::<Portable>::load(&at).sin_cos();
+            let (mut s, mut c) = ([0.0; 8], [0.0; 8]);
+            sin.store(&mut s);
+            cos.store(&mut c);
+            for lane in 0..8 {
+                let (sin, cos) = at[lane].sin_cos();
+                // Two units in the last place of 1.
+                assert!(
+                    (s[lane] - sin).abs() < 4.5e-16 && (c[lane] - cos).abs() < 4.5e-16,
+                    "{}: {} {sin}, {} {cos}",
+                    at[lane],
+                    s[lane],
+                    c[lane]
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! What is modelled, as plain numbers in SI: the tool, the well it lies in, its supports and loads.
+//!
+//! A [`ToolDescription`] is what the configuration is turned into and what [`crate::model::Model`] is built from. It is
+//! checked when the model is built; after that nothing of it changes but the [`LiveParameters`].
+
+use serde::{Deserialize, Serialize};
+
+/// Everything the mechanics needs to know, in SI units and radians.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ToolDescription {
+    /// The bore's centre line, from the kick-off (measured depth 0) on.
+    pub well: WellDescription,
+    /// Number of rigidly straight links of the flexible pipe.
+    pub links: usize,
+    /// Beam elements per link (the paper's five).
+    pub elements_per_link: usize,
+    /// Steel of both pipes.
+    pub material: Material,
+    /// Section of each element of a link, top to bottom; length `elements_per_link`. All links are alike.
+    pub pipe_sections: Vec<Tube>,
+    /// Outer diameter of the pipe where it meets the guide, per station of a link (m); length
+    /// `elements_per_link + 1`. Decides the inner clearance, Eq. 27.
+    pub pipe_contact_diameters: Vec<f64>,
+    /// Section of the guide pipe.
+    pub guide_section: Tube,
+    /// Factor on the guide's bending stiffness (slotted guides are softer), dimensionless.
+    pub guide_bending_factor: f64,
+    /// Every guide node held in all six directions (the verification cases' fixed outer beam).
+    pub guide_fixed: bool,
+    /// Diameter of the bore (m), Eq. 31.
+    pub hole_diameter: f64,
+    /// The joints between links.
+    pub joint: JointDescription,
+    /// Mass- and stiffness-proportional damping of both pipes, Eq. 7.
+    pub rayleigh: Rayleigh,
+    /// Gap layer between pipe and guide.
+    pub inner: GapDescription,
+    /// Gap layer between guide and wall.
+    pub outer: GapDescription,
+    /// Speed at which the regularised friction reaches 71 % of Coulomb's (m/s).
+    pub slip_speed: f64,
+    /// The bit and its rock, Eq. 1.
+    pub bit: BitDescription,
+    /// Acceleration of gravity along world +Z (m/s2), already reduced by the buoyancy factor.
+    pub gravity: f64,
+    /// Held directions, Table 1 and its variants.
+    pub supports: Vec<Support>,
+    /// Whether the spin of the first pipe node follows the drive's angle (else it is as `supports` say).
+    pub drive_top: bool,
+    /// How the weight on bit reaches the tool.
+    pub wob_path: WobPath,
+    /// Loads in time beside gravity, drive and bit.
+    pub loads: Vec<PointLoad>,
+    /// Point masses added to nodes.
+    pub masses: Vec<PointMass>,
+    /// Velocity of every pipe node at the start, in the station frame (m/s), for cases that start moving.
+    pub initial_pipe_velocity: [f64; 3],
+    /// Displacement of every pipe node at the start, in the station frame (m).
+    pub initial_pipe_displacement: [f64; 3],
+    /// Spin rate of the pipe at the start (rad/s).
+    pub initial_spin_rate: f64,
+    /// Whether the run starts from rest under gravity and the initial weight on bit.
+    pub static_start: bool,
+}
+
+/// The bore's centre line: sections one after another in the vertical X-Z plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WellDescription {
+    /// Inclination at measured depth 0 (rad), 0 is straight down.
+    pub start_inclination: f64,
+    /// Sections from the top down. Their lengths add up to the tool's length.
+    pub sections: Vec<WellSection>,
+}
+
+/// One section of the well path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum WellSection {
+    /// Straight over `length` (m).
+    Straight {
+        /// Length along the path (m).
+        length: f64,
+    },
+    /// A circular arc that builds `angle` (rad, > 0) at `radius` (m).
+    Arc {
+        /// Radius of curvature (m).
+        radius: f64,
+        /// Change of inclination (rad).
+        angle: f64,
+    },
+}
+
+/// An isotropic linear elastic material.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Young's modulus (Pa).
+    pub youngs_modulus: f64,
+    /// Poisson's ratio.
+    pub poisson_ratio: f64,
+    /// Density (kg/m3).
+    pub density: f64,
+}
+
+/// A round tube.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Tube {
+    /// Outer diameter (m).
+    pub outer_diameter: f64,
+    /// Inner diameter (m).
+    pub inner_diameter: f64,
+}
+
+/// Kinds of joint between two links, Eq. 12 and 13.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JointKind {
+    /// Cross (Hooke) joint: second row of Eq. 13, with a bend limit.
+    Universal,
+    /// Constant velocity: the spins are equal, with a bend limit.
+    BallCage,
+    /// Both rows of Eq. 13 as equalities: a hinge with one free axis, for comparison only.
+    Revolute,
+}
+
+/// The angle theta in the third row of Eq. 13, for [`JointKind::Revolute`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HingeAngle {
+    /// 90 degrees: links that are in line at rest.
+    #[default]
+    Straight,
+    /// What it is where the undeflected tool lies in the well at spin zero: links that keep the well's bend and carry it along as they
+    /// turn.
+    AsBuilt,
+}
+
+/// All joints of the pipe.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct JointDescription {
+    /// Which rows hold.
+    pub kind: JointKind,
+    /// Bend angle chi at which the stop begins (rad).
+    pub limit: f64,
+    /// Rotational stiffness of the stop (N m/rad).
+    pub stop_stiffness: f64,
+    /// Hunt-Crossley damping of the stop (s/rad).
+    pub stop_damping: f64,
+    /// Phase of the first joint's cross about the shaft (rad).
+    pub cross_phase: f64,
+    /// Turn of the cross from one joint to the next (rad).
+    pub cross_phase_step: f64,
+    /// Theta of Eq. 13 for [`JointKind::Revolute`].
+    pub hinge_angle: HingeAngle,
+}
+
+/// Rayleigh damping C = alpha M + beta K, Eq. 7.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Rayleigh {
+    /// 1/s.
+    pub alpha: f64,
+    /// s.
+    pub beta: f64,
+}
+
+/// One layer of gap elements, Eq. 20 to 34.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct GapDescription {
+    /// Normal stiffness per station (N/m).
+    pub stiffness: f64,
+    /// Hunt-Crossley damping c of F = k d (1 + c d') (s/m).
+    pub damping: f64,
+    /// Coulomb coefficient around the circumference, mu_1.
+    pub friction_tangential: f64,
+    /// Coulomb coefficient along the axis, mu_2.
+    pub friction_axial: f64,
+}
+
+/// The bit, Eq. 1: torque = eta D WOB / 3 against its rotation.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BitDescription {
+    /// Bit diameter (m).
+    pub diameter: f64,
+    /// Friction factor between bit and rock, eta.
+    pub friction_factor: f64,
+    /// Bit speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s).
+    pub slip_rate: f64,
+}
+
+/// Which of the two pipes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Body {
+    /// The flexible, rotating, jointed pipe.
+    #[default]
+    Pipe,
+    /// The continuous guide pipe around it.
+    Guide,
+}
+
+/// A place along the tool.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Place {
+    /// First station.
+    Top,
+    /// Last station.
+    Bottom,
+    /// Station index from the top, 0-based.
+    Station(usize),
+    /// Joint number from the top, 0-based (both of its pipe nodes).
+    Joint(usize),
+    /// Every station.
+    All,
+}
+
+/// One of a node's six degrees of freedom, in storage order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Direction {
+    /// Along the axis.
+    U,
+    /// Horizontal transverse (the paper's y).
+    V,
+    /// Transverse in the well plane, towards the low side (z).
+    W,
+    /// Spin about the axis.
+    Psi,
+    /// Tilt about y.
+    PhiY,
+    /// Tilt about z.
+    PhiZ,
+}
+
+/// Directions held at zero.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Support {
+    /// Where.
+    pub place: Place,
+    /// On which pipe.
+    pub body: Body,
+    /// Which directions, in the node's own frame.
+    pub directions: Vec<Direction>,
+}
+
+/// How the weight on bit reaches the tool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WobPath {
+    /// Upward on the guide's last node.
+    Guide,
+    /// The pipes' ends are tied axially, so that both carry it.
+    Shared,
+}
+
+/// How a load changes in time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum LoadHistory {
+    /// Constant (N or N m).
+    Constant(f64),
+    /// `rate` (N/s or N m/s) times the time since `start`, held after `end` (s).
+    Ramp {
+        /// Per second.
+        rate: f64,
+        /// s.
+        start: f64,
+        /// s.
+        end: f64,
+    },
+    /// amplitude sin(2 pi frequency t + phase).
+    Sine {
+        /// N or N m.
+        amplitude: f64,
+        /// Hz.
+        frequency: f64,
+        /// rad.
+        phase: f64,
+    },
+    /// Linear between (s, N or N m) points, held outside.
+    Table(Vec<(f64, f64)>),
+}
+
+/// A load on one node, in the node's own frame (link frame for the pipe, station frame for the guide).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PointLoad {
+    /// Where; `Joint` loads the end of the link above.
+    pub place: Place,
+    /// On which pipe.
+    pub body: Body,
+    /// Along which direction (moment for rotations).
+    pub direction: Direction,
+    /// How much, when.
+    pub history: LoadHistory,
+}
+
+/// A mass added to a node (unbalance-free, translations only).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PointMass {
+    /// Where.
+    pub place: Place,
+    /// On which pipe.
+    pub body: Body,
+    /// kg.
+    pub mass: f64,
+}
+
+/// What may change while the model runs; all else is fixed at the build.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LiveParameters {
+    /// Inner layer, mu_1 and mu_2.
+    pub inner_friction: [f64; 2],
+    /// Outer layer, mu_1 and mu_2.
+    pub outer_friction: [f64; 2],
+    /// eta of Eq. 1.
+    pub bit_friction_factor: f64,
+}

@@ -1,0 +1,16 @@
+//! The twin: mechanics, inputs and analysis joined into one deterministic [`Simulation`].
+//!
+//! The node, replay, verification and sweeps all drive this one thing.
+
+mod observe;
+mod run;
+mod schedule;
+mod settings;
+mod simulation;
+mod snapshot;
+
+pub use run::{Frame, Model, Run, RunInputs};
+pub use schedule::{Due, Output, Schedule, Timeline};
+pub use settings::SimulationSettings;
+pub use simulation::{BuildError, Simulation};
+pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot, SolverCounters};

@@ -1,0 +1,325 @@
+//! What is read off the mechanics: statistics kept at every step, and the snapshot made from them and the state.
+
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+
+use super::settings::SimulationSettings;
+use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot};
+use crate::dynamics::assembly::inner_lateral;
+use crate::dynamics::state::{State, joint_rotations, translation};
+use crate::dynamics::stepper::Stepper;
+use crate::elements::gap::{Touch, gap};
+use crate::model::Model;
+use crate::motion::{
+    ContactStatistics, PlaceSample, RootMeanSquare, ShockWatch, StickSlip, WatchedPlace, WhirlAnalysis, WhirlSettings,
+};
+use crate::tool::description::{Body, Direction, JointKind};
+
+/// Statistics between outputs, and the analysis.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Observer {
+    inner: ContactStatistics,
+    outer: ContactStatistics,
+    tangential: RootMeanSquare,
+    axial: RootMeanSquare,
+    lateral: RootMeanSquare,
+    stick_slip: StickSlip,
+    shock: ShockWatch,
+    whirl: WhirlAnalysis,
+    places: Vec<(usize, Body)>,
+    samples: Vec<PlaceSample>,
+    /// Steps between samples of the whirl analysis.
+    decimation: u64,
+    last_iterations: u32,
+}
+
+impl Observer {
+    pub(super) fn new(model: &Model, settings: &SimulationSettings) -> Self {
+        let places: Vec<(usize, Body)> = if settings.watched.is_empty() {
+            model
+                .joint_stations
+                .iter()
+                .flat_map(|&s| [(s, Body::Pipe), (s, Body::Guide)])
+                .collect()
+        } else {
+            settings
+                .watched
+                .iter()
+                .copied()
+                .filter(|&(station, _)| station <= model.last())
+                .collect()
+        };
+        let decimation = ((settings.whirl_sample_interval / settings.time_step).round() as u64).max(1);
+        let watched = places
+            .iter()
+            .map(|&(station, body)| watched_place(model, station, body))
+            .collect();
+        let stations = model.stations.len();
+        Self {
+            inner: ContactStatistics::new(stations),
+            outer: ContactStatistics::new(stations),
+            tangential: RootMeanSquare::default(),
+            axial: RootMeanSquare::default(),
+            lateral: RootMeanSquare::default(),
+            stick_slip: StickSlip::new(settings.stick_slip),
+            shock: ShockWatch::new(&settings.shock, stations),
+            whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, watched),
+            samples: vec![PlaceSample::default(); places.len()],
+            places,
+            decimation,
+            last_iterations: 0,
+        }
+    }
+
+    /// Whether both watch the same places in the same way.
+    pub(super) fn fits(&self, other: &Self) -> bool {
+        self.places == other.places
+            && self.decimation == other.decimation
+            && self.whirl.settings() == other.whirl.settings()
+    }
+
+    pub(super) fn last_iterations(&self) -> u32 {
+        self.last_iterations
+    }
+
+    pub(super) fn set_whirl(&mut self, settings: &WhirlSettings) {
+        self.whirl.set_settings(settings);
+    }
+
+    /// Trust in the inputs, 0 to 1.
+    pub(super) fn set_input_trust(&mut self, trust: f64) {
+        self.whirl.set_input_trust(trust);
+    }
+
+    /// Takes the place of one that was further: its warnings go on counting from there.
+    pub(super) fn follow(&mut self, before: &Self) {
+        self.whirl.continue_sequence(before.whirl.level().sequence);
+    }
+
+    pub(super) fn reset(&mut self) {
+        self.end_interval();
+        self.stick_slip.reset();
+        self.shock.reset();
+        self.whirl.reset();
+        self.samples.fill(PlaceSample::default());
+        self.last_iterations = 0;
+    }
+
+    pub(super) fn end_interval(&mut self) {
+        self.inner.restart();
+        self.outer.restart();
+        self.tangential.restart();
+        self.axial.restart();
+        self.lateral.restart();
+        self.shock.restart();
+    }
+
+    pub(super) fn after_step(&mut self, stepper: &Stepper, applied: &Applied, step: u64, dt: f64, iterations: u32) {
+        self.last_iterations = iterations;
+        let (model, state, forces) = (stepper.model(), stepper.state(), &stepper.newton().assembler);
+        for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
+            .into_iter()
+            .enumerate()
+        {
+            for (station, touch) in touches.iter().enumerate() {
+                if let Some(touch) = touch {
+                    statistics.touch(station, dt, touch.normal);
+                    self.shock.push(layer, station, dt, touch.normal);
+                }
+            }
+            statistics.advance(dt);
+        }
+        self.shock.advance(step as f64 * dt, dt);
+
+        let bottom = &model.stations[model.last()];
+        let spin = bottom.pipe_above + Direction::Psi as usize;
+        let radius = 0.5 * model.description.bit.diameter;
+        self.tangential.push(dt, radius * state.a[spin]);
+        self.axial.push(dt, state.a[bottom.pipe_above]);
+        // The bit itself is held sideways by the hole.
+        let above = translation(&state.a, model.stations[model.last() - 1].pipe_below);
+        self.lateral.push_square(dt, above.y * above.y + above.z * above.z);
+        self.stick_slip.push(dt, state.v[spin], applied.rotary_speed);
+
+        let share = 1.0 / self.decimation as f64;
+        for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.places) {
+            let touch = match body {
+                Body::Pipe => &forces.inner[station],
+                Body::Guide => &forces.outer[station],
+            };
+            if let Some(touch) = touch {
+                sample.normal_force = sample.normal_force.max(touch.normal);
+                sample.contact_share += share;
+            }
+        }
+        if step.is_multiple_of(self.decimation) {
+            for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.places) {
+                let lateral = gap_lateral(model, state, station, body);
+                (sample.y, sample.z) = (lateral.x, lateral.y);
+                sample.contact_share = sample.contact_share.min(1.0);
+            }
+            self.whirl.push(step as f64 * dt, applied.rotary_speed, &self.samples);
+            self.samples.fill(PlaceSample::default());
+        }
+    }
+
+    /// A snapshot with all arrays at their size.
+    pub(super) fn new_snapshot(&self, model: &Model) -> Snapshot {
+        let joints = || vec![0.0; model.joints.len()];
+        let stations = || vec![0.0; model.stations.len()];
+        let layer = || ContactLayer {
+            gap: stations(),
+            normal: stations(),
+            tangential: stations(),
+            axial: stations(),
+            normal_peak: stations(),
+            normal_rms: stations(),
+            shock: stations(),
+        };
+        let mut out = Snapshot {
+            joints: Joints {
+                measured_depth: model.joint_stations.iter().map(|&s| model.stations[s].depth).collect(),
+                inclination: model
+                    .joint_stations
+                    .iter()
+                    .map(|&s| model.stations[s].inclination)
+                    .collect(),
+                bend_angle: joints(),
+                bend_direction: joints(),
+                limit_angle: model.joints.iter().map(|joint| joint.limit).collect(),
+                stop_moment: joints(),
+                lateral_y: joints(),
+                lateral_z: joints(),
+                spin_rate: joints(),
+                axial_force: joints(),
+                shear_force: joints(),
+                torque: joints(),
+            },
+            contacts: Contacts {
+                measured_depth: model.stations.iter().map(|s| s.depth).collect(),
+                inclination: model.stations.iter().map(|s| s.inclination).collect(),
+                state: vec![0; model.stations.len()],
+                pipe_guide: layer(),
+                guide_wall: layer(),
+            },
+            shape: Shape {
+                bore: model.stations.iter().map(|s| s.position.into()).collect(),
+                low_side: model
+                    .stations
+                    .iter()
+                    .map(|s| s.frame.column(2).into_owned().into())
+                    .collect(),
+                pipe: vec![[0.0; 2]; model.stations.len()],
+                guide: vec![[0.0; 2]; model.stations.len()],
+            },
+            ..Snapshot::default()
+        };
+        self.whirl.report(&mut out.whirl);
+        out
+    }
+
+    pub(super) fn fill(&self, stepper: &Stepper, applied: &Applied, out: &mut Snapshot) {
+        let (model, state) = (stepper.model(), stepper.state());
+        let forces = &stepper.newton().assembler;
+        fill_joints(stepper, &mut out.joints);
+        let contacts = &mut out.contacts;
+        fill_layer(&mut contacts.pipe_guide, &forces.inner, &self.inner, |s| {
+            let station = &model.stations[s];
+            gap(inner_lateral(station, state), station.inner_clearance)
+        });
+        fill_layer(&mut contacts.guide_wall, &forces.outer, &self.outer, |s| {
+            gap(gap_lateral(model, state, s, Body::Guide), model.outer_clearance)
+        });
+        self.shock.write(0, &mut contacts.pipe_guide.shock);
+        self.shock.write(1, &mut contacts.guide_wall.shock);
+        out.shock = self.shock.level();
+        for (s, station) in model.stations.iter().enumerate() {
+            contacts.state[s] = u8::from(forces.inner[s].is_some()) + 2 * u8::from(forces.outer[s].is_some());
+            let guide = translation(&state.q, station.guide);
+            let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
+            out.shape.pipe[s] = [station.offset.x + pipe.y, station.offset.y + pipe.z];
+            out.shape.guide[s] = [guide.y, guide.z];
+        }
+        let bottom = &model.stations[model.last()];
+        out.bit = Bit {
+            torque: forces.bit_torque,
+            rotary_speed: state.v[bottom.pipe_above + Direction::Psi as usize],
+            weight_on_bit: applied.weight_on_bit,
+            stick_slip_index: self.stick_slip.index(),
+            tangential_acceleration: self.tangential.value(),
+            axial_acceleration: self.axial.value(),
+            lateral_acceleration: self.lateral.value(),
+            lateral_acceleration_peak: self.lateral.peak(),
+            lateral_impulse: self.lateral.impulse(),
+            stick_slip: self.stick_slip.severity(),
+        };
+        self.whirl.report(&mut out.whirl);
+        out.warning = self.whirl.level();
+    }
+}
+
+fn watched_place(model: &Model, station: usize, body: Body) -> WatchedPlace {
+    let at = &model.stations[station];
+    let (clearance, body_diameter) = match body {
+        Body::Pipe => (at.inner_clearance, 2.0 * at.pipe_radius),
+        Body::Guide => (model.outer_clearance, 2.0 * model.guide_radii[1]),
+    };
+    WatchedPlace {
+        station,
+        body,
+        measured_depth: at.depth,
+        inclination: at.inclination,
+        clearance,
+        body_diameter,
+    }
+}
+
+/// Lateral position (y, z) of a body in its gap (m): the pipe in the guide, the guide in the hole.
+fn gap_lateral(model: &Model, state: &State, station: usize, body: Body) -> Vector2<f64> {
+    let at = &model.stations[station];
+    match body {
+        Body::Pipe => inner_lateral(at, state),
+        Body::Guide => Vector2::new(state.q[at.guide + 1], state.q[at.guide + 2]),
+    }
+}
+
+fn fill_layer(
+    out: &mut ContactLayer,
+    touches: &[Option<Touch>],
+    statistics: &ContactStatistics,
+    gap: impl Fn(usize) -> f64,
+) {
+    for (s, touch) in touches.iter().enumerate() {
+        out.gap[s] = gap(s);
+        let values = touch.as_ref().map_or([0.0; 3], |t| [t.normal, t.tangential, t.axial]);
+        [out.normal[s], out.tangential[s], out.axial[s]] = values;
+    }
+    statistics.write(&mut out.normal_peak, &mut out.normal_rms);
+}
+
+fn fill_joints(stepper: &Stepper, out: &mut Joints) {
+    let (model, state) = (stepper.model(), stepper.state());
+    let forces = &stepper.newton().assembler;
+    for (j, joint) in model.joints.iter().enumerate() {
+        let station = &model.stations[model.joint_stations[j]];
+        let q = joint_rotations(model, j, &state.q);
+        out.bend_angle[j] = joint.bend_angle(&q);
+        out.bend_direction[j] = joint.bend_toolface(&q);
+        out.stop_moment[j] = forces.joints[j].moment;
+        let displaced = station.pipe_to_station * translation(&state.q, station.pipe_above);
+        out.lateral_y[j] = displaced.y + station.offset.x;
+        out.lateral_z[j] = displaced.z + station.offset.y;
+        out.spin_rate[j] = state.v[station.pipe_below + Direction::Psi as usize];
+        // The translational multipliers are the force of the link above on the link below, in world axes.
+        let first = model.multipliers(j);
+        let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
+        out.axial_force[j] = -force.x;
+        out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
+        let rows = &forces.joints[j].rows;
+        let twist = -rows[0][3] * state.q[first + 3] * model.moment_scale;
+        out.torque[j] = match joint.kind {
+            JointKind::Universal | JointKind::BallCage => twist,
+            JointKind::Revolute => twist - rows[1][3] * state.q[first + 4] * model.moment_scale,
+        };
+    }
+}

@@ -1,0 +1,231 @@
+//! One run of the twin: the simulation, what drives it from which step on, and what is shown of it.
+//!
+//! The node and a replay both drive a [`Run`]. The sequence of [`RunInputs`] and the configuration determine it to the
+//! bit; nothing here looks at a clock.
+
+use super::schedule::Due;
+use super::{BuildError, Schedule, Simulation, SimulationSettings, Snapshot};
+use crate::dynamics::outcome::StepOutcome;
+use crate::dynamics::phases::PhaseTimes;
+use crate::inputs::InputState;
+use crate::inputs::Inputs;
+use crate::motion::WhirlSettings;
+use crate::tool::description::LiveParameters;
+
+/// What drives the model from a step on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunInputs {
+    /// Steps taken before these values act, counted from the last reset.
+    pub step: u64,
+    /// Steps skipped so far.
+    pub skipped: u64,
+    /// The model goes back to its state after the start before this step.
+    pub reset: bool,
+    /// Targets.
+    pub inputs: Inputs,
+    /// Slew limits: rotary speed (rad/s2), weight on bit (N/s).
+    pub slew: [f64; 2],
+    /// Coefficients.
+    pub live: LiveParameters,
+    /// Thresholds of the whirl analysis.
+    pub whirl: WhirlSettings,
+    /// How the inputs are, as the whirl warnings tell it: the messages' INPUT_ constants.
+    pub input_quality: u8,
+    /// Which outputs are due when.
+    pub schedule: Schedule,
+}
+
+/// What outputs are made from.
+#[derive(Debug, Clone, Default)]
+pub struct Frame {
+    /// State of the tool.
+    pub snapshot: Snapshot,
+    /// Steps taken or skipped since the start, resets notwithstanding: the instant on the rig's clock.
+    pub ticks: u64,
+    /// Which outputs are due.
+    pub due: Due,
+    /// As in [`RunInputs`].
+    pub input_quality: u8,
+}
+
+/// What a [`Run`] needs of a model; the [`Simulation`] is the one there is, tests bring scripted ones.
+pub trait Model {
+    /// See [`Simulation::settings`].
+    fn settings(&self) -> &SimulationSettings;
+    /// See [`Simulation::advance`].
+    fn advance(&mut self, inputs: &Inputs) -> StepOutcome;
+    /// See [`Simulation::step`].
+    fn step(&self) -> u64;
+    /// See [`Simulation::new_snapshot`].
+    fn new_snapshot(&self) -> Snapshot;
+    /// See [`Simulation::snapshot`].
+    fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool);
+    /// See [`Simulation::live`].
+    fn live(&self) -> LiveParameters;
+    /// See [`Simulation::set_live`].
+    fn set_live(&mut self, live: LiveParameters);
+    /// See [`Simulation::set_slew`].
+    fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64);
+    /// See [`Simulation::set_whirl`].
+    fn set_whirl(&mut self, whirl: &WhirlSettings);
+    /// See [`Simulation::set_input_trust`].
+    fn set_input_trust(&mut self, trust: f64);
+    /// See [`Simulation::reset`].
+    fn reset(&mut self);
+    /// See [`Simulation::phase_times`].
+    fn phase_times(&self) -> PhaseTimes;
+    /// See [`Simulation::checkpoint`].
+    fn checkpoint(&self) -> Result<Vec<u8>, BuildError>;
+}
+
+impl Model for Simulation {
+    fn settings(&self) -> &SimulationSettings {
+        self.settings()
+    }
+    fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
+        self.advance(inputs)
+    }
+    fn step(&self) -> u64 {
+        self.step()
+    }
+    fn new_snapshot(&self) -> Snapshot {
+        self.new_snapshot()
+    }
+    fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
+        self.snapshot(out, end_interval);
+    }
+    fn live(&self) -> LiveParameters {
+        self.live()
+    }
+    fn set_live(&mut self, live: LiveParameters) {
+        self.set_live(live);
+    }
+    fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) {
+        self.set_slew(rotary_speed, weight_on_bit);
+    }
+    fn set_whirl(&mut self, whirl: &WhirlSettings) {
+        self.set_whirl(whirl);
+    }
+    fn set_input_trust(&mut self, trust: f64) {
+        self.set_input_trust(trust);
+    }
+    fn reset(&mut self) {
+        self.reset();
+    }
+    fn phase_times(&self) -> PhaseTimes {
+        self.phase_times()
+    }
+    fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
+        self.checkpoint()
+    }
+}
+
+/// A simulation with what drives it.
+pub struct Run<M = Simulation> {
+    simulation: M,
+    applied: RunInputs,
+    /// Steps taken before the last reset.
+    before_reset: u64,
+}
+
+impl<M: Model> Run<M> {
+    /// Takes over a simulation at its start.
+    pub fn new(simulation: M, schedule: Schedule) -> Self {
+        let settings = simulation.settings();
+        let applied = RunInputs {
+            step: 0,
+            skipped: 0,
+            reset: false,
+            inputs: settings.initial_inputs,
+            slew: [settings.rotary_speed_slew, settings.weight_on_bit_slew],
+            live: simulation.live(),
+            whirl: settings.whirl,
+            input_quality: 0,
+            schedule,
+        };
+        Self {
+            simulation,
+            applied,
+            before_reset: 0,
+        }
+    }
+
+    /// What drives it now; `step` is the current step.
+    pub fn applied(&self) -> RunInputs {
+        RunInputs {
+            step: self.simulation.step(),
+            reset: false,
+            ..self.applied
+        }
+    }
+
+    /// Lets `applied` act from the next step on. Its `step` is not looked at: it acts now.
+    pub fn apply(&mut self, applied: &RunInputs) {
+        if applied.reset {
+            self.before_reset += self.simulation.step();
+            self.simulation.reset();
+        }
+        if applied.slew != self.applied.slew || applied.reset {
+            self.simulation.set_slew(applied.slew[0], applied.slew[1]);
+        }
+        if applied.live != self.applied.live || applied.reset {
+            self.simulation.set_live(applied.live);
+        }
+        if applied.whirl != self.applied.whirl {
+            self.simulation.set_whirl(&applied.whirl);
+        }
+        let trust = &applied.whirl.input_trust;
+        self.simulation.set_input_trust(match applied.input_quality {
+            quality if quality == InputState::NotReceived as u8 => trust.not_received,
+            quality if quality == InputState::Slow as u8 => trust.slow,
+            quality if quality == InputState::Stale as u8 => trust.stale,
+            quality if quality == InputState::Rejected as u8 => trust.rejected,
+            _ => 1.0,
+        });
+        self.applied = *applied;
+    }
+
+    /// Advances by one step.
+    pub fn advance(&mut self) -> StepOutcome {
+        self.simulation.advance(&self.applied.inputs)
+    }
+
+    /// Counts steps as skipped, without the model moving.
+    pub fn skip(&mut self, steps: u64) {
+        self.applied.skipped += steps;
+    }
+
+    /// Which outputs are due now.
+    pub fn due(&self) -> Due {
+        self.applied.schedule.due(self.simulation.step())
+    }
+
+    /// Fills a frame with the present state, without allocating. To be called once whenever something is due: it ends
+    /// the interval of the statistics.
+    pub fn capture(&mut self, frame: &mut Frame) {
+        let step = self.simulation.step();
+        self.simulation
+            .snapshot(&mut frame.snapshot, self.applied.schedule.ends_interval(step));
+        frame.ticks = self.ticks();
+        frame.due = self.due();
+        frame.input_quality = self.applied.input_quality;
+    }
+
+    /// A frame of the right sizes.
+    pub fn new_frame(&self) -> Frame {
+        Frame {
+            snapshot: self.simulation.new_snapshot(),
+            ..Frame::default()
+        }
+    }
+
+    /// Steps taken or skipped since the start.
+    pub fn ticks(&self) -> u64 {
+        self.before_reset + self.simulation.step() + self.applied.skipped
+    }
+
+    /// The simulation.
+    pub fn simulation(&self) -> &M {
+        &self.simulation
+    }
+}

@@ -1,0 +1,280 @@
+//! One tool, stepped.
+
+use serde::{Deserialize, Serialize};
+
+use super::observe::Observer;
+use super::settings::SimulationSettings;
+use super::snapshot::Applied;
+use super::{Snapshot, SolverCounters};
+use crate::dynamics::newton::Tolerances;
+use crate::dynamics::outcome::StepOutcome;
+use crate::dynamics::phases::{Clock, Phase, PhaseTimes};
+use crate::dynamics::state::State;
+use crate::dynamics::statics::StartError;
+use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperCheckpoint};
+use crate::inputs::Inputs;
+use crate::model::ModelError;
+use crate::motion::WhirlSettings;
+use crate::tool::description::{LiveParameters, ToolDescription};
+
+/// Why a simulation could not be built or restored.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// The description does not make sense.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The tool could not be started.
+    #[error("start of the run: {0}")]
+    Start(#[from] StartError),
+    /// Bytes that are not a checkpoint of this version.
+    #[error("checkpoint: {0}; it was not written by this version of flexdrill")]
+    Checkpoint(#[from] postcard::Error),
+    /// A checkpoint of another tool or of other settings.
+    #[error("checkpoint: it belongs to another tool or other settings than the configuration")]
+    OtherTool,
+}
+
+/// The running twin of one tool.
+pub struct Simulation {
+    settings: SimulationSettings,
+    stepper: Stepper,
+    start: State,
+    observer: Observer,
+    applied: Applied,
+    step: u64,
+}
+
+/// Everything a checkpoint holds.
+#[derive(Serialize, Deserialize)]
+struct Checkpoint<S, O> {
+    stepper: S,
+    observer: O,
+    applied: Applied,
+    step: u64,
+}
+
+impl Simulation {
+    /// Builds the tool and, if configured, brings it to rest under gravity and the initial weight on bit.
+    ///
+    /// # Errors
+    /// When the description is inconsistent or the static start does not converge.
+    pub fn new(tool: &ToolDescription, settings: &SimulationSettings) -> Result<Self, BuildError> {
+        Self::with_solver(tool, settings, SolverKind::Stations)
+    }
+
+    /// The same with a choice of linear solver, to hold one against the other.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn with_solver(
+        tool: &ToolDescription,
+        settings: &SimulationSettings,
+        solver: SolverKind,
+    ) -> Result<Self, BuildError> {
+        let tolerances = Tolerances {
+            max_iterations: settings.max_iterations,
+            ..Tolerances::default()
+        };
+        let mut stepper = Stepper::new(tool, settings.scheme, tolerances, settings.max_halvings, solver)?;
+        let load = settings.initial_inputs.weight_on_bit;
+        if tool.static_start {
+            stepper.settle(load)?;
+        } else {
+            stepper.start_as_given(load)?;
+        }
+        stepper.prepare(settings.time_step);
+        let start = stepper.state().clone();
+        let observer = Observer::new(stepper.model(), settings);
+        let mut simulation = Self {
+            settings: settings.clone(),
+            applied: Applied::default(),
+            stepper,
+            start,
+            observer,
+            step: 0,
+        };
+        simulation.reset();
+        Ok(simulation)
+    }
+
+    /// Advances by one step of [`SimulationSettings::time_step`] towards `inputs`, as fast as the slew limits allow. When the step
+    /// fails, nothing changes but the counters.
+    pub fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
+        let dt = self.settings.time_step;
+        let speed = self.applied.rotary_speed;
+        let load = self.applied.weight_on_bit;
+        let forcing = Forcing {
+            rotary_speed: [
+                speed,
+                towards(speed, inputs.rotary_speed, self.settings.rotary_speed_slew * dt),
+            ],
+            weight_on_bit: [
+                load,
+                towards(load, inputs.weight_on_bit, self.settings.weight_on_bit_slew * dt),
+            ],
+        };
+        self.stepper.stopwatch().start();
+        let outcome = self.stepper.advance(dt, &forcing);
+        self.stepper.stopwatch().lap(Phase::Other);
+        if let StepOutcome::Advanced { iterations, .. } = outcome {
+            self.step += 1;
+            self.applied = Applied {
+                rotary_speed: forcing.rotary_speed[1],
+                weight_on_bit: forcing.weight_on_bit[1],
+                drive_angle: self.stepper.drive_angle(),
+                drive_torque: self.stepper.drive_torque(),
+            };
+            self.observer
+                .after_step(&self.stepper, &self.applied, self.step, dt, iterations);
+        }
+        self.stepper.stopwatch().stop(Phase::Analysis);
+        outcome
+    }
+
+    /// A snapshot of the right sizes, to be filled by [`Simulation::snapshot`].
+    pub fn new_snapshot(&self) -> Snapshot {
+        let mut out = self.observer.new_snapshot(self.stepper.model());
+        self.fill(&mut out);
+        out
+    }
+
+    /// Fills `out` without allocating. With `end_interval`, the peak and root-mean-square statistics of the contact forces and
+    /// bit accelerations start anew.
+    pub fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
+        self.stepper.stopwatch().start();
+        self.fill(out);
+        if end_interval {
+            self.observer.end_interval();
+        }
+        self.stepper.stopwatch().stop(Phase::Snapshot);
+    }
+
+    fn fill(&self, out: &mut Snapshot) {
+        out.step = self.step;
+        out.time = self.time();
+        out.applied = self.applied;
+        out.energy = *self.stepper.audit();
+        let counters = self.stepper.counters();
+        out.solver = SolverCounters {
+            newton_iterations: counters.iterations,
+            last_iterations: self.observer.last_iterations(),
+            rejected: counters.rejected,
+            halved_steps: counters.halved_steps,
+            deepest_halving: counters.deepest_halving,
+            failed_steps: counters.failed_steps,
+            last_rejection: counters.last_rejection,
+        };
+        self.observer.fill(&self.stepper, &self.applied, out);
+    }
+
+    /// Parameters that may change while running.
+    pub fn live(&self) -> LiveParameters {
+        self.stepper.live()
+    }
+
+    /// Replaces the live parameters from the next step on.
+    pub fn set_live(&mut self, live: LiveParameters) {
+        self.stepper.set_live(live);
+    }
+
+    /// Replaces the slew limits: rotary speed (rad/s2) and weight on bit (N/s).
+    pub fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) {
+        self.settings.rotary_speed_slew = rotary_speed;
+        self.settings.weight_on_bit_slew = weight_on_bit;
+    }
+
+    /// Replaces the thresholds of the whirl analysis. They change what is said of the motion, not the motion.
+    pub fn set_whirl(&mut self, whirl: &WhirlSettings) {
+        self.observer.set_whirl(whirl);
+    }
+
+    /// Measures with `clock` from now on where the time goes. It changes nothing else.
+    pub fn set_clock(&mut self, clock: Clock) {
+        self.stepper.stopwatch().set_clock(Some(clock));
+    }
+
+    /// Time per phase since [`Simulation::set_clock`]; zeros without. Resets and checkpoints leave it alone.
+    pub fn phase_times(&self) -> PhaseTimes {
+        self.stepper.newton().assembler.stopwatch.times()
+    }
+
+    /// How far the inputs can be trusted, 0 to 1. It changes what is said of the motion, not the motion.
+    pub fn set_input_trust(&mut self, trust: f64) {
+        self.observer.set_input_trust(trust);
+    }
+
+    /// Steps taken.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Model time (s).
+    pub fn time(&self) -> f64 {
+        self.step as f64 * self.settings.time_step
+    }
+
+    /// The settings it runs with.
+    pub fn settings(&self) -> &SimulationSettings {
+        &self.settings
+    }
+
+    /// The mechanics, to look at.
+    pub fn stepper(&self) -> &Stepper {
+        &self.stepper
+    }
+
+    /// Back to the state after the start, live parameters and slew limits as they are.
+    pub fn reset(&mut self) {
+        let inputs = self.settings.initial_inputs;
+        // A tool that starts from rest stands still and is then run up; one that is given as moving is driven at its speed at once.
+        let rotary_speed = if self.stepper.model().description.static_start {
+            0.0
+        } else {
+            inputs.rotary_speed
+        };
+        self.stepper.start_from(&self.start, inputs.weight_on_bit);
+        self.step = 0;
+        self.applied = Applied {
+            rotary_speed,
+            drive_angle: 0.0,
+            weight_on_bit: inputs.weight_on_bit,
+            drive_torque: self.stepper.drive_torque(),
+        };
+        self.observer.reset();
+    }
+
+    /// The whole state as bytes; [`Simulation::restore`] continues from it bit for bit.
+    ///
+    /// # Errors
+    /// When the state cannot be encoded.
+    pub fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
+        let checkpoint = Checkpoint {
+            stepper: self.stepper.checkpoint(),
+            observer: &self.observer,
+            applied: self.applied,
+            step: self.step,
+        };
+        Ok(postcard::to_stdvec(&checkpoint)?)
+    }
+
+    /// Takes a checkpoint's state. On an error nothing has changed.
+    ///
+    /// # Errors
+    /// When the bytes are not a checkpoint of this tool and version.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), BuildError> {
+        let checkpoint: Checkpoint<StepperCheckpoint, Observer> = postcard::from_bytes(bytes)?;
+        if !checkpoint.observer.fits(&self.observer) || !self.stepper.restore(&checkpoint.stepper) {
+            return Err(BuildError::OtherTool);
+        }
+        let before = std::mem::replace(&mut self.observer, checkpoint.observer);
+        self.observer.follow(&before);
+        self.applied = checkpoint.applied;
+        self.step = checkpoint.step;
+        Ok(())
+    }
+}
+
+/// `from` moved towards `target` by at most `most`.
+fn towards(from: f64, target: f64, most: f64) -> f64 {
+    from + (target - from).clamp(-most, most)
+}

@@ -1,0 +1,173 @@
+//! What is known about the tool at one instant: plain arrays, allocated once, filled in place.
+//!
+//! Every output (messages, bags, the terminal view, plots) is made from a [`Snapshot`] and nothing else.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dynamics::outcome::{EnergyAudit, StepFailure};
+use crate::motion::{Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
+
+/// State of the tool at the end of a step, with statistics over the publishing interval.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Snapshot {
+    /// Model steps taken since the start.
+    pub step: u64,
+    /// Model time since the start (s).
+    pub time: f64,
+    /// Drive and load as applied after slew limits.
+    pub applied: Applied,
+    /// Joints, top to bottom.
+    pub joints: Joints,
+    /// Stations, top to bottom.
+    pub contacts: Contacts,
+    /// The bit.
+    pub bit: Bit,
+    /// Deflected lines of both pipes in the world frame.
+    pub shape: Shape,
+    /// Whirl of every watched place.
+    pub whirl: WhirlReport,
+    /// The level that the warning logic stands at.
+    pub warning: WhirlWarningLevel,
+    /// The level of lateral shock.
+    pub shock: ShockLevel,
+    /// Counters of the solver since the start.
+    pub solver: SolverCounters,
+    /// Energy since the start (J).
+    pub energy: EnergyAudit,
+}
+
+/// Inputs as they act on the model in this step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Applied {
+    /// Speed of the top drive (rad/s).
+    pub rotary_speed: f64,
+    /// Angle of the top drive (rad).
+    pub drive_angle: f64,
+    /// Weight on bit (N).
+    pub weight_on_bit: f64,
+    /// Torque that the drive puts in (N m), positive drives.
+    pub drive_torque: f64,
+}
+
+/// Per joint, all arrays of the same length. Forces are those of the link above on the link below, in the upper
+/// link's frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Joints {
+    /// Along the path from the kick-off (m).
+    pub measured_depth: Vec<f64>,
+    /// rad.
+    pub inclination: Vec<f64>,
+    /// Angle between the axes of the two links (rad, >= 0).
+    pub bend_angle: Vec<f64>,
+    /// Toolface of the bend: direction in which the lower link turns away, from the high side (rad, clockwise looking down the hole,
+    /// -pi..pi).
+    pub bend_direction: Vec<f64>,
+    /// rad.
+    pub limit_angle: Vec<f64>,
+    /// Moment of the limit stop (N m, >= 0).
+    pub stop_moment: Vec<f64>,
+    /// Horizontal transverse displacement from the bore axis (m).
+    pub lateral_y: Vec<f64>,
+    /// Displacement towards the low side from the bore axis (m).
+    pub lateral_z: Vec<f64>,
+    /// Spin rate of the link below the joint (rad/s).
+    pub spin_rate: Vec<f64>,
+    /// Axial force, tension positive (N).
+    pub axial_force: Vec<f64>,
+    /// Magnitude of the shear force (N).
+    pub shear_force: Vec<f64>,
+    /// Torque carried through the joint (N m), positive in the drive's sense.
+    pub torque: Vec<f64>,
+}
+
+/// Per station, all arrays of the same length.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Contacts {
+    /// m.
+    pub measured_depth: Vec<f64>,
+    /// rad.
+    pub inclination: Vec<f64>,
+    /// Table 2: 0 free, 1 inner, 2 outer, 3 both.
+    pub state: Vec<u8>,
+    /// Between pipe and guide.
+    pub pipe_guide: ContactLayer,
+    /// Between guide and wall.
+    pub guide_wall: ContactLayer,
+}
+
+/// One gap layer, per station.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ContactLayer {
+    /// Clearance left (m), negative is penetration.
+    pub gap: Vec<f64>,
+    /// Normal force (N, >= 0).
+    pub normal: Vec<f64>,
+    /// Tangential friction on the inner body of the layer, in the spin's sense (N).
+    pub tangential: Vec<f64>,
+    /// Axial friction on the inner body of the layer, downhole positive (N).
+    pub axial: Vec<f64>,
+    /// Largest normal force since the last contact output (N).
+    pub normal_peak: Vec<f64>,
+    /// Root mean square of the normal force since the last contact output (N).
+    pub normal_rms: Vec<f64>,
+    /// Largest impulse of a short interval above the resting force since the last contact output (N s).
+    pub shock: Vec<f64>,
+}
+
+/// The bit.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Bit {
+    /// Torque of the rock against the bit (N m).
+    pub torque: f64,
+    /// rad/s.
+    pub rotary_speed: f64,
+    /// N, as applied.
+    pub weight_on_bit: f64,
+    /// (max - min) / (2 mean) over its window; 0 while the drive is below the gate.
+    pub stick_slip_index: f64,
+    /// Root mean square over the publishing interval (m/s2): spin acceleration times bit radius.
+    pub tangential_acceleration: f64,
+    /// Root mean square over the publishing interval (m/s2).
+    pub axial_acceleration: f64,
+    /// Root mean square over the publishing interval of the lateral acceleration one station above the bit, which is
+    /// itself held by the hole (m/s2).
+    pub lateral_acceleration: f64,
+    /// Largest magnitude of the same over the publishing interval (m/s2).
+    pub lateral_acceleration_peak: f64,
+    /// Integral of its magnitude over the publishing interval (m/s).
+    pub lateral_impulse: f64,
+    /// Level that the stick-slip index has reached.
+    pub stick_slip: Severity,
+}
+
+/// Lines in the world frame (X horizontal in the build's direction, Y horizontal, Z down), m.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Shape {
+    /// Bore axis at each station.
+    pub bore: Vec<[f64; 3]>,
+    /// Station frame's z (low side) in the world, to draw displacements exaggerated; y is world Y.
+    pub low_side: Vec<[f64; 3]>,
+    /// Lateral displacement (y, z) of the pipe from the bore axis.
+    pub pipe: Vec<[f64; 2]>,
+    /// Lateral displacement (y, z) of the guide from the bore axis.
+    pub guide: Vec<[f64; 2]>,
+}
+
+/// Counters since the start.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SolverCounters {
+    /// Newton iterations of all accepted steps and sub-steps.
+    pub newton_iterations: u64,
+    /// Newton iterations of the last step.
+    pub last_iterations: u32,
+    /// Sub-steps rejected because they did not converge.
+    pub rejected: u64,
+    /// Steps that had to be split.
+    pub halved_steps: u64,
+    /// Deepest split so far (step / 2^depth).
+    pub deepest_halving: u32,
+    /// Steps that failed even at the smallest sub-step.
+    pub failed_steps: u64,
+    /// Cause and place of the last rejection.
+    pub last_rejection: Option<StepFailure>,
+}

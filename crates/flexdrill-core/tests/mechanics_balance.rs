@@ -1,0 +1,139 @@
+//! Balances that any mechanics must keep: reactions carry the loads, masses add up, the static start is at rest, joints stay closed.
+
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::energy::joint_violation;
+use flexdrill_core::dynamics::newton::Tolerances;
+use flexdrill_core::dynamics::scheme::Scheme;
+use flexdrill_core::dynamics::state::State;
+use flexdrill_core::dynamics::stepper::{SolverKind, Stepper};
+use nalgebra::Vector3;
+
+fn default_config() -> Config {
+    Config::load("../../config/default.yaml").unwrap()
+}
+
+fn stepper(config: &Config, solver: SolverKind) -> Stepper {
+    Stepper::new(&config.tool(), Scheme::newmark(0.6), Tolerances::default(), 6, solver).unwrap()
+}
+
+#[test]
+fn reactions_at_rest_carry_weight_and_weight_on_bit() {
+    let config = default_config();
+    let mut stepper = stepper(&config, SolverKind::Stations);
+    let weight_on_bit = 10e3;
+    stepper.settle(weight_on_bit).unwrap();
+    let (model, state) = (stepper.model(), stepper.state());
+    let forces = &stepper.newton().assembler;
+    // All forces from outside on both pipes in the world: gravity, weight on bit, wall, supports.
+    let mut total = Vector3::z() * (model.mass() * model.description.gravity);
+    let bottom = &model.stations[model.last()];
+    total -= bottom.frame.column(0) * weight_on_bit;
+    for (touch, station) in forces.outer.iter().zip(&model.stations) {
+        if let Some(touch) = touch {
+            total += station.frame * touch.normal_force().fixed_rows::<3>(0);
+        }
+    }
+    for &unknown in &model.held {
+        let station = &model.stations[model.layout.station_of(unknown)];
+        let local = unknown - model.layout.offset(model.layout.station_of(unknown));
+        let frame = if local < 6 {
+            station.frame * station.pipe_to_station
+        } else {
+            station.frame
+        };
+        if local % 6 < 3 {
+            total += frame.column(local % 6) * forces.residual[unknown];
+        }
+    }
+    // Newton leaves up to 1 mN per node; 166 stations, two pipes. Of 10 kN.
+    assert!(total.norm() < 0.35, "{total}");
+    assert!(state.v.iter().all(|&v| v == 0.0));
+}
+
+#[test]
+fn nothing_moves_after_the_static_start() {
+    let config = default_config();
+    let mut simulation = flexdrill_core::twin::Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    let inputs = config.simulation().initial_inputs;
+    let start: State = simulation.stepper().state().clone();
+    for _ in 0..400 {
+        simulation.advance(&inputs);
+    }
+    let state = simulation.stepper().state();
+    let moved = state
+        .q
+        .iter()
+        .zip(&start.q)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max);
+    // 0.1 s with the accelerations that Newton's tolerance of 1 mN on 0.5 kg allows: 1e-5 m.
+    assert!(moved < 1e-5, "moved by {moved} m");
+}
+
+#[test]
+fn joints_stay_closed_and_both_solvers_agree() {
+    let config = default_config();
+    // A hundredth of the usual tolerances, an order above rounding: what is compared is the solution, not where the iterations stop.
+    let tolerances = Tolerances {
+        force: 1e-5,
+        moment: 1e-6,
+        ..Tolerances::default()
+    };
+    let [mut fast, mut reference] = [SolverKind::Stations, SolverKind::SparseReference]
+        .map(|kind| Stepper::new(&config.tool(), Scheme::newmark(0.6), tolerances, 6, kind).unwrap());
+    fast.settle(10e3).unwrap();
+    let mut speed = 0.0;
+    let (mut inner, mut outer) = (0, 0);
+    for step in 0..1200 {
+        let next = f64::min(speed + 0.01, 4.0);
+        let forcing = flexdrill_core::dynamics::stepper::Forcing {
+            rotary_speed: [speed, next],
+            weight_on_bit: [10e3; 2],
+        };
+        speed = next;
+        // From rest, and in every hundredth of the steps under way, when there is contact in both layers between the joints too.
+        let compared = step < 10 || step % 100 == 99;
+        if compared {
+            reference.start_from(fast.state(), 10e3);
+            reference.advance(2.5e-4, &forcing);
+        }
+        fast.advance(2.5e-4, &forcing);
+        let (open, turned) = joint_violation(fast.model(), fast.state());
+        assert!(open < 1e-9 && turned < 1e-9, "joint rows {open} m, {turned}");
+        if !compared {
+            continue;
+        }
+        let model = fast.model();
+        let displacement = |state: &State| {
+            let nodes = model
+                .stations
+                .iter()
+                .flat_map(|s| [s.pipe_above, s.pipe_below, s.guide]);
+            nodes.flat_map(|n| state.q[n..n + 6].to_vec()).collect::<Vec<_>>()
+        };
+        let (a, b) = (displacement(fast.state()), displacement(reference.state()));
+        let largest = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let apart = a.iter().zip(&b).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
+        // Relative 1e-9, the promise for a step.
+        assert!(apart < 1e-9 * largest, "step {step}: {apart} of {largest}");
+        for (station, touches) in model.stations.iter().zip(&fast.newton().assembler.inner) {
+            inner += usize::from(station.joint.is_none() && touches.is_some());
+        }
+        outer += fast.newton().assembler.outer.iter().flatten().count();
+    }
+    assert!(
+        inner > 0 && outer > 0,
+        "no contact between joints: {inner} inner, {outer} outer"
+    );
+}
+
+#[test]
+fn the_mass_is_that_of_steel_tubes() {
+    let config = default_config();
+    let stepper = stepper(&config, SolverKind::Stations);
+    let area = |outer: f64, inner: f64| std::f64::consts::PI / 4.0 * (outer * outer - inner * inner);
+    let length = 3.2 * std::f64::consts::FRAC_PI_2;
+    let expected = 7850.0 * length * (area(0.063, 0.032) + area(0.102, 0.080));
+    // Chords are shorter than arcs by (2.7 degrees)^2 / 24 = 1e-4.
+    assert!((stepper.model().mass() / expected - 1.0).abs() < 1e-4);
+}

@@ -1,0 +1,126 @@
+//! Same build, configuration and inputs, same bits; a checkpoint goes on bit for bit; a failed step changes nothing.
+
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::phases::Phase;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::twin::{BuildError, Simulation, Snapshot};
+
+fn config() -> Config {
+    Config::load("../../config/coarse.yaml").unwrap()
+}
+
+fn simulation(config: &Config) -> Simulation {
+    Simulation::new(&config.tool(), &config.simulation()).unwrap()
+}
+
+/// Inputs that change while running.
+fn inputs(step: u64) -> Inputs {
+    let load = if step > 700 { 15e3 } else { 10e3 };
+    Inputs {
+        rotary_speed: 4.0 + (step / 300) as f64,
+        weight_on_bit: load,
+    }
+}
+
+fn run(simulation: &mut Simulation, steps: u64) -> Snapshot {
+    for _ in 0..steps {
+        let at = simulation.step();
+        assert!(matches!(simulation.advance(&inputs(at)), StepOutcome::Advanced { .. }));
+    }
+    let mut snapshot = simulation.new_snapshot();
+    simulation.snapshot(&mut snapshot, false);
+    snapshot
+}
+
+#[test]
+fn two_runs_are_equal_to_the_bit() {
+    let config = config();
+    let (mut a, mut b) = (simulation(&config), simulation(&config));
+    assert_eq!(run(&mut a, 2000), run(&mut b, 2000));
+    assert_eq!(a.stepper().state(), b.stepper().state());
+}
+
+#[test]
+fn measuring_time_changes_nothing() {
+    let config = config();
+    let (mut timed, mut plain) = (simulation(&config), simulation(&config));
+    timed.set_clock(flexdrill_realtime::monotonic::now);
+    assert_eq!(run(&mut timed, 500), run(&mut plain, 500));
+    assert_eq!(timed.stepper().state(), plain.stepper().state());
+    assert_eq!(timed.checkpoint().unwrap(), plain.checkpoint().unwrap());
+    // And time was measured, in every phase.
+    for phase in Phase::ALL {
+        assert!(timed.phase_times().of(phase) > 0, "{}", phase.name());
+        assert_eq!(plain.phase_times().of(phase), 0);
+    }
+}
+
+#[test]
+fn a_checkpoint_goes_on_to_the_bit() {
+    let config = config();
+    let mut whole = simulation(&config);
+    run(&mut whole, 1000);
+    let bytes = whole.checkpoint().unwrap();
+    let mut resumed = simulation(&config);
+    resumed.restore(&bytes).unwrap();
+    assert_eq!(run(&mut whole, 1000), run(&mut resumed, 1000));
+}
+
+#[test]
+fn a_reset_starts_again_to_the_bit() {
+    let config = config();
+    let mut simulation = simulation(&config);
+    let first = run(&mut simulation, 500);
+    simulation.reset();
+    let mut second = run(&mut simulation, 500);
+    // The warning's sequence counts on, so that a subscriber sees that it is new.
+    second.warning.sequence = first.warning.sequence;
+    assert_eq!(first, second);
+}
+
+#[test]
+fn foreign_checkpoints_are_refused_and_change_nothing() {
+    let mut simulation = simulation(&config());
+    run(&mut simulation, 10);
+    let other = config().with_value("tool.links", 20).unwrap();
+    let foreign = Simulation::new(&other.tool(), &other.simulation())
+        .unwrap()
+        .checkpoint()
+        .unwrap();
+    let before = simulation.stepper().state().clone();
+    assert!(matches!(simulation.restore(&foreign), Err(BuildError::OtherTool)));
+    assert!(matches!(
+        simulation.restore(&foreign[..foreign.len() / 2]),
+        Err(BuildError::Checkpoint(_))
+    ));
+    assert!(simulation.restore(b"").is_err());
+    assert_eq!(simulation.stepper().state(), &before);
+}
+
+#[test]
+fn a_step_that_cannot_converge_is_reported_and_changes_nothing_but_counters() {
+    // Two iterations and no halving: the first collision cannot be solved.
+    let config = config();
+    let config = config
+        .with_value("solver.max_iterations", 2)
+        .unwrap()
+        .with_value("solver.max_halvings", 0)
+        .unwrap();
+    let mut simulation = simulation(&config);
+    for _ in 0..4000 {
+        let before = simulation.stepper().state().clone();
+        let audit = *simulation.stepper().audit();
+        let step = simulation.step();
+        if let StepOutcome::Failed(failure) = simulation.advance(&inputs(0)) {
+            assert_eq!(simulation.stepper().state(), &before);
+            assert_eq!(simulation.stepper().audit(), &audit);
+            assert_eq!(simulation.step(), step);
+            assert_eq!(simulation.stepper().counters().failed_steps, 1);
+            assert!(failure.station <= simulation.stepper().model().last() && failure.value.abs() > 0.0);
+            assert!((failure.time - before.time).abs() < 1e-12);
+            return;
+        }
+    }
+    panic!("no step failed");
+}

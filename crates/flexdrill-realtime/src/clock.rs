@@ -1,0 +1,78 @@
+//! The clocks that can pace the solver.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use crate::monotonic;
+
+/// A clock in nanoseconds with absolute deadlines.
+pub trait Clock: Send {
+    /// Nanoseconds; the zero is the clock's own.
+    fn now(&self) -> u64;
+    /// Waits for a deadline, at most for some milliseconds when it is not known when that will be. Returns early or late;
+    /// the caller looks at [`Clock::now`].
+    fn wait_until(&self, deadline: u64);
+    /// The present instant on the rig's clock (ns since 1970), for stamps.
+    fn rig_time(&self) -> u64;
+    /// Lateness that is caught up rather than skipped (s).
+    fn tolerance(&self) -> f64;
+}
+
+/// The machine's clock: deadlines on the monotonic one, stamps from the real-time one.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct WallClock;
+
+impl Clock for WallClock {
+    fn now(&self) -> u64 {
+        monotonic::now()
+    }
+
+    fn wait_until(&self, deadline: u64) {
+        monotonic::sleep_until(deadline);
+    }
+
+    fn rig_time(&self) -> u64 {
+        SystemTime::now()
+            .duration_since(UNIX_EPOCH)
+            .map_or(0, |since| since.as_nanos() as u64)
+    }
+
+    fn tolerance(&self) -> f64 {
+        // Longer than the hiccups of a machine that is not made for real time, shorter than a person notices.
+        0.1
+    }
+}
+
+/// The clock of `/clock`: stands still between messages. 0 until the first one.
+pub struct SimulatedClock {
+    newest: Arc<AtomicU64>,
+}
+
+impl SimulatedClock {
+    /// Follows the cell into which the subscription writes (ns).
+    pub fn new(newest: Arc<AtomicU64>) -> Self {
+        Self { newest }
+    }
+}
+
+impl Clock for SimulatedClock {
+    fn now(&self) -> u64 {
+        self.newest.load(Ordering::Acquire)
+    }
+
+    fn wait_until(&self, deadline: u64) {
+        if self.now() < deadline {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    fn rig_time(&self) -> u64 {
+        self.now()
+    }
+
+    fn tolerance(&self) -> f64 {
+        // /clock may come once a second.
+        2.5
+    }
+}

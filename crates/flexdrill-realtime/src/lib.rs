@@ -1,0 +1,26 @@
+//! Pacing by absolute deadlines. What to do is decided by pure functions of the time handed in ([`Pacer`],
+//! [`RealTimeFactor`]); only [`monotonic`] looks at a clock. Nothing allocates after construction.
+//!
+//! ```no_run
+//! use flexdrill_realtime::{Pacer, monotonic};
+//! let mut pacer = Pacer::new(monotonic::now(), 0.0005, 20);
+//! loop {
+//!     monotonic::sleep_until(pacer.deadline());
+//!     // advance the model by one step
+//!     let paced = pacer.step_done(monotonic::now());
+//!     if paced.skipped > 0 {
+//!         // tell it: the model stands still for so many periods
+//!     }
+//! }
+//! ```
+
+pub mod clock;
+pub mod link;
+pub mod monotonic;
+mod pacer;
+mod real_time_factor;
+mod real_time_loop;
+
+pub use pacer::{Paced, Pacer, whole_periods};
+pub use real_time_factor::RealTimeFactor;
+pub use real_time_loop::Solver;

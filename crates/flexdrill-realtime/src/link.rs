@@ -1,0 +1,216 @@
+//! What passes between the solver's thread and the rest of the node: wait-free rings and atomics, no locks.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
+use std::sync::mpsc::SyncSender;
+
+use rtrb::{Consumer, Producer, RingBuffer};
+
+use flexdrill_core::dynamics::outcome::StepFailure;
+use flexdrill_core::dynamics::phases::{self, PhaseTimes};
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::WhirlSettings;
+use flexdrill_core::tool::LiveParameters;
+use flexdrill_core::twin::{BuildError, Frame, RunInputs, Schedule};
+
+/// Frames in circulation: at 100 frames per second, two thirds of a second of a stalled publisher.
+pub const FRAMES: usize = 64;
+/// Room for reports beside frames.
+const REPORTS: usize = 4096;
+/// Room for commands.
+const COMMANDS: usize = 256;
+/// Room for step times.
+const STEP_TIMES: usize = 1 << 16;
+
+/// What the solver is told between periods.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a box would be freed on the solver's thread; commands are rare"
+)]
+#[derive(Debug)]
+pub enum Command {
+    /// New coefficients.
+    Live(LiveParameters),
+    /// New slew limits: rotary speed (rad/s2), weight on bit (N/s).
+    Slew([f64; 2]),
+    /// New thresholds of the whirl analysis.
+    Whirl(WhirlSettings),
+    /// New publishing rates.
+    Schedule(Schedule),
+    /// Stand still, or go on.
+    Pause(bool),
+    /// Back to the state after the start.
+    Reset,
+    /// Send the whole state. The one command that allocates on the solver's thread.
+    Checkpoint(SyncSender<Result<Vec<u8>, BuildError>>),
+}
+
+/// What the solver tells, in the order in which it happened.
+#[derive(Debug)]
+#[allow(clippy::large_enum_variant)] // A box would be allocated on the solver's thread.
+pub enum Report {
+    /// A snapshot; the frame must be given back.
+    Frame(Box<Frame>),
+    /// New values act from the next step on.
+    Applied {
+        /// The values.
+        inputs: RunInputs,
+        /// Steps taken or skipped before.
+        ticks: u64,
+        /// Commands carried out so far.
+        commands: u64,
+    },
+    /// A step failed after so many ticks; the model stands still.
+    Failed(StepFailure, u64),
+    /// The model moves again after a failure.
+    Recovered,
+}
+
+/// How the solver is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Phase {
+    /// The tool is being brought to rest.
+    Starting = 0,
+    /// Model time advances.
+    Running = 1,
+    /// Told to stand still.
+    Paused = 2,
+    /// A step failed; the model stands still.
+    Failed = 3,
+}
+
+/// Numbers that the solver's thread keeps up to date and others read.
+#[derive(Debug, Default)]
+pub struct Gauges {
+    phase: AtomicU8,
+    /// Steps taken since the start or the last reset.
+    pub step: AtomicU64,
+    /// Steps taken since the start, over all resets.
+    pub steps_taken: AtomicU64,
+    /// Steps taken or skipped since the start.
+    pub ticks: AtomicU64,
+    /// Steps skipped because the solver was late, stood still or was paused.
+    pub steps_skipped: AtomicU64,
+    /// Of these, the ones skipped because it was late.
+    pub steps_late: AtomicU64,
+    /// Steps that ended after the end of their period.
+    pub deadline_misses: AtomicU64,
+    /// How late the last period began (ns).
+    pub lateness: AtomicU64,
+    /// Start on the rig's clock (ns since 1970); 0 before.
+    pub start: AtomicU64,
+    /// Frames that were due when none was free.
+    pub frames_dropped: AtomicU64,
+    /// Reports that found no room: a recording of this run cannot be replayed exactly.
+    pub reports_lost: AtomicU64,
+    /// Time per phase of the steps taken so far (ns).
+    phase_times: [AtomicU64; phases::Phase::ALL.len()],
+    /// Tells the solver's thread to end.
+    pub stop: AtomicBool,
+}
+
+impl Gauges {
+    /// How the solver is doing.
+    pub fn phase(&self) -> Phase {
+        match self.phase.load(Ordering::Acquire) {
+            1 => Phase::Running,
+            2 => Phase::Paused,
+            3 => Phase::Failed,
+            _ => Phase::Starting,
+        }
+    }
+
+    /// Time per phase of the steps taken so far. Each is a cell of its own, so that they may be a period apart.
+    pub fn phase_times(&self) -> PhaseTimes {
+        PhaseTimes::from_nanoseconds(|phase| self.phase_times[phase as usize].load(Ordering::Relaxed))
+    }
+
+    pub(crate) fn set_phase_times(&self, times: &PhaseTimes) {
+        for phase in phases::Phase::ALL {
+            self.phase_times[phase as usize].store(times.of(phase), Ordering::Relaxed);
+        }
+    }
+
+    pub(crate) fn set_phase(&self, phase: Phase) {
+        self.phase.store(phase as u8, Ordering::Release);
+    }
+}
+
+/// The newest targets. Each value is a cell of its own: what the solver took is told by its [`Report::Applied`].
+#[derive(Debug, Default)]
+pub struct Targets {
+    rotary_speed: AtomicU64,
+    weight_on_bit: AtomicU64,
+    quality: AtomicU8,
+}
+
+impl Targets {
+    /// Cells that hold these targets.
+    pub fn new(inputs: Inputs) -> Arc<Self> {
+        let targets = Arc::new(Self::default());
+        targets.set(inputs, 0);
+        targets
+    }
+
+    /// Replaces the targets and the quality of the inputs (the messages' INPUT_ constants).
+    pub fn set(&self, inputs: Inputs, quality: u8) {
+        self.rotary_speed
+            .store(inputs.rotary_speed.to_bits(), Ordering::Relaxed);
+        self.weight_on_bit
+            .store(inputs.weight_on_bit.to_bits(), Ordering::Relaxed);
+        self.quality.store(quality, Ordering::Relaxed);
+    }
+
+    pub(crate) fn get(&self) -> (Inputs, u8) {
+        let inputs = Inputs {
+            rotary_speed: f64::from_bits(self.rotary_speed.load(Ordering::Relaxed)),
+            weight_on_bit: f64::from_bits(self.weight_on_bit.load(Ordering::Relaxed)),
+        };
+        (inputs, self.quality.load(Ordering::Relaxed))
+    }
+}
+
+/// The solver's end.
+pub struct SolverEnd {
+    pub(crate) commands: Consumer<Command>,
+    pub(crate) reports: Producer<Report>,
+    pub(crate) empty: Consumer<Box<Frame>>,
+    pub(crate) step_times: Producer<u32>,
+    pub(crate) targets: Arc<Targets>,
+    pub(crate) gauges: Arc<Gauges>,
+}
+
+/// The publisher's end.
+pub struct PublisherEnd {
+    /// What happened.
+    pub reports: Consumer<Report>,
+    /// Where frames go back.
+    pub empty: Producer<Box<Frame>>,
+    /// Computing time of each step (ns).
+    pub step_times: Consumer<u32>,
+}
+
+/// Makes both ends, and the end that sends commands.
+pub fn link(targets: Arc<Targets>, gauges: Arc<Gauges>) -> (SolverEnd, PublisherEnd, Producer<Command>) {
+    let (command_sender, commands) = RingBuffer::new(COMMANDS);
+    let (reports, report_receiver) = RingBuffer::new(FRAMES + REPORTS);
+    let (empty_sender, empty) = RingBuffer::new(FRAMES + 1);
+    let (step_times, step_time_receiver) = RingBuffer::new(STEP_TIMES);
+    (
+        SolverEnd {
+            commands,
+            reports,
+            empty,
+            step_times,
+            targets,
+            gauges,
+        },
+        PublisherEnd {
+            reports: report_receiver,
+            empty: empty_sender,
+            step_times: step_time_receiver,
+        },
+        command_sender,
+    )
+}

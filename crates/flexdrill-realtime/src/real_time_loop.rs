@@ -1,0 +1,274 @@
+//! The solver's thread: steps the run in periods with absolute deadlines, takes inputs and commands between periods, and
+//! hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
+//!
+//! A period is a whole number of model steps. A little lateness is caught up; when the solver is late by more, whole
+//! periods are skipped and counted: model and clock stay together, and the model is never integrated with another step
+//! than the configured one.
+
+use std::collections::VecDeque;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use crate::Pacer;
+use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::twin::{Frame, Model, Run, RunInputs, Simulation};
+use rtrb::PushError;
+
+use crate::clock::Clock;
+use crate::link::{Command, FRAMES, Phase, Report, SolverEnd};
+
+/// A clock that is found this long before the deadline (ns) has been set back.
+const SET_BACK: u64 = 2_000_000_000;
+
+/// Drives a run against a clock.
+pub struct Solver<C: Clock, M: Model = Simulation> {
+    run: Run<M>,
+    clock: C,
+    end: SolverEnd,
+    /// Frames that have not been used yet.
+    stash: VecDeque<Box<Frame>>,
+    /// Stands in when no frame is free, so that the statistics end where they should.
+    spare: Box<Frame>,
+    pacer: Pacer,
+    /// ns.
+    period: u64,
+    steps_per_period: u64,
+    steps_taken: u64,
+    commands_done: u64,
+    paused: bool,
+    failed: bool,
+    /// A command that changes the run came since the last step.
+    changed: bool,
+    reset_asked: bool,
+    wanted: RunInputs,
+    /// What was told last; `step` and `reset` are not looked at.
+    told: Option<RunInputs>,
+    /// The state at the start or after a reset has not been shown yet.
+    first: bool,
+}
+
+impl<C: Clock, M: Model> Solver<C, M> {
+    /// A solver that takes `steps_per_period` steps per deadline. Allocates all it needs.
+    pub fn new(run: Run<M>, clock: C, end: SolverEnd, steps_per_period: u64) -> Self {
+        let steps_per_period = steps_per_period.max(1);
+        let time_step = run.simulation().settings().time_step;
+        let spare = Box::new(run.new_frame());
+        let period = steps_per_period as f64 * time_step;
+        let tolerance = (clock.tolerance() / period) as u64;
+        Self {
+            stash: (0..FRAMES).map(|_| Box::new(run.new_frame())).collect(),
+            spare,
+            pacer: Pacer::new(clock.now(), period, tolerance),
+            period: (period * 1e9).round() as u64,
+            steps_per_period,
+            steps_taken: 0,
+            commands_done: 0,
+            paused: false,
+            failed: false,
+            changed: false,
+            reset_asked: false,
+            wanted: run.applied(),
+            told: None,
+            first: true,
+            run,
+            clock,
+            end,
+        }
+    }
+
+    /// Runs until told to stop.
+    pub fn run(mut self) {
+        while self.clock.now() == 0 && !self.stopped() {
+            // A simulated clock has not ticked yet.
+            self.clock.wait_until(1);
+        }
+        self.start();
+        while !self.stopped() {
+            let (now, deadline) = (self.clock.now(), self.pacer.deadline());
+            if now >= deadline {
+                self.turn();
+            } else if deadline - now > SET_BACK {
+                self.pacer.restart(now);
+            } else {
+                self.clock.wait_until(deadline);
+            }
+        }
+    }
+
+    fn start(&mut self) {
+        self.pacer.restart(self.clock.now());
+        self.end.gauges.start.store(self.clock.rig_time(), Ordering::Release);
+    }
+
+    /// One period and what follows from how long it took.
+    fn turn(&mut self) {
+        self.take_commands();
+        self.one_period();
+        let paced = self.pacer.step_done(self.clock.now());
+        if paced.skipped > 0 {
+            let steps = paced.skipped * self.steps_per_period;
+            self.run.skip(steps);
+            if !self.paused && !self.failed {
+                self.end.gauges.steps_late.fetch_add(steps, Ordering::Relaxed);
+            }
+        }
+        self.end.gauges.lateness.store(paced.lateness, Ordering::Relaxed);
+        self.tell();
+    }
+
+    fn stopped(&self) -> bool {
+        self.end.gauges.stop.load(Ordering::Relaxed)
+    }
+
+    fn take_commands(&mut self) {
+        while let Ok(command) = self.end.commands.pop() {
+            self.commands_done += 1;
+            match command {
+                Command::Live(live) => self.wanted.live = live,
+                Command::Slew(slew) => self.wanted.slew = slew,
+                Command::Whirl(whirl) => self.wanted.whirl = whirl,
+                Command::Schedule(schedule) => self.wanted.schedule = schedule,
+                Command::Pause(paused) => self.paused = paused,
+                Command::Reset => self.reset_asked = true,
+                Command::Checkpoint(reply) => {
+                    // The one who asked may have gone.
+                    let _ = reply.try_send(self.run.simulation().checkpoint());
+                }
+            }
+            self.changed = true;
+        }
+    }
+
+    fn one_period(&mut self) {
+        let (inputs, quality) = self.end.targets.get();
+        self.wanted.inputs = inputs;
+        self.wanted.input_quality = quality;
+        let current = self.run.applied();
+        let new_inputs = inputs != current.inputs;
+        if self.paused && !self.reset_asked || self.failed && !new_inputs && !self.changed {
+            self.run.skip(self.steps_per_period);
+            return;
+        }
+        self.apply(&current);
+        if self.paused {
+            self.show_start();
+            self.run.skip(self.steps_per_period);
+            return;
+        }
+        self.show_start();
+        let end = self.pacer.deadline().saturating_add(self.period);
+        let mut began = Instant::now();
+        for taken in 0..self.steps_per_period {
+            let outcome = self.run.advance();
+            let ended = Instant::now();
+            // A full ring only loses statistics.
+            let _ = self
+                .end
+                .step_times
+                .push((ended - began).as_nanos().min(u128::from(u32::MAX)) as u32);
+            began = ended;
+            match outcome {
+                StepOutcome::Advanced { .. } => {
+                    self.steps_taken += 1;
+                    if self.failed {
+                        self.failed = false;
+                        self.report(Report::Recovered);
+                    }
+                    self.show_if_due();
+                    if self.clock.now() > end {
+                        self.end.gauges.deadline_misses.fetch_add(1, Ordering::Relaxed);
+                    }
+                }
+                StepOutcome::Failed(failure) => {
+                    self.failed = true;
+                    self.changed = false;
+                    self.report(Report::Failed(failure, self.run.ticks()));
+                    self.run.skip(self.steps_per_period - taken);
+                    return;
+                }
+            }
+        }
+        self.changed = false;
+    }
+
+    /// Lets what is wanted act, and tells of it when anything is different.
+    fn apply(&mut self, current: &RunInputs) {
+        let next = RunInputs {
+            step: current.step,
+            skipped: current.skipped,
+            reset: self.reset_asked,
+            ..self.wanted
+        };
+        let same = self.told.is_some_and(|told| {
+            RunInputs {
+                step: told.step,
+                reset: false,
+                ..next
+            } == told
+        });
+        if same && !next.reset && !self.changed {
+            return;
+        }
+        if next.reset {
+            self.reset_asked = false;
+            self.failed = false;
+            self.first = true;
+        }
+        self.run.apply(&next);
+        self.told = Some(RunInputs { reset: false, ..next });
+        let ticks = self.run.ticks();
+        self.report(Report::Applied {
+            inputs: next,
+            ticks,
+            commands: self.commands_done,
+        });
+    }
+
+    fn show_start(&mut self) {
+        if self.first {
+            self.first = false;
+            self.show_if_due();
+        }
+    }
+
+    fn show_if_due(&mut self) {
+        if self.run.due().is_empty() {
+            return;
+        }
+        let Some(mut frame) = self.stash.pop_front().or_else(|| self.end.empty.pop().ok()) else {
+            self.run.capture(&mut self.spare);
+            self.end.gauges.frames_dropped.fetch_add(1, Ordering::Relaxed);
+            return;
+        };
+        self.run.capture(&mut frame);
+        self.report(Report::Frame(frame));
+    }
+
+    fn report(&mut self, report: Report) {
+        if let Err(PushError::Full(report)) = self.end.reports.push(report) {
+            self.end.gauges.reports_lost.fetch_add(1, Ordering::Relaxed);
+            if let Report::Frame(frame) = report {
+                self.stash.push_back(frame);
+            }
+        }
+    }
+
+    fn tell(&self) {
+        let gauges = &self.end.gauges;
+        gauges.step.store(self.run.simulation().step(), Ordering::Relaxed);
+        gauges.steps_taken.store(self.steps_taken, Ordering::Relaxed);
+        gauges
+            .steps_skipped
+            .store(self.run.applied().skipped, Ordering::Relaxed);
+        gauges.ticks.store(self.run.ticks(), Ordering::Relaxed);
+        gauges.set_phase_times(&self.run.simulation().phase_times());
+        gauges.set_phase(match (self.paused, self.failed) {
+            (true, _) => Phase::Paused,
+            (_, true) => Phase::Failed,
+            _ => Phase::Running,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,159 @@
+//! A verification case at work: its configuration, the twin, and a way to read off single numbers.
+
+use super::VerifyError;
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::tool::{Body, Direction};
+use flexdrill_core::twin::Simulation;
+
+/// Texts of `config/verify/`, so that the installed program needs no files.
+const FILES: &[(&str, &str)] = &[
+    ("axial_rod", include_str!("../../../config/verify/axial_rod.yaml")),
+    (
+        "beam_frequencies",
+        include_str!("../../../config/verify/beam_frequencies.yaml"),
+    ),
+    ("cantilever", include_str!("../../../config/verify/cantilever.yaml")),
+    ("curved_guide", include_str!("../../../config/verify/curved_guide.yaml")),
+    (
+        "free_vibration",
+        include_str!("../../../config/verify/free_vibration.yaml"),
+    ),
+    (
+        "hinged_beam_in_tube",
+        include_str!("../../../config/verify/hinged_beam_in_tube.yaml"),
+    ),
+    ("hooke_chain", include_str!("../../../config/verify/hooke_chain.yaml")),
+    ("hooke_pair", include_str!("../../../config/verify/hooke_pair.yaml")),
+    ("hooke_single", include_str!("../../../config/verify/hooke_single.yaml")),
+    (
+        "mass_onto_gap",
+        include_str!("../../../config/verify/mass_onto_gap.yaml"),
+    ),
+    (
+        "rolling_rotor",
+        include_str!("../../../config/verify/rolling_rotor.yaml"),
+    ),
+    ("sliding_mass", include_str!("../../../config/verify/sliding_mass.yaml")),
+    ("torsion_rod", include_str!("../../../config/verify/torsion_rod.yaml")),
+];
+
+/// A running case.
+pub struct Bench {
+    case: &'static str,
+    /// Its configuration.
+    pub config: Config,
+    /// Its twin.
+    pub simulation: Simulation,
+    inputs: Inputs,
+}
+
+impl Bench {
+    /// Builds the case's tool.
+    ///
+    /// # Errors
+    /// When configuration or tool are refused.
+    pub fn new(case: &'static str) -> Result<Self, VerifyError> {
+        Self::with(case, Ok)
+    }
+
+    /// The same with a changed configuration.
+    ///
+    /// # Errors
+    /// As [`Bench::new`].
+    pub fn with(
+        case: &'static str,
+        change: impl FnOnce(Config) -> Result<Config, flexdrill_config::ConfigError>,
+    ) -> Result<Self, VerifyError> {
+        let text = FILES
+            .iter()
+            .find(|(name, _)| *name == case)
+            .map(|(_, text)| *text)
+            .ok_or(VerifyError::Missing {
+                case,
+                what: "its configuration",
+            })?;
+        let config = change(Config::from_text(&format!("config/verify/{case}.yaml"), text)?)?;
+        let settings = config.simulation();
+        let simulation =
+            Simulation::new(&config.tool(), &settings).map_err(|source| VerifyError::Build { case, source })?;
+        Ok(Self {
+            case,
+            config,
+            simulation,
+            inputs: settings.initial_inputs,
+        })
+    }
+
+    /// Advances one step.
+    ///
+    /// # Errors
+    /// When it fails.
+    pub fn step(&mut self) -> Result<(), VerifyError> {
+        match self.simulation.advance(&self.inputs) {
+            StepOutcome::Advanced { .. } => Ok(()),
+            StepOutcome::Failed(failure) => Err(VerifyError::Step {
+                case: self.case,
+                failure,
+            }),
+        }
+    }
+
+    /// Advances to `time` (s).
+    ///
+    /// # Errors
+    /// When a step fails.
+    pub fn run_to(&mut self, time: f64) -> Result<(), VerifyError> {
+        let steps = (time / self.simulation.settings().time_step).round() as u64;
+        while self.simulation.step() < steps {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// Model time (s).
+    pub fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// Displacement (m or rad) of the node at `station`; at a joint, of the link above.
+    pub fn displacement(&self, station: usize, body: Body, direction: Direction) -> f64 {
+        self.simulation.stepper().state().q[self.unknown(station, body) + direction as usize]
+    }
+
+    /// Velocity (m/s or rad/s), as [`Bench::displacement`].
+    pub fn velocity(&self, station: usize, body: Body, direction: Direction) -> f64 {
+        self.simulation.stepper().state().v[self.unknown(station, body) + direction as usize]
+    }
+
+    /// Last station.
+    pub fn last(&self) -> usize {
+        self.simulation.stepper().model().last()
+    }
+
+    /// Normal force in the inner gap at `station` (N).
+    pub fn inner_normal(&self, station: usize) -> f64 {
+        self.simulation.stepper().newton().assembler.inner[station].map_or(0.0, |touch| touch.normal)
+    }
+
+    fn unknown(&self, station: usize, body: Body) -> usize {
+        let station = &self.simulation.stepper().model().stations[station];
+        match body {
+            Body::Pipe => station.pipe_above,
+            Body::Guide => station.guide,
+        }
+    }
+}
+
+/// Frequency (Hz) of a signal by its first and last crossing of zero, interpolated between samples `dt` (s) apart.
+pub fn crossing_frequency(samples: &[f64], dt: f64) -> Option<f64> {
+    let mut crossings = samples
+        .windows(2)
+        .enumerate()
+        .filter(|(_, pair)| (pair[0] < 0.0) != (pair[1] < 0.0))
+        .map(|(index, pair)| dt * (index as f64 + pair[0] / (pair[0] - pair[1])));
+    let first = crossings.next()?;
+    let (count, last) = crossings.fold((0, first), |(count, _), at| (count + 1, at));
+    (count > 0).then(|| f64::from(count) / (2.0 * (last - first)))
+}

@@ -1,0 +1,52 @@
+//! The time integration: order and drift.
+
+use super::bench::Bench;
+use super::{Row, VerifyError};
+use flexdrill_core::tool::{Body, Direction};
+
+const CASE: &str = "free_vibration";
+
+fn with_step(step: f64) -> Result<Bench, VerifyError> {
+    Bench::with(CASE, |config| config.with_value("solver.time_step", step))
+}
+
+/// Tip deflection after 50 ms.
+fn tip(step: f64) -> Result<f64, VerifyError> {
+    let mut bench = with_step(step)?;
+    bench.run_to(0.05)?;
+    Ok(bench.displacement(bench.last(), Body::Pipe, Direction::W))
+}
+
+pub(super) fn free_vibration() -> Result<Vec<Row>, VerifyError> {
+    let exact = tip(1.25e-6)?;
+    let (coarse, fine) = ((tip(4e-5)? - exact).abs(), (tip(2e-5)? - exact).abs());
+    let order = (coarse / fine).log2();
+    let mut rows = vec![Row::scaled(
+        CASE,
+        "order of Newmark at gamma 1/2",
+        2.0,
+        order,
+        1.0,
+        0.05,
+    )];
+
+    // 1e5 periods at five steps each: nothing of the energy may go or come.
+    let mut bench = with_step(0.01)?;
+    let beam = bench.simulation.stepper().model().pipe[0].beam;
+    let speed = bench.velocity(bench.last(), Body::Pipe, Direction::W);
+    // First frequency of the cantilever, 3.516 sqrt(EI / rho A L^4) / 2 pi.
+    let frequency = 3.516 / std::f64::consts::TAU * (beam.section.bending / beam.section.mass).sqrt();
+    let start = 0.5 * beam.section.mass * beam.length * speed * speed;
+    let before = bench.simulation.stepper().audit().stored;
+    bench.run_to(1e5 / frequency)?;
+    let drift = bench.simulation.stepper().audit().stored - before;
+    rows.push(Row::scaled(
+        CASE,
+        "energy after 1e5 periods less that before (J)",
+        0.0,
+        drift,
+        start,
+        1e-6,
+    ));
+    Ok(rows)
+}

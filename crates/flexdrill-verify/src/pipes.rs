@@ -1,0 +1,222 @@
+//! Beams: statics, frequencies, the hinged beam in a tube, the curved guide.
+
+use std::f64::consts::PI;
+
+use super::bench::{Bench, crossing_frequency};
+use super::{HingedBeam, Row, VerifyError};
+use flexdrill_core::tool::section::SectionProperties;
+use flexdrill_core::tool::{Body, Direction};
+
+/// Statics of a linear beam: rounding of the solve.
+const STATICS: f64 = 1e-9;
+/// Frequencies.
+const FREQUENCY: f64 = 1e-3;
+
+fn section(bench: &Bench) -> SectionProperties {
+    let tool = bench.config.tool();
+    SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0)
+}
+
+pub(super) fn cantilever() -> Result<Vec<Row>, VerifyError> {
+    let case = "cantilever";
+    let bench = Bench::new(case)?;
+    let (ei, force, l) = (section(&bench).bending, 100.0_f64, bench.config.well.length());
+    let tip = |direction| bench.displacement(bench.last(), Body::Pipe, direction);
+    let (deflection, tilt) = (force * l.powi(3) / (3.0 * ei), -force * l * l / (2.0 * ei));
+    Ok(vec![
+        Row::relative(
+            case,
+            "tip deflection F L^3 / 3EI (m)",
+            deflection,
+            tip(Direction::W),
+            STATICS,
+        ),
+        Row::relative(case, "tip tilt -F L^2 / 2EI (rad)", tilt, tip(Direction::PhiY), STATICS),
+    ])
+}
+
+pub(super) fn axial_rod() -> Result<Vec<Row>, VerifyError> {
+    let case = "axial_rod";
+    let bench = Bench::new(case)?;
+    let s = section(&bench);
+    let l = bench.config.well.length();
+    rod(
+        case,
+        bench,
+        Direction::U,
+        100e3 * l / s.axial,
+        (s.axial / s.mass).sqrt() / (4.0 * l),
+    )
+}
+
+pub(super) fn torsion_rod() -> Result<Vec<Row>, VerifyError> {
+    let case = "torsion_rod";
+    let bench = Bench::new(case)?;
+    let s = section(&bench);
+    let l = bench.config.well.length();
+    rod(
+        case,
+        bench,
+        Direction::Psi,
+        50.0 * l / s.torsion,
+        (s.torsion / s.spin_inertia).sqrt() / (4.0 * l),
+    )
+}
+
+/// A rod held at one end, at rest under its load, then let go.
+fn rod(
+    case: &'static str,
+    mut bench: Bench,
+    direction: Direction,
+    at_rest: f64,
+    frequency: f64,
+) -> Result<Vec<Row>, VerifyError> {
+    let last = bench.last();
+    let mut rows = vec![Row::relative(
+        case,
+        "end at rest under its load (m or rad)",
+        at_rest,
+        bench.displacement(last, Body::Pipe, direction),
+        STATICS,
+    )];
+    bench.run_to(0.001)?;
+    // The first mode of the fixed-free rod, sin(pi x / 2L), out of the many that a sudden release excites.
+    let mut samples = Vec::new();
+    while bench.time() < 0.05 {
+        bench.step()?;
+        let mode = |s: usize| (0.5 * PI * s as f64 / last as f64).sin();
+        let sum = (0..last)
+            .map(|s| mode(s) * bench.displacement(s, Body::Pipe, direction))
+            .sum::<f64>();
+        samples.push(sum + 0.5 * bench.displacement(last, Body::Pipe, direction));
+    }
+    let got = crossing_frequency(&samples, bench.simulation.settings().time_step)
+        .ok_or(VerifyError::Missing { case, what: "a swing" })?;
+    rows.push(Row::relative(
+        case,
+        "frequency of the first mode (Hz)",
+        frequency,
+        got,
+        FREQUENCY,
+    ));
+    Ok(rows)
+}
+
+pub(super) fn beam_frequencies() -> Result<Vec<Row>, VerifyError> {
+    let case = "beam_frequencies";
+    let mut bench = Bench::new(case)?;
+    let s = section(&bench);
+    let (last, l) = (bench.last(), bench.config.well.length());
+    let mut modes = [vec![], vec![], vec![]];
+    while bench.time() < 2.0 {
+        bench.step()?;
+        if bench.time() <= 0.002 {
+            continue;
+        }
+        for (n, samples) in modes.iter_mut().enumerate() {
+            // The shape sin(n pi x / L) picks its own mode out of the nodes' deflections exactly.
+            let shape = |s: usize| ((n + 1) as f64 * PI * s as f64 / last as f64).sin();
+            samples.push(
+                (0..=last)
+                    .map(|s| shape(s) * bench.displacement(s, Body::Pipe, Direction::W))
+                    .sum(),
+            );
+        }
+    }
+    modes
+        .iter()
+        .enumerate()
+        .map(|(index, samples)| {
+            let n = (index + 1) as f64;
+            let expected = (n * PI / l).powi(2) * (s.bending / s.mass).sqrt() / (2.0 * PI);
+            let got = crossing_frequency(samples, bench.simulation.settings().time_step)
+                .ok_or(VerifyError::Missing { case, what: "a swing" })?;
+            Ok(Row::relative(
+                case,
+                format!("frequency {n} (Hz)"),
+                expected,
+                got,
+                FREQUENCY,
+            ))
+        })
+        .collect()
+}
+
+pub(super) fn hinged_beam() -> Result<Vec<Row>, VerifyError> {
+    let case = "hinged_beam_in_tube";
+    let mut bench = Bench::new(case)?;
+    let tool = bench.config.tool();
+    let joint = bench.simulation.stepper().model().joint_stations[0];
+    let beam = HingedBeam::of(&bench);
+    let (limit, touch) = (beam.limit_load(), beam.touch_load());
+    let mut rows = Vec::new();
+    // Two loads in each branch, away from its ends, where the load of 1000 N/s has let the beam's own swing die.
+    let loads = [
+        ("swings", 0.6 * limit),
+        ("swings", 0.95 * limit),
+        ("locked", limit + 0.3 * (touch - limit)),
+        ("locked", limit + 0.9 * (touch - limit)),
+        ("on the tube", touch + 0.3 * (1000.0 - touch)),
+        ("on the tube", touch + 0.9 * (1000.0 - touch)),
+    ];
+    for (branch, load) in loads {
+        let time = load / 1000.0;
+        bench.run_to(time)?;
+        let load = 1000.0 * bench.time();
+        let expected = beam.corrected(load);
+        let penetration = bench.inner_normal(joint) / tool.inner.stiffness;
+        let got = bench.displacement(joint, Body::Pipe, Direction::W);
+        let mut quantity = format!("deflection of C at {load:.1} N, {branch} (m)");
+        if penetration > 0.0 {
+            quantity = format!("C at {load:.0} N, {branch}, {:.2} um into it (m)", 1e6 * penetration);
+        }
+        rows.push(Row::relative(case, quantity, expected, got, 1e-3));
+    }
+    Ok(rows)
+}
+
+impl HingedBeam {
+    /// Of the case `hinged_beam_in_tube`.
+    pub fn of(bench: &Bench) -> Self {
+        let model = bench.simulation.stepper().model();
+        let joint = model.joint_stations[0];
+        Self {
+            bending: section(bench).bending,
+            length: 0.5 * bench.config.well.length(),
+            limit: bench.config.tool().joint.limit,
+            gap: model.stations[joint].inner_clearance,
+        }
+    }
+}
+
+pub(super) fn curved_guide() -> Result<Vec<Row>, VerifyError> {
+    let case = "curved_guide";
+    let bench = Bench::new(case)?;
+    let stepper = bench.simulation.stepper();
+    let model = stepper.model();
+    let wall = &stepper.newton().assembler.outer;
+    let touching: Vec<usize> = (0..wall.len()).filter(|&s| wall[s].is_some()).collect();
+    let (Some(&first), Some(&last)) = (touching.first(), touching.last()) else {
+        return Err(VerifyError::Missing {
+            case,
+            what: "contact with the wall",
+        });
+    };
+    // The middle half of the part that rests on the wall: its ends carry what the free parts bend into it.
+    let quarter = (last - first) / 4;
+    let (from, to) = (first + quarter, last - quarter);
+    let carried: f64 = (from..=to).map(|s| wall[s].map_or(0.0, |touch| touch.normal)).sum();
+    let spacing = model.stations[1].depth - model.stations[0].depth;
+    let got = carried / (spacing * (to - from + 1) as f64);
+    let force = bench.config.simulation().initial_inputs.weight_on_bit;
+    let turned = model.stations[to].inclination - model.stations[from].inclination;
+    let expected = force * turned / (model.stations[to].depth - model.stations[from].depth);
+    // N / R holds where the guide follows the wall; its own bending shifts some of it between neighbours.
+    Ok(vec![Row::relative(
+        case,
+        "wall reaction per length N / R (N/m)",
+        expected,
+        got,
+        0.02,
+    )])
+}

@@ -1,0 +1,154 @@
+//! One run, sampled for comparison.
+
+use super::{NUDGES, StepErrorFailure};
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::state::translation;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::twin::Simulation;
+use flexdrill_core::units::n_to_kn;
+
+/// Contact forces are averaged over about this (s).
+const INTERVAL: f64 = 0.02;
+/// Model time between two readings of the whirl ratios (s): a whirl's window is longer, so more often tells no more.
+const WHIRL_EVERY: f64 = 0.5;
+
+/// What is run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Constant inputs; the weight is on before the start, so that the run begins at rest under it.
+    pub inputs: Inputs,
+    /// Model time after the static start (s).
+    pub duration: f64,
+    /// Time over which forces are averaged and after which the rest is sampled (s), a whole number of steps.
+    pub interval: f64,
+}
+
+impl Motion {
+    /// With intervals of some 20 ms that are whole numbers of `config`'s steps, and so of steps that are a whole part of them.
+    pub fn of(config: &Config, inputs: Inputs, duration: f64) -> Self {
+        let step = config.solver.time_step;
+        Self {
+            inputs,
+            duration,
+            interval: (INTERVAL / step).round().max(1.0) * step,
+        }
+    }
+}
+
+/// What is compared, sampled at the end of every interval. Stations of the layers: all of pipe-guide, then all of guide-wall.
+#[derive(Debug, Clone, Default)]
+pub struct Record {
+    /// rad/s.
+    pub bit_speed: Vec<f64>,
+    /// Both lateral coordinates of every joint (m).
+    pub positions: Vec<Vec<f64>>,
+    /// Normal forces, averaged over the interval (N).
+    pub forces: Vec<Vec<f64>>,
+    /// Root mean square of the normal forces after the run-up, the first quarter (N).
+    pub rms: Vec<f64>,
+    /// Mean whirl ratio over time and places, after the run-up.
+    pub whirl_ratio: f64,
+    /// Energy that the integration has gained or lost (J).
+    pub energy_error: f64,
+    /// Work of the drive (J).
+    pub drive_work: f64,
+    /// Newton iterations per second of model time.
+    pub iterations: f64,
+}
+
+impl Record {
+    /// Runs `config`; during the first interval the weight on bit is greater by `nudge` (N).
+    ///
+    /// # Errors
+    /// When the tool cannot be built or a step fails.
+    pub fn run(config: &Config, motion: &Motion, nudge: f64) -> Result<Self, StepErrorFailure> {
+        let step = config.solver.time_step;
+        let weight = motion.inputs.weight_on_bit;
+        let config = config.with_value("inputs.weight_on_bit.initial_kn", n_to_kn(weight))?;
+        let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
+        let per_interval = (motion.interval / step).round() as usize;
+        let intervals = (motion.duration / motion.interval).round() as usize;
+        let whirl_every = (WHIRL_EVERY / motion.interval).round().max(1.0) as usize;
+        let gaps = 2 * simulation.stepper().model().stations.len();
+        let mut record = Self {
+            rms: vec![0.0; gaps],
+            ..Self::default()
+        };
+        let mut snapshot = simulation.new_snapshot();
+        let mut ratios = (0.0, 0_u32);
+        for interval in 0..intervals {
+            let run_up = 4 * interval < intervals;
+            let mut mean = vec![0.0; gaps];
+            let inputs = Inputs {
+                weight_on_bit: weight + if interval == 0 { nudge } else { 0.0 },
+                ..motion.inputs
+            };
+            for _ in 0..per_interval {
+                if let StepOutcome::Failed(failure) = simulation.advance(&inputs) {
+                    return Err(StepErrorFailure::Step { step, failure });
+                }
+                let gaps = &simulation.stepper().newton().assembler;
+                for (k, touch) in gaps.inner.iter().chain(&gaps.outer).enumerate() {
+                    let normal = touch.map_or(0.0, |touch| touch.normal);
+                    mean[k] += normal / per_interval as f64;
+                    if !run_up {
+                        record.rms[k] += normal * normal / (per_interval * (intervals - intervals / 4)) as f64;
+                    }
+                }
+            }
+            record.sample(&simulation, mean);
+            if !run_up && interval % whirl_every == 0 {
+                simulation.snapshot(&mut snapshot, false);
+                for ratio in snapshot.whirl.whirl_ratio.iter().filter(|ratio| ratio.is_finite()) {
+                    ratios = (ratios.0 + ratio, ratios.1 + 1);
+                }
+            }
+        }
+        record.whirl_ratio = ratios.0 / f64::from(ratios.1.max(1));
+        record.rms.iter_mut().for_each(|square| *square = square.sqrt());
+        record.energy_error = simulation.stepper().audit().error;
+        record.drive_work = simulation.stepper().audit().drive;
+        record.iterations = simulation.stepper().counters().iterations as f64 / motion.duration;
+        Ok(record)
+    }
+
+    /// Three runs of `config`, nudged by [`NUDGES`].
+    ///
+    /// # Errors
+    /// As [`Record::run`].
+    pub fn runs(config: &Config, motion: &Motion) -> Result<[Self; 3], StepErrorFailure> {
+        let [a, b, c] = NUDGES.map(|nudge| Self::run(config, motion, nudge));
+        Ok([a?, b?, c?])
+    }
+
+    fn sample(&mut self, simulation: &Simulation, forces: Vec<f64>) {
+        let (model, state) = (simulation.stepper().model(), simulation.stepper().state());
+        let bit = model.stations[model.last()].pipe_above;
+        self.bit_speed.push(state.v[bit + 3]);
+        let joints = model
+            .joint_stations
+            .iter()
+            .map(|&s| translation(&state.q, model.stations[s].pipe_above));
+        self.positions.push(joints.flat_map(|at| [at.y, at.z]).collect());
+        self.forces.push(forces);
+    }
+
+    /// Root mean square of the bit speed about its mean after the run-up (rad/s).
+    pub fn ripple(&self) -> f64 {
+        let after = &self.bit_speed[self.bit_speed.len() / 4..];
+        let mean = after.iter().sum::<f64>() / after.len() as f64;
+        (after.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / after.len() as f64).sqrt()
+    }
+
+    /// Energy error over the drive's work.
+    pub fn energy_error_ratio(&self) -> f64 {
+        self.energy_error / self.drive_work
+    }
+
+    /// Where the gaps of the two layers stand in [`Record::forces`] and [`Record::rms`]: pipe-guide, guide-wall.
+    pub fn layers(&self) -> [std::ops::Range<usize>; 2] {
+        let stations = self.rms.len() / 2;
+        [0..stations, stations..2 * stations]
+    }
+}

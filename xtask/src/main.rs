@@ -1,0 +1,38 @@
+//! `cargo xtask`: generates what is checked in.
+
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::Parser;
+
+/// Generates files that are checked in. Tests hold them to what would be written.
+#[derive(Debug, Parser)]
+#[command(name = "xtask")]
+enum Task {
+    /// Writes src/messages/generated.rs from msg/ and src/messages/external/.
+    Messages {
+        /// Root of the repository.
+        #[arg(long, default_value = ".")]
+        root: PathBuf,
+    },
+    /// Writes the synthetic rig log of the demonstration, the same bytes every time.
+    DemoLog {
+        /// Where to.
+        #[arg(default_value = "config/field_logs/demo.csv")]
+        file: PathBuf,
+    },
+}
+
+fn main() -> anyhow::Result<()> {
+    match Task::parse() {
+        Task::Messages { root } => {
+            let path = xtask::messages::write(&root)?;
+            println!("wrote {}", path.display());
+        }
+        Task::DemoLog { file } => {
+            std::fs::write(&file, xtask::demo_log::demo_log()).with_context(|| format!("{}", file.display()))?;
+            println!("wrote {}", file.display());
+        }
+    }
+    Ok(())
+}
