@@ -11,7 +11,7 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::assembly::Assembler;
 use flexdrill_core::dynamics::outcome::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::linear::{CondensedElimination, LinearSolver, Operator, StationElimination};
+use flexdrill_core::linear::{BlockLu, CondensedElimination, LinearSolver, Operator};
 use flexdrill_core::twin::Simulation;
 use flexdrill_realtime::monotonic;
 

@@ -5,9 +5,10 @@ use hdrhistogram::Histogram;
 use super::super::progress::Progress;
 use super::figures::Figures;
 use flexdrill_config::Config;
+use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
-use flexdrill_core::dynamics::stepper::Counters;
+use flexdrill_core::dynamics::stepper::{Counters, SolverKind};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{Simulation, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
@@ -25,6 +26,8 @@ pub(super) struct Load {
     pub rpm: f64,
     /// kN, on from the static start.
     pub wob: f64,
+    /// Vector instructions to use.
+    pub instructions: Instructions,
 }
 
 /// What a run came to.
@@ -102,7 +105,12 @@ pub(super) fn run(
 ) -> anyhow::Result<Measured> {
     let config = config.with_value("inputs.weight_on_bit.initial_kn", load.wob)?;
     let began = monotonic::now();
-    let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
+    let mut simulation = Simulation::with_solver(
+        &config.tool(),
+        &config.simulation(),
+        SolverKind::default(),
+        load.instructions,
+    )?;
     let start = seconds(monotonic::now() - began);
     simulation.set_clock(monotonic::now);
     let time_step = simulation.settings().time_step;

@@ -20,8 +20,8 @@ use self::measure::{Load, Measured, percentiles};
 use super::WrongUse;
 use crate::ros::health::diagnostics::describe;
 use flexdrill_config::Config;
+use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
-use flexdrill_core::simd::instructions::Instructions;
 
 /// Runs a configuration at constant inputs as fast as it goes and prints its speed and its figures, as Markdown.
 #[derive(Debug, Args)]
@@ -71,13 +71,13 @@ enum Vectors {
 }
 
 impl Vectors {
-    fn instructions(self) -> Instructions {
+    const fn name(self) -> &'static str {
         match self {
-            Self::Portable => Instructions::Portable,
+            Self::Portable => "portable",
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => Instructions::Avx2,
+            Self::Avx2 => "avx2",
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => Instructions::Avx512,
+            Self::Avx512 => "avx512",
         }
     }
 }
@@ -140,17 +140,20 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
     {
         return Err(WrongUse::new(format!("--duration {duration}: a time above 0 s")).into());
     }
-    if let Some(vectors) = args.instructions {
-        let instructions = vectors.instructions();
-        if !instructions.available() {
-            return Err(WrongUse::new(format!("--instructions: this machine does not have {instructions:?}")).into());
-        }
-        instructions.limit();
-    }
     match args.cases {
         Some(cases) => run_cases(args, cases),
         None => run_plain(args),
     }
+}
+
+/// The vector instructions that are asked for, or the best that this machine has.
+fn instructions(args: &BenchArgs) -> anyhow::Result<Instructions> {
+    let Some(asked) = args.instructions else {
+        return Ok(Instructions::best());
+    };
+    Instructions::available()
+        .find(|instructions| instructions.name() == asked.name())
+        .ok_or_else(|| WrongUse::new(format!("--instructions: this machine does not have {}", asked.name())).into())
 }
 
 fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
@@ -164,11 +167,12 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
     let constant = Load {
         rpm: args.rpm,
         wob: args.wob,
+        instructions: instructions(args)?,
     };
     for case in cases.each() {
         let duration = args.duration.unwrap_or_else(|| case.usual_duration());
         let tables = match case {
-            Cases::RealTime => real_time::tables(&config, args.rpm, duration)?,
+            Cases::RealTime => real_time::tables(&config, constant, duration)?,
             Cases::StepError => step_error::tables(&named(args)?, args.rpm, duration)?,
             Cases::Scaling => scaling::tables(&config, constant, duration)?,
             Cases::Memory | Cases::All => memory::tables(&config, constant, duration)?,
@@ -211,6 +215,7 @@ fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
         let load = Load {
             rpm: args.rpm,
             wob: args.wob,
+            instructions: instructions(args)?,
         };
         let measured = measure::run(&config, load, duration, |_| {})?;
         print!("{}", figures_of(&measured).text());

@@ -11,7 +11,7 @@ use flexdrill_core::dynamics::phases::Phase;
 ///
 /// # Errors
 /// When a tool cannot be built. A failed step is a line of the table.
-pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result<String> {
+pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Result<String> {
     let mut speed = Table::new([
         "case",
         "real-time factor",
@@ -31,7 +31,7 @@ pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
     for case in CASES {
         eprintln!("{}: {duration} s of model time", case.name);
         let config = (case.changes)(config)?;
-        let measured = run(&config, Load { rpm, wob: case.wob }, duration, |_| {})?;
+        let measured = run(&config, Load { wob: case.wob, ..load }, duration, |_| {})?;
         speed.row(speed_row(case.name, &measured));
         let times = Phase::ALL.map(|phase| measured.phase(phase));
         let cells: Vec<String> = std::iter::once(case.name.to_owned())
@@ -53,7 +53,8 @@ pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
         }
     }
     Ok(format!(
-        "Each {duration} s of model time from rest, up to {rpm} r/min, one thread; {} links x {} elements, step {} ms, {}.\n\n{}{failures}\nMean processor time per step (us), shared out as the phases share the wall time:\n\n{}",
+        "Each {duration} s of model time from rest, up to {} r/min, one thread; {} links x {} elements, step {} ms, {}.\n\n{}{failures}\nMean processor time per step (us), shared out as the phases share the wall time:\n\n{}",
+        load.rpm,
         config.tool.links,
         config.tool.elements_per_link,
         1e3 * config.solver.time_step,

@@ -6,16 +6,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::assembly::{Assembler, inner_forces, outer_force};
+use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
+use crate::dynamics::contacts::{inner_forces, outer_force};
 use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::{State, joint_rotations};
 use crate::elements::element_form::{add, load};
 use crate::model::Model;
-use crate::simd::instructions::Instructions;
-#[cfg(target_arch = "x86_64")]
-use crate::simd::vector::{Avx2, Avx512};
-use crate::simd::vector::{Portable, Vector};
+use crate::simd::Kernel;
+use crate::simd::vector::Vector;
 use crate::tool::description::Direction;
 
 /// Forces and energies at one end of a step that the trapezoid rule needs at the other.
@@ -98,15 +97,12 @@ impl EnergyPoint {
 
     /// Evaluates at `state`, whose residual (reactions still in it) the assembler holds.
     pub fn evaluate(&mut self, model: &Model, state: &State, conditions: &Conditions, assembler: &Assembler) {
-        let mut stored = match assembler.instructions() {
-            Instructions::Portable => self.elements::<Portable>(model, state, conditions),
-            // SAFETY: chosen only where the processor was found to have these instructions.
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx2 => unsafe { self.elements_avx2(model, state, conditions) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx512 => unsafe { self.elements_avx512(model, state, conditions) },
-        };
+        let mut stored = assembler.instructions().run(ElementEnergies {
+            point: self,
+            model,
+            state,
+            conditions,
+        });
         for point in &model.masses {
             for k in 0..3 {
                 let u = point.unknown + k;
@@ -148,13 +144,30 @@ impl EnergyPoint {
         self.bit_torque = assembler.bit_torque;
         self.weight_on_bit = conditions.weight_on_bit;
     }
+}
 
-    /// Forces of the elements, and their kinetic energy. Returns the elastic and geometric energy.
+/// Forces of the elements and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
+struct ElementEnergies<'a> {
+    point: &'a mut EnergyPoint,
+    model: &'a Model,
+    state: &'a State,
+    conditions: &'a Conditions,
+}
+
+impl Kernel for ElementEnergies<'_> {
+    type Output = f64;
+
     #[inline(always)]
-    fn elements<V: Vector>(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
-        self.geometric.fill(0.0);
-        self.damping.fill(0.0);
-        self.inertia.fill(0.0);
+    fn run<V: Vector>(self) -> f64 {
+        let Self {
+            point,
+            model,
+            state,
+            conditions,
+        } = self;
+        point.geometric.fill(0.0);
+        point.damping.fill(0.0);
+        point.inertia.fill(0.0);
         let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
         let zero = V::splat(0.0);
         let (mut elastic, mut geometric, mut kinetic) = (zero, zero, zero);
@@ -181,26 +194,14 @@ impl EnergyPoint {
             let inert = forms.from_own(forms.mass.product(a));
             let (stretched, damped) = (forms.from_own(stretched), forms.from_own(damped));
             for n in 0..2 {
-                add(&mut self.geometric, nodes[n], stretched[n]);
-                add(&mut self.damping, nodes[n], damped[n]);
-                add(&mut self.inertia, nodes[n], inert[n]);
+                add(&mut point.geometric, nodes[n], stretched[n]);
+                add(&mut point.damping, nodes[n], damped[n]);
+                add(&mut point.inertia, nodes[n], inert[n]);
             }
         }
-        self.kinetic = 0.5 * sum(kinetic);
-        self.geometric_energy = 0.5 * sum(geometric);
-        0.5 * sum(elastic) + self.geometric_energy
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    fn elements_avx2(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
-        self.elements::<Avx2>(model, state, conditions)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-    fn elements_avx512(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
-        self.elements::<Avx512>(model, state, conditions)
+        point.kinetic = 0.5 * sum(kinetic);
+        point.geometric_energy = 0.5 * sum(geometric);
+        0.5 * sum(elastic) + point.geometric_energy
     }
 }
 
@@ -279,7 +280,7 @@ pub fn joint_violation(model: &Model, state: &State) -> (f64, f64) {
         let open = joint.upper * crate::dynamics::state::translation(&state.q, station.pipe_above)
             - joint.lower * crate::dynamics::state::translation(&state.q, station.pipe_below);
         worst.0 = worst.0.max(open.norm());
-        let rows = joint.rows(&joint_rotations(model, j, &state.q));
+        let rows = joint.law.rows(&joint_rotations(model, j, &state.q));
         worst.1 = rows.iter().fold(worst.1, |w, row| w.max(row.value.abs()));
     }
     worst

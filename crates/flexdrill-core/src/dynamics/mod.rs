@@ -2,15 +2,19 @@
 
 pub mod assembly;
 pub mod conditions;
+pub mod contacts;
 pub mod energy;
 pub mod halving;
+pub mod joints;
 pub mod newton;
 pub mod outcome;
 pub mod phases;
+pub mod residual;
 pub mod scheme;
 pub mod state;
 pub mod statics;
 pub mod stepper;
+pub mod tangent;
 
 pub use newton::Tolerances;
 pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};

@@ -1,14 +1,16 @@
 //! Newton-Raphson on displacements and multipliers together, Eq. 40 to 44, for one (sub-)step.
 
-use crate::dynamics::assembly::{Assembler, TangentFactors};
+use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::phases::Phase;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::elements::rotation::LARGEST_TILT;
+use crate::dynamics::tangent::TangentFactors;
+use crate::elements::joint::rotation::LARGEST_TILT;
 use crate::linear::{CondensedElimination, LinearSolver, Operator};
 use crate::model::Model;
+use crate::simd::Instructions;
 use crate::tool::description::Body;
 
 /// When an iterate is accepted.
@@ -73,7 +75,12 @@ fn key(factors: TangentFactors, conditions: &Conditions) -> Key {
 
 impl Newton {
     /// Room for `model`.
-    pub fn new(model: &Model, solver: Box<dyn LinearSolver>, tolerances: Tolerances) -> Self {
+    pub fn new(
+        model: &Model,
+        solver: Box<dyn LinearSolver>,
+        tolerances: Tolerances,
+        instructions: Instructions,
+    ) -> Self {
         let n = model.unknowns();
         let mut limits = vec![0.0; n];
         let mut multiplier = vec![false; n];
@@ -97,7 +104,7 @@ impl Newton {
             limits[unknown] = f64::INFINITY;
         }
         Self {
-            assembler: Assembler::new(model),
+            assembler: Assembler::new(model, instructions),
             solver,
             tolerances,
             condensed: None,
@@ -115,12 +122,12 @@ impl Newton {
         if self.condensed.as_ref().is_some_and(known) {
             return;
         }
-        let lasting = self.assembler.lasting(model, conditions, factors);
-        let Some(operator) = Operator::of(lasting, &model.joint_stations) else {
+        let step_constant = self.assembler.step_constant(model, conditions, factors);
+        let Some(operator) = Operator::of(step_constant, &model.joint_stations) else {
             return;
         };
         let condensed = self.condensed.get_or_insert_with(|| Condensed {
-            elimination: CondensedElimination::new(&model.layout, &model.joint_stations),
+            elimination: CondensedElimination::new(&model.layout, &model.joint_stations, self.assembler.instructions()),
             operators: Vec::new(),
         });
         condensed.operators.push((key, operator));

@@ -21,8 +21,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::assembly::TangentFactors;
 use crate::dynamics::state::State;
+use crate::dynamics::tangent::TangentFactors;
 
 /// Parameters of the scheme.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

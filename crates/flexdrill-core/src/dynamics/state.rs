@@ -3,8 +3,7 @@
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::elements::element_force::{Ends, ends, plus};
-use crate::elements::joint::JointVector;
+use crate::elements::joint::Rotations;
 use crate::model::Model;
 
 /// A node's six values.
@@ -64,28 +63,32 @@ impl State {
         self.drive_angle = other.drive_angle;
     }
 
-    /// Sets the axial forces for a step of size `h` to those that the velocities of `from` lead to at its end. Forces of the step before
+    /// Sets the axial forces for a step of size `h` (s) to those that the velocities of `from` lead to at its end. Forces of the step before
     /// would make the step one of first order.
     pub fn predict_axial(&mut self, model: &Model, from: &Self, h: f64) {
-        let ahead = |q: &Ends, v: &Ends| plus(q, h, v);
-        for (e, element) in model.pipe.iter().enumerate() {
-            let q = ahead(&pipe_element(model, e, &from.q), &pipe_element(model, e, &from.v));
-            self.pipe_axial[e] = element.force.tension(&q);
-        }
-        for (e, element) in model.guide.iter().enumerate() {
-            let q = ahead(&guide_element(model, e, &from.q), &guide_element(model, e, &from.v));
-            self.guide_axial[e] = element.force.tension(&element.turn.to_chord(&q));
-        }
+        self.set_axial(model, |unknown| from.q[unknown] + h * from.v[unknown]);
     }
 
-    /// Sets the lagged axial forces from the displacements.
+    /// Sets the axial forces to those of the displacements.
     pub fn update_axial(&mut self, model: &Model) {
-        for (e, element) in model.pipe.iter().enumerate() {
-            self.pipe_axial[e] = element.force.tension(&pipe_element(model, e, &self.q));
+        let q = std::mem::take(&mut self.q);
+        self.set_axial(model, |unknown| q[unknown]);
+        self.q = q;
+    }
+
+    /// Sets the axial forces to those of the displacements `q`, by unknown.
+    fn set_axial(&mut self, model: &Model, q: impl Fn(usize) -> f64) {
+        let ends = model.stations.windows(2);
+        for ((tension, element), ends) in self.pipe_axial.iter_mut().zip(&model.pipe).zip(ends.clone()) {
+            *tension = element.beam.tension(q(ends[1].pipe_above) - q(ends[0].pipe_below));
         }
-        for (e, element) in model.guide.iter().enumerate() {
-            let q = element.turn.to_chord(&guide_element(model, e, &self.q));
-            self.guide_axial[e] = element.force.tension(&q);
+        for ((tension, element), ends) in self.guide_axial.iter_mut().zip(&model.guide).zip(ends) {
+            // Displacement along the chord, from those along and across in the node's frame.
+            let along = |n: usize| {
+                let (r, node) = (&element.rotation[n], ends[n].guide);
+                r[(0, 0)] * q(node) + r[(0, 2)] * q(node + 2)
+            };
+            *tension = element.beam.tension(along(1) - along(0));
         }
     }
 }
@@ -102,24 +105,17 @@ pub fn translation(values: &[f64], first: usize) -> Vector3<f64> {
     Vector3::new(values[first], values[first + 1], values[first + 2])
 }
 
-/// Nodal values of pipe element `e`.
-#[inline]
-pub fn pipe_element(model: &Model, e: usize, values: &[f64]) -> Ends {
-    ends(values, model.stations[e].pipe_below, model.stations[e + 1].pipe_above)
-}
-
-/// Nodal values of guide element `e`, in the nodes' frames.
-#[inline]
-pub fn guide_element(model: &Model, e: usize, values: &[f64]) -> Ends {
-    ends(values, model.stations[e].guide, model.stations[e + 1].guide)
-}
-
 /// The six rotational values of joint `joint`.
 #[inline]
-pub fn joint_rotations(model: &Model, joint: usize, values: &[f64]) -> JointVector {
+pub fn joint_rotations(model: &Model, joint: usize, values: &[f64]) -> Rotations {
     let station = &model.stations[model.joint_stations[joint]];
-    let mut x = JointVector::zeros();
-    x.as_mut_slice()[..3].copy_from_slice(&values[station.pipe_above + 3..station.pipe_above + 6]);
-    x.as_mut_slice()[3..].copy_from_slice(&values[station.pipe_below + 3..station.pipe_below + 6]);
-    x
+    let (a, b) = (station.pipe_above, station.pipe_below);
+    [
+        values[a + 3],
+        values[a + 4],
+        values[a + 5],
+        values[b + 3],
+        values[b + 4],
+        values[b + 5],
+    ]
 }

@@ -12,8 +12,9 @@ use crate::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::linear::{LinearSolver, SparseReference, StationElimination};
+use crate::linear::{BlockLu, LinearSolver, SparseReference};
 use crate::model::{Model, ModelError};
+use crate::simd::Instructions;
 use crate::tool::description::{Direction, LiveParameters, ToolDescription};
 
 /// Inputs over one step: both change linearly from its start to its end.
@@ -105,13 +106,14 @@ impl Stepper {
         tolerances: Tolerances,
         max_halvings: u32,
         kind: SolverKind,
+        instructions: Instructions,
     ) -> Result<Self, ModelError> {
         let model = Model::new(description)?;
         let solver: Box<dyn LinearSolver> = match kind {
-            SolverKind::Stations => Box::new(StationElimination::new(&model.layout)),
+            SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
             SolverKind::SparseReference => Box::new(SparseReference::default()),
         };
-        let newton = Newton::new(&model, solver, tolerances);
+        let newton = Newton::new(&model, solver, tolerances, instructions);
         let state = State::at_rest(&model);
         let energy = EnergyPoint::new(&model);
         Ok(Self {

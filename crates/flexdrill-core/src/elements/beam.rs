@@ -4,8 +4,9 @@
 //! those of Eq. 4 with its misprint in the (w, phi_y1) entry corrected to -(1 - 2 xi + xi^2) xi l; H of Eq. 6 takes second
 //! derivatives in the bending rows. The torsional inertia is rho I_x (Eq. 5 prints rho A in every row).
 //!
-//! The four motions of a straight symmetric beam do not couple, so products with the element's matrices are written
-//! motion by motion; [`ElementMatrix`] gives the same as full 12 x 12 matrices for the assembly.
+//! The four motions of a straight symmetric beam (stretch, twist, bending in x-y and in x-z) do not couple, so each matrix is one of a rod
+//! twice and one of a bending beam twice. They are written here once, as the integrals come out; what runs is made from them
+//! ([`crate::elements::element_form`]), and a test holds them to the integrals of Eq. 5 and 6 themselves.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -25,78 +26,62 @@ pub struct Beam {
     pub length: f64,
 }
 
-/// (deflection, slope, deflection, slope) entries of the bending motion in the x-y plane.
-const BEND_V: [usize; 4] = [1, 5, 7, 11];
-/// The same in the x-z plane, where the slope is -phi_y.
-const BEND_W: [usize; 4] = [2, 4, 8, 10];
+/// Symmetric matrix of a rod over the values of its two ends.
+type RodMatrix = [[f64; 2]; 2];
+/// Symmetric matrix of bending in one plane over (deflection, slope) of its two ends.
+type BendingMatrix = [[f64; 4]; 4];
 
 impl Beam {
-    /// K q: elastic force of Eq. 6 (N, N m).
-    pub fn stiffness_times(&self, q: &ElementVector) -> ElementVector {
+    /// K of Eq. 6 (N/m, N, N m/rad).
+    pub fn stiffness(&self) -> ElementMatrix {
         let l = self.length;
-        let mut f = ElementVector::zeros();
-        let axial = self.section.axial / l * (q[6] - q[0]);
-        let torque = self.section.torsion / l * (q[9] - q[3]);
-        f[0] = -axial;
-        f[6] = axial;
-        f[3] = -torque;
-        f[9] = torque;
-        let c = self.section.bending / (l * l * l);
-        for (at, sign) in [(BEND_V, 1.0), (BEND_W, -1.0)] {
-            // In terms of the rotation of the chord, so that a rigid motion cancels before it is multiplied.
-            let chord = q[at[2]] - q[at[0]];
-            let (s1, s2) = (sign * l * q[at[1]], sign * l * q[at[3]]);
-            let shear = c * (12.0 * chord - 6.0 * (s1 + s2));
-            f[at[0]] = -shear;
-            f[at[2]] = shear;
-            f[at[1]] = sign * c * l * (4.0 * s1 + 2.0 * s2 - 6.0 * chord);
-            f[at[3]] = sign * c * l * (2.0 * s1 + 4.0 * s2 - 6.0 * chord);
-        }
-        f
+        let rod = |stiffness: f64| scaled(stiffness / l, [[1.0, -1.0], [-1.0, 1.0]]);
+        let bending = scaled(
+            self.section.bending / (l * l * l),
+            [
+                [12.0, 6.0 * l, -12.0, 6.0 * l],
+                [6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l],
+                [-12.0, -6.0 * l, 12.0, -6.0 * l],
+                [6.0 * l, 2.0 * l * l, -6.0 * l, 4.0 * l * l],
+            ],
+        );
+        element(rod(self.section.axial), rod(self.section.torsion), bending)
     }
 
-    /// M a: consistent inertia force of Eq. 5 (N, N m).
-    pub fn mass_times(&self, a: &ElementVector) -> ElementVector {
+    /// M of Eq. 5, consistent (kg, kg m, kg m2).
+    pub fn mass(&self) -> ElementMatrix {
         let l = self.length;
-        let mut f = ElementVector::zeros();
-        let m = self.section.mass * l / 6.0;
-        f[0] = m * (2.0 * a[0] + a[6]);
-        f[6] = m * (a[0] + 2.0 * a[6]);
-        let j = self.section.spin_inertia * l / 6.0;
-        f[3] = j * (2.0 * a[3] + a[9]);
-        f[9] = j * (a[3] + 2.0 * a[9]);
-        let c = self.section.mass * l / 420.0;
-        for (at, sign) in [(BEND_V, 1.0), (BEND_W, -1.0)] {
-            let (d1, d2) = (a[at[0]], a[at[2]]);
-            let (s1, s2) = (sign * l * a[at[1]], sign * l * a[at[3]]);
-            f[at[0]] = c * (156.0 * d1 + 22.0 * s1 + 54.0 * d2 - 13.0 * s2);
-            f[at[2]] = c * (54.0 * d1 + 13.0 * s1 + 156.0 * d2 - 22.0 * s2);
-            f[at[1]] = sign * l * c * (22.0 * d1 + 4.0 * s1 + 13.0 * d2 - 3.0 * s2);
-            f[at[3]] = sign * l * c * (-13.0 * d1 - 3.0 * s1 - 22.0 * d2 + 4.0 * s2);
-        }
-        f
+        let rod = |inertia: f64| scaled(inertia * l / 6.0, [[2.0, 1.0], [1.0, 2.0]]);
+        let bending = scaled(
+            self.section.mass * l / 420.0,
+            [
+                [156.0, 22.0 * l, 54.0, -13.0 * l],
+                [22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l],
+                [54.0, 13.0 * l, 156.0, -22.0 * l],
+                [-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l],
+            ],
+        );
+        element(rod(self.section.mass), rod(self.section.spin_inertia), bending)
     }
 
-    /// G q: lateral force per unit of axial tension, the geometric part of K_T in Eq. 41 (times N for the force).
-    pub fn geometric_times(&self, q: &ElementVector) -> ElementVector {
+    /// G, the geometric part of K_T in Eq. 41 per unit of axial tension (1/m, -, m): G N q are the lateral forces of a tension N.
+    pub fn geometric(&self) -> ElementMatrix {
         let l = self.length;
-        let mut f = ElementVector::zeros();
-        let c = 1.0 / (30.0 * l);
-        for (at, sign) in [(BEND_V, 1.0), (BEND_W, -1.0)] {
-            let chord = q[at[2]] - q[at[0]];
-            let (s1, s2) = (sign * l * q[at[1]], sign * l * q[at[3]]);
-            let shear = c * (36.0 * chord - 3.0 * (s1 + s2));
-            f[at[0]] = -shear;
-            f[at[2]] = shear;
-            f[at[1]] = sign * l * c * (4.0 * s1 - s2 - 3.0 * chord);
-            f[at[3]] = sign * l * c * (4.0 * s2 - s1 - 3.0 * chord);
-        }
-        f
+        let bending = scaled(
+            1.0 / (30.0 * l),
+            [
+                [36.0, 3.0 * l, -36.0, 3.0 * l],
+                [3.0 * l, 4.0 * l * l, -3.0 * l, -l * l],
+                [-36.0, -3.0 * l, 36.0, -3.0 * l],
+                [3.0 * l, -l * l, -3.0 * l, 4.0 * l * l],
+            ],
+        );
+        element([[0.0; 2]; 2], [[0.0; 2]; 2], bending)
     }
 
-    /// Axial force in the element, tension positive (N).
-    pub fn axial_force(&self, q: &ElementVector) -> f64 {
-        self.section.axial / self.length * (q[6] - q[0])
+    /// Axial force at an elongation (m), tension positive (N).
+    pub fn tension(&self, elongation: f64) -> f64 {
+        self.section.axial / self.length * elongation
     }
 
     /// Consistent nodal forces of an acceleration field `g` (m/s2) in the element's frame.
@@ -119,31 +104,31 @@ impl Beam {
             -couple * g[1],
         ])
     }
-
-    /// K as a full matrix.
-    pub fn stiffness(&self) -> ElementMatrix {
-        columns(|q| self.stiffness_times(q))
-    }
-
-    /// M as a full matrix.
-    pub fn mass(&self) -> ElementMatrix {
-        columns(|q| self.mass_times(q))
-    }
-
-    /// G as a full matrix.
-    pub fn geometric(&self) -> ElementMatrix {
-        columns(|q| self.geometric_times(q))
-    }
 }
 
-fn columns(product: impl Fn(&ElementVector) -> ElementVector) -> ElementMatrix {
-    let mut matrix = ElementMatrix::zeros();
-    for j in 0..12 {
-        let mut unit = ElementVector::zeros();
-        unit[j] = 1.0;
-        matrix.set_column(j, &product(&unit));
+fn scaled<const N: usize>(factor: f64, matrix: [[f64; N]; N]) -> [[f64; N]; N] {
+    matrix.map(|row| row.map(|x| factor * x))
+}
+
+/// The element's matrix from those of its motions: (u), (psi), (v, phi_z) and (w, -phi_y).
+fn element(stretch: RodMatrix, twist: RodMatrix, bending: BendingMatrix) -> ElementMatrix {
+    let mut out = ElementMatrix::zeros();
+    for (places, rod) in [([0, 6], stretch), ([3, 9], twist)] {
+        for i in 0..2 {
+            for j in 0..2 {
+                out[(places[i], places[j])] = rod[i][j];
+            }
+        }
     }
-    matrix
+    for (places, slope) in [([1, 5, 7, 11], 1.0), ([2, 4, 8, 10], -1.0)] {
+        let signs = [1.0, slope, 1.0, slope];
+        for i in 0..4 {
+            for j in 0..4 {
+                out[(places[i], places[j])] = signs[i] * signs[j] * bending[i][j];
+            }
+        }
+    }
+    out
 }
 
 #[cfg(test)]
@@ -167,6 +152,78 @@ mod tests {
         }
     }
 
+    /// Rows of N, Eq. 4, over the twelve nodal values: (u, v, w, psi) at xi = x / l, with the (w, phi_y1) entry corrected.
+    fn shape_functions(xi: f64, l: f64) -> [[f64; 12]; 4] {
+        let (c1, c2) = (
+            1.0 - 3.0 * xi * xi + 2.0 * xi * xi * xi,
+            3.0 * xi * xi - 2.0 * xi * xi * xi,
+        );
+        let (s1, s2) = ((1.0 - 2.0 * xi + xi * xi) * xi * l, (-xi * xi + xi * xi * xi) * l);
+        let mut n = [[0.0; 12]; 4];
+        (n[0][0], n[0][6]) = (1.0 - xi, xi);
+        (n[1][1], n[1][5], n[1][7], n[1][11]) = (c1, s1, c2, s2);
+        (n[2][2], n[2][4], n[2][8], n[2][10]) = (c1, -s1, c2, -s2);
+        (n[3][3], n[3][9]) = (1.0 - xi, xi);
+        n
+    }
+
+    /// `order` derivatives in x of [`shape_functions`], by central differences that are exact for cubics.
+    fn derivative(xi: f64, l: f64, order: usize) -> [[f64; 12]; 4] {
+        let h = 0.25;
+        let at = |by: f64| shape_functions(xi + by * h, l);
+        let mut out = [[0.0; 12]; 4];
+        for i in 0..4 {
+            for j in 0..12 {
+                let f = |by: f64| at(by)[i][j];
+                out[i][j] = match order {
+                    1 => (8.0 * (f(1.0) - f(-1.0)) - (f(2.0) - f(-2.0))) / (12.0 * h * l),
+                    _ => (f(1.0) - 2.0 * f(0.0) + f(-1.0)) / (h * h * l * l),
+                };
+            }
+        }
+        out
+    }
+
+    /// Integral over the element of the sum of weight_i row_i^T row_i, by four Gauss points: exact up to the seventh power.
+    fn integral(l: f64, weights: [f64; 4], rows: impl Fn(f64) -> [[f64; 12]; 4]) -> ElementMatrix {
+        let (near, far) = (0.339_981_043_584_856_3, 0.861_136_311_594_052_6);
+        let (heavy, light) = (0.652_145_154_862_546_1, 0.347_854_845_137_453_9);
+        let mut out = ElementMatrix::zeros();
+        for (point, share) in [(-far, light), (-near, heavy), (near, heavy), (far, light)] {
+            for (row, weight) in rows(0.5 * (1.0 + point)).iter().zip(weights) {
+                let row = ElementVector::from_column_slice(row);
+                out += row * row.transpose() * (0.5 * l * share * weight);
+            }
+        }
+        out
+    }
+
+    #[test]
+    fn matrices_are_the_integrals_of_the_paper() {
+        let b = beam();
+        let (s, l) = (b.section, b.length);
+        let mass = integral(l, [s.mass, s.mass, s.mass, s.spin_inertia], |xi| shape_functions(xi, l));
+        // H of Eq. 6: first derivatives of u and psi, second ones of v and w.
+        let stiffness = integral(l, [s.axial, 0.0, 0.0, s.torsion], |xi| derivative(xi, l, 1))
+            + integral(l, [0.0, s.bending, s.bending, 0.0], |xi| derivative(xi, l, 2));
+        let geometric = integral(l, [0.0, 1.0, 1.0, 0.0], |xi| derivative(xi, l, 1));
+        for (printed, integrated) in [(b.mass(), mass), (b.stiffness(), stiffness), (b.geometric(), geometric)] {
+            for i in 0..12 {
+                for j in 0..12 {
+                    // Entry by entry against its own row's and column's size, since units differ; differences cost three digits.
+                    let scale = (printed[(i, i)] * printed[(j, j)]).sqrt().max(f64::MIN_POSITIVE);
+                    let off = (printed[(i, j)] - integrated[(i, j)]).abs();
+                    assert!(
+                        off < 1e-12 * scale,
+                        "({i}, {j}): {} {}",
+                        printed[(i, j)],
+                        integrated[(i, j)]
+                    );
+                }
+            }
+        }
+    }
+
     #[test]
     fn rigid_motions_need_no_force() {
         let b = beam();
@@ -186,7 +243,7 @@ mod tests {
         let scale = b.stiffness().amax() * 0.01;
         for q in motions {
             // Rounding of the largest entry.
-            assert!(b.stiffness_times(&q).amax() < 1e-14 * scale, "{q}");
+            assert!((b.stiffness() * q).amax() < 1e-14 * scale, "{q}");
         }
     }
 
@@ -200,7 +257,7 @@ mod tests {
             let mut rigid = ElementVector::zeros();
             rigid[d] = 1.0;
             rigid[d + 6] = 1.0;
-            let total = rigid.dot(&b.mass_times(&rigid));
+            let total = rigid.dot(&(b.mass() * rigid));
             assert!((total / (b.section.mass * b.length) - 1.0).abs() < 1e-14);
         }
     }
@@ -211,7 +268,7 @@ mod tests {
         let slope = 1e-3;
         let mut q = ElementVector::zeros();
         (q[5], q[11], q[7]) = (slope, slope, slope * b.length);
-        let f = b.geometric_times(&q);
+        let f = b.geometric() * q;
         // A rigid tilt turns the tension: transverse end forces +-slope, no couples.
         assert!((f[7] - slope).abs() < 1e-15 && (f[1] + slope).abs() < 1e-15);
         assert!(f[5].abs() < 1e-15 && f[11].abs() < 1e-15);

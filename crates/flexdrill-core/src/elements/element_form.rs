@@ -3,8 +3,9 @@
 //! In its own frame an element couples u with u, psi with psi and, in each bending plane, a deflection with a slope: (v, phi_z) and
 //! (w, phi_y). So every 6 x 6 part of its matrices is a diagonal and an anti-diagonal over 1..=5, and a product is two products by entry.
 
+use nalgebra::Matrix3;
+
 use crate::elements::beam::{Beam, ElementMatrix};
-use crate::elements::element_force::PlanarTurn;
 use crate::simd::vector::{Vector, part};
 
 /// A node's six values (u, v, w, psi, phi_y, phi_z) and two that do not count.
@@ -117,8 +118,9 @@ pub struct LaneTurn {
 }
 
 impl LaneTurn {
-    fn of(turn: &PlanarTurn) -> Self {
-        let each = |make: fn([f64; 2]) -> Lanes| turn.nodes().map(make);
+    /// Of the rotations of both nodes' frames into the chord's, Eq. 8: turns about y, since wells lie in a plane.
+    fn of(rotation: &[Matrix3<f64>; 2]) -> Self {
+        let each = |make: fn([f64; 2]) -> Lanes| rotation.map(|r| make([r[(0, 0)], r[(0, 2)]]));
         Self {
             direct: each(|[cos, _]| [cos, 1.0, cos, cos, 1.0, cos, 0.0, 0.0]),
             crossed: each(|[_, sin]| [sin, 0.0, -sin, sin, 0.0, -sin, 0.0, 0.0]),
@@ -171,7 +173,7 @@ pub struct ElementForms {
 
 impl ElementForms {
     /// Of `beam`, between node frames that `turn` takes to its own.
-    pub fn of(beam: &Beam, turn: Option<&PlanarTurn>) -> Self {
+    pub fn of(beam: &Beam, turn: Option<&[Matrix3<f64>; 2]>) -> Self {
         Self {
             stiffness: ElementForm::of(&beam.stiffness()),
             mass: ElementForm::of(&beam.mass()),
@@ -314,7 +316,7 @@ mod tests {
     fn a_turn_is_the_rotation_about_y() {
         let rotation =
             [0.2_f64, -0.3].map(|angle| *Rotation3::from_axis_angle(&nalgebra::Vector3::y_axis(), angle).matrix());
-        let turn = LaneTurn::of(&PlanarTurn::of(&rotation));
+        let turn = LaneTurn::of(&rotation);
         let x = values(0.7);
         let stored = |v: Both<Portable>| {
             let mut out = [[0.0; 8]; 2];

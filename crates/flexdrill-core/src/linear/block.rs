@@ -3,24 +3,23 @@
 //! Every inner loop runs over a whole column of fixed length (entries that must not change get a zero multiplier), so that it becomes a
 //! few vector instructions. Eliminating above and below the pivot at once needs no second sweep over the right-hand sides.
 
+use crate::simd::vector::Vector;
+
 /// The diagonal entry is the pivot unless a candidate is larger by more than this. Stiffness and inertia dominate their own equations, so
 /// exchanges are rare; the factor leaves room for the different units of displacements and rotations (forces against couples over an
 /// element's length of centimetres).
 pub const PIVOT_RATIO: f64 = 1e-3;
 
-/// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. `FUSED` uses fused multiply-add, which is fast only where the
-/// processor has it. The last column of `b` is full; of the others, only the first `active(k)` have entries in rows 0 to k.
+/// Solves `a x = b` for all columns of `b` in place; `a` is destroyed.
 ///
 /// # Errors
 /// The size of the largest available pivot when it is zero or not a number.
 #[inline(always)]
-pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
+pub fn solve_columns<V: Vector, const N: usize, const C: usize>(
     a: &mut [[f64; N]; N],
     b: &mut [[f64; N]; C],
-    active: impl Fn(usize) -> usize,
 ) -> Result<(), f64> {
     let mut reciprocals = [0.0; N];
-    let mut exchanged = false;
     for k in 0..N {
         let size = a[k][k].abs();
         let mut small = size.is_nan() | (size == 0.0);
@@ -29,7 +28,6 @@ pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
         }
         if small {
             exchange(k, a, b)?;
-            exchanged = true;
         }
         let reciprocal = 1.0 / a[k][k];
         reciprocals[k] = reciprocal;
@@ -37,15 +35,9 @@ pub fn solve_columns<const N: usize, const C: usize, const FUSED: bool>(
         for r in 0..N {
             multipliers[r] = if r == k { 0.0 } else { a[k][r] * reciprocal };
         }
-        for column in a[k + 1..].iter_mut() {
-            subtract::<N, FUSED>(column, &multipliers, column[k]);
+        for column in a[k + 1..].iter_mut().chain(b.iter_mut()) {
+            subtract::<V, N>(column, &multipliers, column[k]);
         }
-        let active = if exchanged { C - 1 } else { active(k).min(C - 1) };
-        for column in b[..active].iter_mut() {
-            subtract::<N, FUSED>(column, &multipliers, column[k]);
-        }
-        let column = &mut b[C - 1];
-        subtract::<N, FUSED>(column, &multipliers, column[k]);
     }
     for column in b.iter_mut() {
         for r in 0..N {
@@ -86,24 +78,24 @@ pub fn exchange<const N: usize, const K: usize, const C: usize>(
 
 /// out -= a x, for a C-column `a` and a vector `x`.
 #[inline(always)]
-pub fn subtract_product<const N: usize, const C: usize, const FUSED: bool>(
+pub fn subtract_product<V: Vector, const N: usize, const C: usize>(
     out: &mut [f64; N],
     a: &[[f64; N]; C],
     x: &[f64; C],
 ) {
     for (column, &scale) in a.iter().zip(x) {
-        subtract::<N, FUSED>(out, column, scale);
+        subtract::<V, N>(out, column, scale);
     }
 }
 
-/// column -= other scale.
+/// column -= other scale, each product and difference rounded once together where the machine does that.
 #[inline(always)]
-pub fn subtract<const N: usize, const FUSED: bool>(column: &mut [f64; N], other: &[f64; N], scale: f64) {
-    for r in 0..N {
-        column[r] = if FUSED {
-            other[r].mul_add(-scale, column[r])
+fn subtract<V: Vector, const N: usize>(column: &mut [f64; N], other: &[f64; N], scale: f64) {
+    for (x, y) in column.iter_mut().zip(other) {
+        *x = if V::FUSED {
+            y.mul_add(-scale, *x)
         } else {
-            column[r] - other[r] * scale
+            *x - y * scale
         };
     }
 }
@@ -111,13 +103,14 @@ pub fn subtract<const N: usize, const FUSED: bool>(column: &mut [f64; N], other:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simd::vector::Portable;
 
     #[test]
     fn a_block_that_needs_pivoting_is_solved() {
         // Zero diagonal: fails without pivoting. x = (3, 1, 2) by hand.
         let mut a = [[0.0, 1.0, 2.0], [2.0, 0.0, 1.0], [1.0, 4.0, 0.0]];
         let mut b = [[4.0, 11.0, 7.0]];
-        solve_columns::<3, 1, false>(&mut a, &mut b, |_| 0).unwrap();
+        solve_columns::<Portable, 3, 1>(&mut a, &mut b).unwrap();
         for (x, expected) in b[0].iter().zip([3.0, 1.0, 2.0]) {
             assert!((x - expected).abs() < 1e-14);
         }
@@ -128,7 +121,7 @@ mod tests {
         // The first column of b has no entry in its first row until the exchange brings one there. x = (5, 0) and (1, 2) by hand.
         let mut a = [[0.0, 2.0], [-1.0, 4.0]];
         let mut b = [[0.0, 10.0], [-2.0, 10.0]];
-        solve_columns::<2, 2, false>(&mut a, &mut b, |k| k).unwrap();
+        solve_columns::<Portable, 2, 2>(&mut a, &mut b).unwrap();
         for (column, expected) in b.iter().zip([[5.0, 0.0], [1.0, 2.0]]) {
             assert!((column[0] - expected[0]).abs() < 1e-14 && (column[1] - expected[1]).abs() < 1e-14);
         }
@@ -138,13 +131,13 @@ mod tests {
     fn a_singular_block_is_an_error() {
         let mut a = [[1.0, 2.0], [2.0, 4.0]];
         let mut b = [[1.0, 1.0]];
-        assert!(solve_columns::<2, 1, false>(&mut a, &mut b, |_| 0).is_err());
+        assert!(solve_columns::<Portable, 2, 1>(&mut a, &mut b).is_err());
     }
 
     #[test]
     fn a_block_that_is_not_a_number_is_an_error() {
         let mut a = [[f64::NAN, 2.0], [2.0, 4.0]];
         let mut b = [[1.0, 1.0]];
-        assert!(solve_columns::<2, 1, false>(&mut a, &mut b, |_| 0).is_err());
+        assert!(solve_columns::<Portable, 2, 1>(&mut a, &mut b).is_err());
     }
 }

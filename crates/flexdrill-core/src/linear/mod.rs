@@ -5,19 +5,19 @@
 //! padding).
 
 mod block;
+mod block_lu;
 mod changes;
 mod condensed;
-mod elimination;
 mod reduction;
 mod sparse;
 mod system;
 
+pub use block_lu::BlockLu;
 pub use changes::{Changes, ContactBlock, JointChange, Touching};
 pub use condensed::{CondensedElimination, Operator};
-pub use elimination::StationElimination;
 pub use sparse::SparseReference;
 pub(super) use system::add_columns;
-pub use system::{BlockSystem, Coupling, Diagonal, JOINT_BLOCK, Layout, PLAIN_BLOCK};
+pub use system::{BlockSystem, Layout};
 
 /// A pivot vanished: the system has no unique solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,3 +36,6 @@ pub trait LinearSolver: Send {
     /// When a block cannot be factorised.
     fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular>;
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,8 +4,6 @@
 //! to those of u_a cancels the three translational multipliers. Order of the 16: rotations of a, u_a, rotations of b, guide,
 //! rotational multiplier; what couples to the next station comes late, so that its columns enter the elimination late.
 
-use super::block::subtract;
-
 /// Unknowns left.
 pub const REDUCED: usize = 16;
 /// Columns of the coupling to the next station with entries in rows 0 to k of the reduced block: the pipe's begin at u_a, the guide's at
@@ -32,16 +30,13 @@ type Block = [[f64; 24]; 24];
 pub struct Reduction {
     /// P by columns.
     pub turn: [[f64; 3]; 3],
-    /// c.
-    offset: [f64; 3],
     /// E_b / s, by columns, with the sign of its entries: gives the multipliers from the rows of u_b.
     pub recover: [[f64; 3]; 3],
 }
 
 impl Reduction {
-    /// The reduction of a joint station with the right-hand side `rhs` (24 values), or `None` if the block does not have the form.
-    #[inline(always)]
-    pub fn of(block: &Block, rhs: &[f64]) -> Option<Self> {
+    /// The reduction of a joint station, or `None` if the block does not have the form.
+    pub fn of(block: &Block) -> Option<Self> {
         if block[22][22] != 1.0 || block[23][23] != 1.0 {
             return None;
         }
@@ -64,17 +59,14 @@ impl Reduction {
             return None;
         }
         let scale = 1.0 / square;
-        let r = [rhs[18], rhs[19], rhs[20]];
         let mut reduction = Self {
             turn: [[0.0; 3]; 3],
-            offset: [0.0; 3],
             recover: below,
         };
         for (i, below) in below.iter().enumerate() {
             for (turn, above) in reduction.turn.iter_mut().zip(&above) {
                 turn[i] = -scale * dot(below, above);
             }
-            reduction.offset[i] = scale * dot(below, &r);
         }
         reduction.recover.iter_mut().flatten().for_each(|x| *x *= scale);
         Some(reduction)
@@ -111,88 +103,18 @@ impl Reduction {
         out
     }
 
-    /// Reduced block and right-hand side.
-    #[inline(always)]
-    pub fn reduce<const FUSED: bool>(
-        &self,
-        block: &Block,
-        rhs: &[f64; 24],
-        reduced: &mut [[f64; REDUCED]; REDUCED],
-        reduced_rhs: &mut [f64; REDUCED],
-    ) {
-        for (out, place) in reduced.iter_mut().zip(PLACES) {
-            *out = self.rows(&block[place]);
-        }
-        *reduced_rhs = self.rows(rhs);
+    /// The reduced block.
+    pub fn reduce(&self, block: &Block) -> [[f64; REDUCED]; REDUCED] {
+        let mut reduced = PLACES.map(|place| self.rows(&block[place]));
         for k in 0..3 {
             let column = self.rows(&block[12 + k]);
             for j in 0..3 {
-                subtract::<REDUCED, FUSED>(&mut reduced[U + j], &column, -self.turn[j][k]);
+                for (x, y) in reduced[U + j].iter_mut().zip(&column) {
+                    *x += y * self.turn[j][k];
+                }
             }
-            subtract::<REDUCED, FUSED>(reduced_rhs, &column, self.offset[k]);
         }
-    }
-
-    /// Reduced rows of a column of the pipe's coupling to the next station.
-    #[inline(always)]
-    pub fn pipe_coupling(&self, column: &[f64; 6]) -> [f64; REDUCED] {
-        let mut out = [0.0; REDUCED];
-        out[U..ROTATIONS].copy_from_slice(&self.turned_back([column[0], column[1], column[2]]));
-        out[ROTATIONS..GUIDE].copy_from_slice(&column[3..]);
-        out
-    }
-
-    /// Reduced rows of a column of the guide's coupling.
-    #[inline(always)]
-    pub fn guide_coupling(&self, column: &[f64; 6]) -> [f64; REDUCED] {
-        let mut out = [0.0; REDUCED];
-        out[GUIDE..GUIDE + 6].copy_from_slice(column);
-        out
-    }
-
-    /// Outgoing unknowns (node b, guide) of a reduced solution column, without c.
-    #[inline(always)]
-    pub fn outgoing(&self, x: &[f64; REDUCED]) -> [f64; 12] {
-        let mut out = [0.0; 12];
-        out[..3].copy_from_slice(&self.turned([x[U], x[U + 1], x[U + 2]]));
-        out[3..].copy_from_slice(&x[ROTATIONS..GUIDE + 6]);
-        out
-    }
-
-    /// Adds c to the outgoing unknowns.
-    #[inline(always)]
-    pub fn add_offset(&self, outgoing: &mut [f64; 12]) {
-        outgoing.iter_mut().zip(&self.offset).for_each(|(x, c)| *x += c);
-    }
-
-    /// All 24 unknowns from the reduced ones, `x`, with the right-hand side `rhs` of the full station in the same place. `upper` is
-    /// the pipe's coupling to the next station, whose unknowns are `below`.
-    #[inline(always)]
-    pub fn expand<const FUSED: bool>(
-        &self,
-        block: &Block,
-        x: &[f64; REDUCED],
-        upper: &[[f64; 6]; 6],
-        below: &[f64; 12],
-        rhs: &mut [f64],
-    ) {
-        let mut rest = [rhs[12], rhs[13], rhs[14]];
-        for (place, &x) in PLACES.into_iter().zip(x) {
-            rhs[place] = x;
-        }
-        let mut outgoing = self.outgoing(x);
-        self.add_offset(&mut outgoing);
-        rhs[12..15].copy_from_slice(&outgoing[..3]);
-        // The rows of u_b: what the other unknowns leave is the multipliers' part.
-        for (j, column) in block.iter().enumerate().take(18).chain([(21, &block[21])]) {
-            subtract::<3, FUSED>(&mut rest, &[column[12], column[13], column[14]], rhs[j]);
-        }
-        for (column, &x) in upper.iter().zip(below) {
-            subtract::<3, FUSED>(&mut rest, &[column[0], column[1], column[2]], x);
-        }
-        for i in 0..3 {
-            rhs[18 + i] = self.recover[0][i] * rest[0] + self.recover[1][i] * rest[1] + self.recover[2][i] * rest[2];
-        }
+        reduced
     }
 }
 

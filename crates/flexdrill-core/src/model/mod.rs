@@ -6,7 +6,6 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
-use crate::elements::element_force::{ElementForce, PlanarTurn};
 use crate::elements::element_form::{ElementForms, Elements};
 use crate::elements::joint::Joint;
 use crate::linear::Layout;
@@ -48,8 +47,6 @@ pub struct Station {
 pub struct PipeElement {
     /// Beam.
     pub beam: Beam,
-    /// Its forces.
-    pub force: ElementForce,
     /// G.
     pub geometric: ElementMatrix,
     /// Consistent forces of gravity (N).
@@ -61,10 +58,6 @@ pub struct PipeElement {
 pub struct GuideElement {
     /// Beam in its chord's frame.
     pub beam: Beam,
-    /// Its forces, in its chord's frame.
-    pub force: ElementForce,
-    /// Node frames to the chord frame once more, as plane rotations: wells lie in a plane.
-    pub turn: PlanarTurn,
     /// Node frames to the chord frame, Eq. 8.
     pub rotation: [Matrix3<f64>; 2],
     /// Consistent forces of gravity on the nodes, in their frames (N).
@@ -246,11 +239,9 @@ impl Model {
                 length: chord / per_link as f64,
             };
             let weight = beam.weight((link_frames[link].transpose() * down).into());
-            let force = ElementForce::of(&beam);
             let geometric = beam.geometric();
             pipe.push(PipeElement {
                 beam,
-                force,
                 geometric,
                 weight,
             });
@@ -321,7 +312,7 @@ impl Model {
     }
 
     fn collect_elements(&mut self) {
-        let mut add = |beam: &Beam, turn: Option<&PlanarTurn>, weight: &ElementVector, nodes: [usize; 2]| {
+        let mut add = |beam: &Beam, turn: Option<&[Matrix3<f64>; 2]>, weight: &ElementVector, nodes: [usize; 2]| {
             self.elements.push(ElementForms::of(beam, turn), nodes);
             for (k, w) in weight.iter().enumerate() {
                 self.weight[nodes[k / 6] + k % 6] += w;
@@ -333,7 +324,7 @@ impl Model {
         }
         for (ends, element) in self.stations.windows(2).zip(&self.guide) {
             let nodes = [ends[0].guide, ends[1].guide];
-            add(&element.beam, Some(&element.turn), &element.weight, nodes);
+            add(&element.beam, Some(&element.rotation), &element.weight, nodes);
         }
     }
 
@@ -451,8 +442,6 @@ impl GuideElement {
         }
         let turned = |m: ElementMatrix| gamma.transpose() * m * gamma;
         Self {
-            force: ElementForce::of(&beam),
-            turn: PlanarTurn::of(&rotation),
             rotation,
             weight: gamma.transpose() * beam.weight((frame.transpose() * down).into()),
             stiffness: turned(beam.stiffness()),

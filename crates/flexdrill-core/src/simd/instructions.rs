@@ -1,58 +1,138 @@
-//! Which vector instructions to use, found at run time.
+//! Which vector instructions the processor has: found once, then proven by a value.
 
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::fmt;
 
-/// Which vector instructions the machine has. With AVX2 and with AVX-512 every number is the same to the bit, since both round a product
-/// and a sum once and in the same order (`tests/mechanics_machines.rs`); without either, products are rounded by themselves.
+use super::vector::{Portable, Vector};
+#[cfg(target_arch = "x86_64")]
+use super::x86::{Avx2, Avx512};
+
+/// Vector instructions that this processor has. Its values come from [`Instructions::best`] and [`Instructions::available`] only, so that
+/// holding one proves that the instructions may be used.
+///
+/// With AVX2 and with AVX-512 every number is the same to the bit, since both round a product and a sum once and in the same order
+/// (`tests/mechanics_machines.rs`); without either, products are rounded by themselves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Instructions {
-    /// None asked for.
+pub struct Instructions(Level);
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
     Portable,
-    /// AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     Avx2,
-    /// AVX-512 F and VL.
     #[cfg(target_arch = "x86_64")]
     Avx512,
 }
 
-impl Instructions {
-    /// From the least to the best.
-    pub fn all() -> impl Iterator<Item = Self> {
-        [
-            Self::Portable,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512,
-        ]
-        .into_iter()
-    }
+impl Level {
+    const ALL: &[Self] = &[
+        Self::Portable,
+        #[cfg(target_arch = "x86_64")]
+        Self::Avx2,
+        #[cfg(target_arch = "x86_64")]
+        Self::Avx512,
+    ];
 
-    /// Whether this machine has them.
-    pub fn available(&self) -> bool {
+    fn is_here(self) -> bool {
         match self {
             Self::Portable => true,
+            // Miri runs the portable path: it knows neither the instructions nor which of them there are.
+            #[cfg(target_arch = "x86_64")]
+            _ if cfg!(miri) => false,
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => is_x86_feature_detected!("fma") && is_x86_feature_detected!("avx2"),
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 => {
-                Self::Avx2.available() && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl")
+                Self::Avx2.is_here() && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl")
             }
         }
     }
+}
 
-    /// The best that this machine has, and that [`Instructions::limit`] allows.
-    pub fn of_this_machine() -> Self {
-        let most = LIMIT.load(Ordering::Relaxed);
-        let allowed = |instructions: &Self| *instructions as u8 <= most && instructions.available();
-        Self::all().filter(allowed).last().unwrap_or(Self::Portable)
+impl Instructions {
+    /// No vector instructions: every processor has these.
+    pub const PORTABLE: Self = Self(Level::Portable);
+
+    /// All that this processor has, from the least to the best.
+    pub fn available() -> impl Iterator<Item = Self> {
+        Level::ALL.iter().copied().filter(|level| level.is_here()).map(Self)
     }
 
-    /// Lets models that this process makes from now on use these instructions at most: to see what another machine would do.
-    pub fn limit(self) {
-        LIMIT.store(self as u8, Ordering::Relaxed);
+    /// The best that this processor has.
+    pub fn best() -> Self {
+        Self::available().last().unwrap_or(Self::PORTABLE)
+    }
+
+    /// `portable`, `avx2` or `avx512`.
+    pub const fn name(self) -> &'static str {
+        match self.0 {
+            Level::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => "avx512",
+        }
+    }
+
+    /// Runs `kernel` with the widest vectors that these instructions give.
+    #[inline]
+    pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        match self.0 {
+            Level::Portable => kernel.run::<Portable>(),
+            #[cfg(target_arch = "x86_64")]
+            #[expect(unsafe_code, reason = "the one place where vector instructions are entered")]
+            // SAFETY: `self` was made by `available`, which found the processor to have AVX2 and FMA.
+            Level::Avx2 => unsafe { with_avx2(kernel) },
+            #[cfg(target_arch = "x86_64")]
+            #[expect(unsafe_code, reason = "the one place where vector instructions are entered")]
+            // SAFETY: `self` was made by `available`, which found the processor to have AVX-512 F and VL beside AVX2 and FMA.
+            Level::Avx512 => unsafe { with_avx512(kernel) },
+        }
     }
 }
 
-static LIMIT: AtomicU8 = AtomicU8::new(u8::MAX);
+impl Default for Instructions {
+    fn default() -> Self {
+        Self::best()
+    }
+}
+
+impl fmt::Display for Instructions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A computation written once for every width of vectors, with what it works on as its fields.
+pub(crate) trait Kernel {
+    /// What it gives.
+    type Output;
+
+    /// Computes. To be marked `#[inline(always)]`, as everything it calls with `V`: the code must end up inside the function that
+    /// carries the target feature.
+    fn run<V: Vector>(self) -> Self::Output;
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn with_avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx2>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+fn with_avx512<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx512>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_is_portable_and_the_best_is_available() {
+        let all: Vec<_> = Instructions::available().collect();
+        assert_eq!(all.first(), Some(&Instructions::PORTABLE));
+        assert_eq!(all.last(), Some(&Instructions::best()));
+        assert!(all.is_sorted());
+    }
+}

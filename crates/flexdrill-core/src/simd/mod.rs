@@ -1,7 +1,10 @@
-//! Eight numbers at once.
+//! Eight numbers at once: kernels written once over [`Vector`](vector::Vector), run with the instructions that the processor has.
 
-pub mod instructions;
-pub mod number;
-pub mod vector;
+mod instructions;
+pub(crate) mod number;
+pub(crate) mod vector;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 pub use instructions::Instructions;
+pub(crate) use instructions::Kernel;

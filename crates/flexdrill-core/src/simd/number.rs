@@ -8,12 +8,36 @@ use crate::simd::vector::Vector;
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
     /// From one number.
     fn of(x: f64) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// `f` of each number.
+    fn map(self, f: impl Fn(f64) -> f64) -> Self;
+    /// `f` of each pair of numbers.
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
+    /// Whether some number is below its bound.
+    fn any_below(self, bound: Self) -> bool;
 }
 
 impl Number for f64 {
     #[inline(always)]
     fn of(x: f64) -> Self {
         x
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        f(self)
+    }
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        f(self, other)
+    }
+    #[inline(always)]
+    fn any_below(self, bound: Self) -> bool {
+        self < bound
     }
 }
 
@@ -33,10 +57,30 @@ impl<V: Vector> Eight<V> {
     pub fn store(self, to: &mut [f64; 8]) {
         self.0.store(to);
     }
+}
+
+/// (-1)^k / (2 k + first)!.
+const fn series<const N: usize>(first: u32) -> [f64; N] {
+    let mut c = [0.0; N];
+    c[0] = 1.0;
+    let mut k = 1;
+    while k < N {
+        let m = (2 * k + first as usize) as f64;
+        c[k] = -c[k - 1] / (m * (m - 1.0));
+        k += 1;
+    }
+    c
+}
+
+impl<V: Vector> Number for Eight<V> {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        Self(V::splat(x))
+    }
 
     /// Sine and cosine, to two units in the last place of 1 for arguments up to 1e6.
     #[inline(always)]
-    pub fn sin_cos(self) -> (Self, Self) {
+    fn sin_cos(self) -> (Self, Self) {
         // x = n pi/2 + r with |r| <= pi/4; n times the first two parts of pi/2, of 33 bits each, is exact.
         const PARTS: [f64; 3] = [
             1.570_796_326_734_125_6,
@@ -68,25 +112,37 @@ impl<V: Vector> Eight<V> {
         let sign = Self::of(1.0) - upper * Self::of(2.0);
         (sign * (even * sine + odd * cosine), sign * (even * cosine - odd * sine))
     }
-}
 
-/// (-1)^k / (2 k + first)!.
-const fn series<const N: usize>(first: u32) -> [f64; N] {
-    let mut c = [0.0; N];
-    c[0] = 1.0;
-    let mut k = 1;
-    while k < N {
-        let m = (2 * k + first as usize) as f64;
-        c[k] = -c[k - 1] / (m * (m - 1.0));
-        k += 1;
-    }
-    c
-}
-
-impl<V: Vector> Number for Eight<V> {
     #[inline(always)]
-    fn of(x: f64) -> Self {
-        Self(V::splat(x))
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut lanes = [0.0; 8];
+        self.store(&mut lanes);
+        for x in &mut lanes {
+            *x = f(*x);
+        }
+        Self::load(&lanes)
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let (mut lanes, mut others) = ([0.0; 8], [0.0; 8]);
+        self.store(&mut lanes);
+        other.store(&mut others);
+        for (x, y) in lanes.iter_mut().zip(others) {
+            *x = f(*x, y);
+        }
+        Self::load(&lanes)
+    }
+
+    #[inline(always)]
+    fn any_below(self, bound: Self) -> bool {
+        let (mut lanes, mut bounds) = ([0.0; 8], [0.0; 8]);
+        self.store(&mut lanes);
+        bound.store(&mut bounds);
+        lanes
+            .iter()
+            .zip(bounds)
+            .fold(false, |any, (x, bound)| any | (*x < bound))
     }
 }
 

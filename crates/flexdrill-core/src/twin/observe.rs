@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::settings::SimulationSettings;
 use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot};
-use crate::dynamics::assembly::inner_lateral;
+use crate::dynamics::contacts::inner_lateral;
 use crate::dynamics::state::{State, joint_rotations, translation};
 use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Touch, gap};
@@ -186,7 +186,7 @@ impl Observer {
                     .collect(),
                 bend_angle: joints(),
                 bend_direction: joints(),
-                limit_angle: model.joints.iter().map(|joint| joint.limit).collect(),
+                limit_angle: model.joints.iter().map(|joint| joint.law.limit).collect(),
                 stop_moment: joints(),
                 lateral_y: joints(),
                 lateral_z: joints(),
@@ -317,7 +317,7 @@ fn fill_joints(stepper: &Stepper, out: &mut Joints) {
         out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
         let rows = &forces.joints[j].rows;
         let twist = -rows[0][3] * state.q[first + 3] * model.moment_scale;
-        out.torque[j] = match joint.kind {
+        out.torque[j] = match joint.law.kind {
             JointKind::Universal | JointKind::BallCage => twist,
             JointKind::Revolute => twist - rows[1][3] * state.q[first + 4] * model.moment_scale,
         };

@@ -15,6 +15,7 @@ use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperCheckpoint};
 use crate::inputs::Inputs;
 use crate::model::ModelError;
 use crate::motion::WhirlSettings;
+use crate::simd::Instructions;
 use crate::tool::description::{LiveParameters, ToolDescription};
 
 /// Why a simulation could not be built or restored.
@@ -59,10 +60,10 @@ impl Simulation {
     /// # Errors
     /// When the description is inconsistent or the static start does not converge.
     pub fn new(tool: &ToolDescription, settings: &SimulationSettings) -> Result<Self, BuildError> {
-        Self::with_solver(tool, settings, SolverKind::Stations)
+        Self::with_solver(tool, settings, SolverKind::default(), Instructions::best())
     }
 
-    /// The same with a choice of linear solver, to hold one against the other.
+    /// The same with a choice of linear solver and of vector instructions, to hold one against the other.
     ///
     /// # Errors
     /// As [`Simulation::new`].
@@ -70,12 +71,20 @@ impl Simulation {
         tool: &ToolDescription,
         settings: &SimulationSettings,
         solver: SolverKind,
+        instructions: Instructions,
     ) -> Result<Self, BuildError> {
         let tolerances = Tolerances {
             max_iterations: settings.max_iterations,
             ..Tolerances::default()
         };
-        let mut stepper = Stepper::new(tool, settings.scheme, tolerances, settings.max_halvings, solver)?;
+        let mut stepper = Stepper::new(
+            tool,
+            settings.scheme,
+            tolerances,
+            settings.max_halvings,
+            solver,
+            instructions,
+        )?;
         let load = settings.initial_inputs.weight_on_bit;
         if tool.static_start {
             stepper.settle(load)?;

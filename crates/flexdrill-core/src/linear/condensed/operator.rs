@@ -328,7 +328,7 @@ impl Matrices {
         below: Option<&Matrix6<f64>>,
     ) -> Option<Self> {
         let own: Block24 = system.diagonal.joint[system.layout().slot(station)].data.0;
-        let reduction = Reduction::of(&own, &[0.0; 24])?;
+        let reduction = Reduction::of(&own)?;
         let at = |part: Option<&Matrix6<f64>>, first: usize| {
             let mut block = SMatrix::<f64, 24, 24>::zeros();
             if let Some(part) = part {
@@ -340,11 +340,7 @@ impl Matrices {
         let condensed = (SMatrix::from_array_storage(nalgebra::ArrayStorage(own)) + above + below)
             .data
             .0;
-        let reduced = |block: &Block24| {
-            let (mut out, mut right) = ([[0.0; SIZE]; SIZE], [0.0; SIZE]);
-            reduction.reduce::<false>(block, &[0.0; 24], &mut out, &mut right);
-            out
-        };
+        let reduced = |block: &Block24| reduction.reduce(block);
         Some(Self {
             condensed: reduced(&condensed),
             own: reduced(&own),

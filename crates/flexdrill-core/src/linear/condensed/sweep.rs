@@ -9,10 +9,8 @@ use super::guide_span::{Condensed, Solved, six};
 use super::operator::{Edge, Matrices, Operator, place, spread};
 use super::pivots::{self, halves_mut};
 use super::{Block, COLUMNS, Columns, GUIDE, MULTIPLIER, SIZE, Six, U};
-use crate::simd::instructions::Instructions;
-#[cfg(target_arch = "x86_64")]
-use crate::simd::vector::{Avx2, Avx512};
-use crate::simd::vector::{Portable, Vector};
+use crate::simd::vector::Vector;
+use crate::simd::{Instructions, Kernel};
 
 /// How a span takes part in this iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,21 +70,37 @@ struct Coupling<'a> {
     guide_lower: &'a Six,
 }
 
+/// One solution, for every width of vectors.
+struct Elimination<'a> {
+    by: &'a mut CondensedElimination,
+    operator: &'a Operator,
+    changes: &'a Changes,
+    rhs: &'a mut [f64],
+}
+
+impl Kernel for Elimination<'_> {
+    type Output = Result<(), Singular>;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> Result<(), Singular> {
+        let Self {
+            by,
+            operator,
+            changes,
+            rhs,
+        } = self;
+        by.condense_spans::<V>(operator, changes, rhs);
+        by.condense_guides::<V>(operator, changes, rhs)?;
+        by.sweep::<V>(operator, changes, rhs)?;
+        by.recover::<V>(operator, rhs);
+        by.recover_spans::<V>(operator, rhs);
+        Ok(())
+    }
+}
+
 impl CondensedElimination {
-    /// Room for systems of this layout, with the best instructions of this machine.
-    pub fn new(layout: &Layout, joints: &[usize]) -> Self {
-        Self::with(layout, joints, Instructions::of_this_machine())
-    }
-
-    /// Every path that this machine can take, named. They are held against each other.
-    pub fn all_paths(layout: &Layout, joints: &[usize]) -> Vec<(String, Self)> {
-        Instructions::all()
-            .filter(Instructions::available)
-            .map(|instructions| (format!("{instructions:?}"), Self::with(layout, joints, instructions)))
-            .collect()
-    }
-
-    fn with(layout: &Layout, joints: &[usize], instructions: Instructions) -> Self {
+    /// Room for systems of this layout.
+    pub fn new(layout: &Layout, joints: &[usize], instructions: Instructions) -> Self {
         let stations = layout.stations();
         let last = stations - 1;
         let mut longest = 0;
@@ -119,6 +133,7 @@ impl CondensedElimination {
     }
 
     /// Spans of the last solution as (without contact inside, with the guide eliminated alone, with others, open).
+    #[cfg(test)]
     pub fn span_counts(&self) -> [usize; 4] {
         let mut counts = [0; 4];
         for (mode, &grouped) in self.modes.iter().zip(&self.grouped) {
@@ -137,37 +152,13 @@ impl CondensedElimination {
     /// # Errors
     /// When a block cannot be factorised.
     pub fn solve(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
-        match self.instructions {
-            Instructions::Portable => self.run::<Portable>(operator, changes, rhs),
-            // SAFETY: chosen only where the processor was found to have these instructions.
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx2 => unsafe { self.run_avx2(operator, changes, rhs) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx512 => unsafe { self.run_avx512(operator, changes, rhs) },
-        }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    fn run_avx2(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
-        self.run::<Avx2>(operator, changes, rhs)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-    fn run_avx512(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
-        self.run::<Avx512>(operator, changes, rhs)
-    }
-
-    #[inline(always)]
-    fn run<V: Vector>(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
-        self.condense_spans::<V>(operator, changes, rhs);
-        self.condense_guides::<V>(operator, changes, rhs)?;
-        self.sweep::<V>(operator, changes, rhs)?;
-        self.recover::<V>(operator, rhs);
-        self.recover_spans::<V>(operator, rhs);
-        Ok(())
+        let instructions = self.instructions;
+        instructions.run(Elimination {
+            by: self,
+            operator,
+            changes,
+            rhs,
+        })
     }
 
     /// From the top down.

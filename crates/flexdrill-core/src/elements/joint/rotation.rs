@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use crate::elements::jet::Jet;
+use super::jet::Jet;
 use crate::simd::number::Number;
 
 /// A direction in the link frame with its derivatives in (psi, phi_y, phi_z).

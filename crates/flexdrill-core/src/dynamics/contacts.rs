@@ -1,0 +1,142 @@
+//! Contacts of both layers on the whole tool: from the nodes' motion to the gap's own coordinates, and from the gap's force to the nodes.
+
+use nalgebra::Vector2;
+
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::state::{State, node, translation};
+use crate::dynamics::tangent::TangentFactors;
+use crate::elements::gap::GapVector;
+use crate::linear::{ContactBlock, Touching};
+use crate::model::{Model, Station};
+
+impl Assembler {
+    /// Finds what touches and adds its forces, Eq. 20 to 34.
+    pub(super) fn contact_forces(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        for (s, station) in model.stations.iter().enumerate() {
+            let lateral = inner_lateral(station, state);
+            self.inner[s] = None;
+            if lateral.norm_squared() > station.inner_clearance * station.inner_clearance {
+                let velocity = inner_velocity(model, station, state);
+                self.inner[s] = conditions.inner.touch(lateral, station.inner_clearance, &velocity);
+            }
+            let lateral = Vector2::new(state.q[station.guide + 1], state.q[station.guide + 2]);
+            self.outer[s] = None;
+            if lateral.norm_squared() > model.outer_clearance * model.outer_clearance {
+                let velocity = outer_velocity(model, station, state);
+                self.outer[s] = conditions.outer.touch(lateral, model.outer_clearance, &velocity);
+            }
+            if let Some(touch) = &self.inner[s] {
+                let force = touch.force();
+                let (on_pipe, on_guide) = inner_forces(model, station, &force);
+                self.scatter(station.pipe_above, (-on_pipe).as_slice());
+                self.scatter(station.guide, (-on_guide).as_slice());
+            }
+            if let Some(touch) = &self.outer[s] {
+                let force = touch.force();
+                self.scatter(station.guide, (-outer_force(model, &force)).as_slice());
+            }
+        }
+    }
+
+    /// Fills the contacts' part of the tangent increment.
+    pub(super) fn contact_tangent(&mut self, model: &Model, factors: TangentFactors) {
+        for (s, station) in model.stations.iter().enumerate() {
+            self.changes.touching[s] = match (&self.inner[s], &self.outer[s]) {
+                (None, None) => Touching::Nothing,
+                (None, Some(_)) => Touching::Guide,
+                (Some(_), _) => Touching::Both,
+            };
+            if self.changes.touching[s] == Touching::Nothing {
+                continue;
+            }
+            let block = &mut self.changes.contact[s];
+            *block = [[0.0; 12]; 12];
+            // A local force change of minus `on` times `by` . motion is one of the same form on the nodes.
+            if let Some(touch) = &self.inner[s] {
+                for term in touch.tangent(factors.stiffness, factors.damping) {
+                    let (on, by) = (
+                        inner_forces(model, station, &term.on),
+                        inner_forces(model, station, &term.by),
+                    );
+                    add_product::<12>(block, 0, &joined(&on), &joined(&by));
+                }
+            }
+            if let Some(touch) = &self.outer[s] {
+                for term in touch.tangent(factors.stiffness, factors.damping) {
+                    let (on, by) = (outer_force(model, &term.on), outer_force(model, &term.by));
+                    add_product::<6>(block, 6, &on.data.0[0], &by.data.0[0]);
+                }
+            }
+        }
+    }
+}
+
+/// Lateral position (y, z) of the pipe relative to the guide, offset included (m).
+#[inline]
+pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
+    let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
+    station.offset + Vector2::new(pipe.y - state.q[station.guide + 1], pipe.z - state.q[station.guide + 2])
+}
+
+/// Local velocity of the inner gap.
+#[inline]
+fn inner_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
+    let pipe = node(&state.v, station.pipe_above);
+    let guide = node(&state.v, station.guide);
+    let mut local = GapVector::zeros();
+    local
+        .fixed_rows_mut::<3>(0)
+        .copy_from(&(station.pipe_to_station * pipe.fixed_rows::<3>(0) - guide.fixed_rows::<3>(0)));
+    local
+        .fixed_rows_mut::<3>(3)
+        .copy_from(&(pipe.fixed_rows::<3>(3) * station.pipe_radius - guide.fixed_rows::<3>(3) * model.guide_radii[0]));
+    local
+}
+
+/// Local velocity of the outer gap.
+#[inline]
+fn outer_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
+    let mut local = node(&state.v, station.guide);
+    local.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[1]);
+    local
+}
+
+/// Forces on the pipe node and the guide node from the local force of the inner gap.
+#[inline]
+pub fn inner_forces(model: &Model, station: &Station, force: &GapVector) -> (GapVector, GapVector) {
+    let mut pipe = *force;
+    let turned = station.pipe_to_station.tr_mul(&force.fixed_rows::<3>(0));
+    pipe.fixed_rows_mut::<3>(0).copy_from(&turned);
+    pipe.fixed_rows_mut::<3>(3).scale_mut(station.pipe_radius);
+    let mut guide = -force;
+    guide.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[0]);
+    (pipe, guide)
+}
+
+/// Force on the guide node from the local force of the outer gap.
+#[inline]
+pub fn outer_force(model: &Model, force: &GapVector) -> GapVector {
+    let mut guide = *force;
+    guide.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[1]);
+    guide
+}
+
+/// Forces on pipe and guide in one.
+#[inline(always)]
+fn joined((pipe, guide): &(GapVector, GapVector)) -> [f64; 12] {
+    let mut out = [0.0; 12];
+    out[..6].copy_from_slice(pipe.as_slice());
+    out[6..].copy_from_slice(guide.as_slice());
+    out
+}
+
+/// Adds on by^T at (`first`, `first`) of a contact block.
+#[inline(always)]
+fn add_product<const N: usize>(block: &mut ContactBlock, first: usize, on: &[f64; N], by: &[f64; N]) {
+    for (column, by) in block[first..].iter_mut().zip(by) {
+        for (x, on) in column[first..].iter_mut().zip(on) {
+            *x += on * by;
+        }
+    }
+}

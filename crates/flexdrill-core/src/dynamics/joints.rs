@@ -1,0 +1,168 @@
+//! Joints on the whole tool: Eq. 12 as translational rows, Eq. 13 and the stops as rotational ones.
+
+use crate::dynamics::assembly::{Assembler, JointReport};
+use crate::dynamics::state::{State, translation};
+use crate::dynamics::tangent::TangentFactors;
+use crate::elements::joint::group::{JointGroup, Lane};
+use crate::linear::JointChange;
+use crate::model::Model;
+use crate::simd::Kernel;
+use crate::simd::vector::Vector;
+
+impl Assembler {
+    /// Adds the joints' forces and rows to the residual and linearises the rotational rows and stops.
+    pub(super) fn joint_forces(&mut self, model: &Model, state: &State) {
+        self.translational_rows(model, state);
+        self.instructions.run(RotationalRows {
+            residual: &mut self.residual,
+            reports: &mut self.joints,
+            groups: &mut self.groups,
+            model,
+            state,
+        });
+    }
+
+    /// E_a u_a - E_b u_b = 0, Eq. 12, and the multipliers' forces on both ends.
+    fn translational_rows(&mut self, model: &Model, state: &State) {
+        for (j, joint) in model.joints.iter().enumerate() {
+            let station = &model.stations[model.joint_stations[j]];
+            let (a, b, first) = (station.pipe_above, station.pipe_below, model.multipliers(j));
+            let scale = model.force_scale;
+            let lambda = translation(&state.q, first) * scale;
+            let (on_a, on_b) = (joint.upper.tr_mul(&lambda), joint.lower.tr_mul(&lambda));
+            let open = joint.upper * translation(&state.q, a) - joint.lower * translation(&state.q, b);
+            for k in 0..3 {
+                self.residual[a + k] += on_a[k];
+                self.residual[b + k] -= on_b[k];
+                self.residual[first + k] = scale * open[k];
+            }
+        }
+    }
+
+    /// Fills the joints' part of the tangent increment.
+    pub(super) fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+        for (change, report) in self.changes.joints.iter_mut().zip(&self.joints) {
+            for (to, from) in change.rows.iter_mut().zip(&report.rows) {
+                for (to, from) in to.iter_mut().zip(from) {
+                    *to = from * model.moment_scale;
+                }
+            }
+        }
+        self.instructions.run(RotationalTangents {
+            changes: &mut self.changes.joints,
+            groups: &self.groups,
+            model,
+            state,
+            factors,
+        });
+    }
+}
+
+/// Multipliers of the rotational rows of eight joints from number `first` on, times their scale (N m); lanes without a joint have none.
+#[inline(always)]
+fn multipliers(model: &Model, state: &State, first: usize, rows: usize) -> [Lane; 2] {
+    let mut lambda = [[0.0; 8]; 2];
+    for (lane, j) in (first..model.joints.len()).take(8).enumerate() {
+        for (row, lambda) in lambda.iter_mut().enumerate().take(rows) {
+            lambda[lane] = model.moment_scale * state.q[model.multipliers(j) + 3 + row];
+        }
+    }
+    lambda
+}
+
+/// Rotational rows and stops, eight joints at a time.
+struct RotationalRows<'a> {
+    residual: &'a mut [f64],
+    reports: &'a mut [JointReport],
+    groups: &'a mut [JointGroup],
+    model: &'a Model,
+    state: &'a State,
+}
+
+impl Kernel for RotationalRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self {
+            residual,
+            reports,
+            groups,
+            model,
+            state,
+        } = self;
+        for (g, group) in groups.iter_mut().enumerate() {
+            let first = 8 * g;
+            let count = (model.joints.len() - first).min(8);
+            let (mut q, mut rate) = ([[0.0; 8]; 6], [[0.0; 8]; 6]);
+            for lane in 0..8 {
+                let j = first + lane.min(count - 1);
+                let station = &model.stations[model.joint_stations[j]];
+                for k in 0..3 {
+                    q[k][lane] = state.q[station.pipe_above + 3 + k];
+                    q[3 + k][lane] = state.q[station.pipe_below + 3 + k];
+                    rate[k][lane] = state.v[station.pipe_above + 3 + k];
+                    rate[3 + k][lane] = state.v[station.pipe_below + 3 + k];
+                }
+            }
+            let lambda = multipliers(model, state, first, group.rows().len());
+            let moments = group.evaluate::<V>(&q, &rate, &lambda);
+            let stop = group.stop();
+            for lane in 0..count {
+                let station = &model.stations[model.joint_stations[first + lane]];
+                let multiplier = model.multipliers(first + lane) + 3;
+                for k in 0..3 {
+                    residual[station.pipe_above + 3 + k] += moments[k][lane];
+                    residual[station.pipe_below + 3 + k] += moments[3 + k][lane];
+                }
+                let report = &mut reports[first + lane];
+                for (r, row) in group.rows().iter().enumerate() {
+                    residual[multiplier + r] = model.moment_scale * row.value[lane];
+                    for (to, from) in report.rows[r].iter_mut().zip(&row.gradient) {
+                        *to = from[lane];
+                    }
+                }
+                report.moment = stop.moment[lane];
+                report.energy = stop.energy[lane];
+                report.dissipation = stop.dissipation[lane];
+            }
+        }
+    }
+}
+
+/// Their tangents.
+struct RotationalTangents<'a> {
+    changes: &'a mut [JointChange],
+    groups: &'a [JointGroup],
+    model: &'a Model,
+    state: &'a State,
+    factors: TangentFactors,
+}
+
+impl Kernel for RotationalTangents<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self {
+            changes,
+            groups,
+            model,
+            state,
+            factors,
+        } = self;
+        let mut tangent = [[[0.0; 8]; 6]; 6];
+        for (g, group) in groups.iter().enumerate() {
+            let first = 8 * g;
+            let lambda = multipliers(model, state, first, group.rows().len());
+            group.tangent::<V>(&lambda, factors.stiffness, factors.damping, &mut tangent);
+            for (lane, change) in changes[first..].iter_mut().enumerate().take(8) {
+                for (to, from) in change.rotations.iter_mut().zip(&tangent) {
+                    for (to, from) in to.iter_mut().zip(from) {
+                        *to = from[lane];
+                    }
+                }
+            }
+        }
+    }
+}

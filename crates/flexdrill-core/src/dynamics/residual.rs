@@ -1,0 +1,112 @@
+//! The residual R of Eq. 35: elements, point masses, contacts, joints, axial tie, weight on bit, bit torque and loads.
+
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::phases::Phase;
+use crate::dynamics::state::State;
+use crate::elements::element_form::{add, load};
+use crate::elements::gap::regularised_sign;
+use crate::model::Model;
+use crate::simd::Kernel;
+use crate::simd::vector::Vector;
+use crate::tool::description::Direction;
+
+impl Assembler {
+    /// Evaluates the residual at `state`; entries of held, driven and padding unknowns are zero.
+    pub fn residual(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+        self.stopwatch.lap(Phase::Other);
+        self.instructions.run(ElementForces {
+            residual: &mut self.residual,
+            model,
+            state,
+            conditions,
+        });
+        for point in &model.masses {
+            for k in 0..3 {
+                let u = point.unknown + k;
+                let acceleration = state.a[u] + conditions.rayleigh.alpha * state.v[u] - point.gravity[k];
+                self.residual[u] += point.mass * acceleration;
+            }
+        }
+        self.stopwatch.lap(Phase::Assembly);
+        self.contact_forces(model, state, conditions);
+        self.stopwatch.lap(Phase::Contact);
+        self.joint_forces(model, state);
+        let bottom = &model.stations[model.last()];
+        if let Some(tie) = model.tie {
+            let scale = model.force_scale;
+            self.residual[bottom.pipe_above] += scale * state.q[tie];
+            self.residual[bottom.guide] -= scale * state.q[tie];
+            self.residual[tie] = scale * (state.q[bottom.pipe_above] - state.q[bottom.guide]);
+        }
+        self.residual[bottom.guide] += conditions.weight_on_bit;
+        let spin = bottom.pipe_above + Direction::Psi as usize;
+        let (sign, slope) = regularised_sign(state.v[spin], conditions.bit_slip_rate);
+        self.bit_torque = conditions.bit_torque * sign;
+        self.bit_torque_slope = conditions.bit_torque * slope;
+        self.residual[spin] += self.bit_torque;
+        for load in &model.loads {
+            self.residual[load.unknown] -= load.load.history.at(conditions.time);
+        }
+    }
+
+    /// Sets the residual of unknowns without an equation to zero. Reactions are read before this.
+    pub fn drop_reactions(&mut self, model: &Model) {
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            self.residual[unknown] = 0.0;
+        }
+    }
+
+    #[inline]
+    pub(super) fn scatter(&mut self, first: usize, force: &[f64]) {
+        for (r, f) in self.residual[first..first + 6].iter_mut().zip(force) {
+            *r += f;
+        }
+    }
+}
+
+/// Sets the residual to the elements' elastic, damping, inertia and geometric forces, less gravity.
+struct ElementForces<'a> {
+    residual: &'a mut [f64],
+    model: &'a Model,
+    state: &'a State,
+    conditions: &'a Conditions,
+}
+
+impl Kernel for ElementForces<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self {
+            residual,
+            model,
+            state,
+            conditions,
+        } = self;
+        for (r, w) in residual.iter_mut().zip(&model.weight) {
+            *r = -w;
+        }
+        let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
+        let tensions = state.pipe_axial.iter().chain(&state.guide_axial);
+        for (element, &tension) in model.elements.list.iter().zip(tensions) {
+            let forms = &model.elements.kinds[element.kind as usize];
+            let nodes = [element.nodes[0] as usize, element.nodes[1] as usize];
+            let zero = V::splat(0.0);
+            let (mut x, mut a, mut stretched) = ([zero; 2], [zero; 2], [zero; 2]);
+            for n in 0..2 {
+                let q: V = load(&state.q, nodes[n]);
+                let v: V = load(&state.v, nodes[n]);
+                x[n] = q.plus_product(beta, v);
+                a[n] = load::<V>(&state.a, nodes[n]).plus_product(alpha, v);
+                stretched[n] = q.times(V::splat(tension));
+            }
+            let mut force = forms.stiffness.product(forms.to_own(x));
+            forms.mass.add_product(forms.to_own(a), &mut force);
+            forms.geometric.add_product(forms.to_own(stretched), &mut force);
+            let force = forms.from_own(force);
+            add(residual, nodes[0], force[0]);
+            add(residual, nodes[1], force[1]);
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The tangent K_T of Eq. 41: a part that lasts as long as the step size does, the geometric stiffness of the axial forces, and what
+//! contacts, joints and the bit add in each iteration.
+
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::phases::Phase;
+use crate::dynamics::state::State;
+use crate::elements::beam::ElementMatrix;
+use crate::linear::{BlockSystem, Touching, add_columns};
+use crate::model::Model;
+use crate::tool::description::Direction;
+
+/// Factors of the tangent k K + d C + m M: (1, gamma/(beta h), 1/(beta h^2)) in a Newmark step, Eq. 41; (0, 0, 1) to find
+/// accelerations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TangentFactors {
+    /// On stiffness-like terms.
+    pub stiffness: f64,
+    /// On damping-like terms (1/s).
+    pub damping: f64,
+    /// On the mass (1/s2).
+    pub mass: f64,
+}
+
+impl Assembler {
+    /// Assembles the whole tangent from the parts linearised by the last [`Assembler::residual`] at `state`.
+    pub fn tangent(&mut self, model: &Model, state: &State, conditions: &Conditions, factors: TangentFactors) {
+        self.build_step_constant(model, conditions, factors);
+        self.system.copy_from(&self.step_constant);
+        self.add_geometric_stiffness(model, state, factors.stiffness);
+        self.stopwatch.lap(Phase::Assembly);
+        self.linearise(model, state, factors);
+        self.changes.add_to(&mut self.system);
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            self.system.hold(unknown);
+        }
+    }
+
+    /// The step-constant part of the tangent: elastic, damping and inertia terms and the joints' translational rows, with supports. It
+    /// lasts as long as step size and damping do. Geometric stiffness is left out.
+    pub fn step_constant(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) -> BlockSystem {
+        self.build_step_constant(model, conditions, factors);
+        let mut system = self.step_constant.clone();
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            system.hold(unknown);
+        }
+        system
+    }
+
+    /// What contacts, joints and the bit add to the tangent: fills [`Assembler::changes`] from the parts linearised by the last
+    /// [`Assembler::residual`] at `state`.
+    pub fn linearise(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+        self.contact_tangent(model, factors);
+        self.stopwatch.lap(Phase::Contact);
+        self.joint_tangent(model, state, factors);
+        // The bit's node is the first of the last station's block.
+        let (last, spin) = (model.last(), Direction::Psi as usize);
+        if self.changes.touching[last] == Touching::Nothing {
+            self.changes.contact[last] = [[0.0; 12]; 12];
+        }
+        self.changes.touching[last] = Touching::Both;
+        self.changes.contact[last][spin][spin] += factors.damping * self.bit_torque_slope;
+        self.changes.drop_held();
+        self.stopwatch.lap(Phase::Assembly);
+    }
+
+    fn build_step_constant(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
+        let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
+        if self.step_constant_for == Some((factors, alpha, beta)) {
+            return;
+        }
+        self.step_constant_for = Some((factors, alpha, beta));
+        let elastic = factors.stiffness + factors.damping * beta;
+        let inertial = factors.mass + factors.damping * alpha;
+        self.step_constant.clear();
+        for (e, element) in model.pipe.iter().enumerate() {
+            let m = element.beam.stiffness() * elastic + element.beam.mass() * inertial;
+            add_pipe_element(&mut self.step_constant, model, e, &m, 1.0);
+        }
+        for (e, element) in model.guide.iter().enumerate() {
+            let m = element.stiffness * elastic + element.mass * inertial;
+            add_guide_element(&mut self.step_constant, e, &m, 1.0);
+        }
+        for point in &model.masses {
+            let station = model.layout.station_of(point.unknown);
+            let local = point.unknown - model.layout.offset(station);
+            for k in 0..3 {
+                self.step_constant
+                    .add(station, local + k, local + k, point.mass * inertial);
+            }
+        }
+        for (j, joint) in model.joints.iter().enumerate() {
+            let station = model.joint_stations[j];
+            let upper = joint.upper * model.force_scale;
+            let lower = joint.lower * -model.force_scale;
+            self.step_constant.add_block(station, 18, 0, &upper);
+            self.step_constant.add_block(station, 18, 12, &lower);
+            self.step_constant.add_block(station, 0, 18, &upper.transpose());
+            self.step_constant.add_block(station, 12, 18, &lower.transpose());
+        }
+        if model.tied {
+            let (last, scale) = (model.last(), model.force_scale);
+            for (row, column, sign) in [(0, 18, 1.0), (6, 18, -1.0), (18, 0, 1.0), (18, 6, -1.0)] {
+                self.step_constant.add(last, row, column, sign * scale);
+            }
+        }
+    }
+
+    /// Eq. 41's geometric part: N G of every element, with the axial forces of `state`, times `factor`.
+    fn add_geometric_stiffness(&mut self, model: &Model, state: &State, factor: f64) {
+        for (e, element) in model.pipe.iter().enumerate() {
+            let tension = factor * state.pipe_axial[e];
+            add_pipe_element(&mut self.system, model, e, &element.geometric, tension);
+        }
+        for (e, element) in model.guide.iter().enumerate() {
+            add_guide_element(&mut self.system, e, &element.geometric, factor * state.guide_axial[e]);
+        }
+    }
+}
+
+fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize, m: &ElementMatrix, factor: f64) {
+    let first = if model.stations[e].joint.is_some() { 12 } else { 0 };
+    let m = &m.data.0;
+    system.add_scaled(e, first, &part(m, 0, 0), factor);
+    system.add_scaled(e + 1, 0, &part(m, 6, 6), factor);
+    add_columns(&mut system.upper[e].pipe.data.0, 0, &part(m, 0, 6), factor);
+    add_columns(&mut system.lower[e].pipe.data.0, 0, &part(m, 6, 0), factor);
+}
+
+fn add_guide_element(system: &mut BlockSystem, e: usize, m: &ElementMatrix, factor: f64) {
+    let m = &m.data.0;
+    system.add_scaled(e, 6, &part(m, 0, 0), factor);
+    system.add_scaled(e + 1, 6, &part(m, 6, 6), factor);
+    add_columns(&mut system.upper[e].guide.data.0, 0, &part(m, 0, 6), factor);
+    add_columns(&mut system.lower[e].guide.data.0, 0, &part(m, 6, 0), factor);
+}
+
+/// Six columns of six from (`row`, `column`).
+#[inline(always)]
+fn part(m: &[[f64; 12]; 12], row: usize, column: usize) -> [[f64; 6]; 6] {
+    let mut out = [[0.0; 6]; 6];
+    for (j, out) in out.iter_mut().enumerate() {
+        out.copy_from_slice(&m[column + j][row..row + 6]);
+    }
+    out
+}
