@@ -280,7 +280,8 @@ pub fn joint_violation(model: &Model, state: &State) -> (f64, f64) {
         let open = joint.upper * crate::dynamics::state::translation(&state.q, station.pipe_above)
             - joint.lower * crate::dynamics::state::translation(&state.q, station.pipe_below);
         worst.0 = worst.0.max(open.norm());
-        let rows = joint.law.rows(&joint_rotations(model, j, &state.q));
+        let mut rows: [_; 2] = Default::default();
+        joint.law.rows(&joint_rotations(model, j, &state.q), &mut rows);
         worst.1 = rows.iter().fold(worst.1, |w, row| w.max(row.value.abs()));
     }
     worst

@@ -6,6 +6,12 @@ use crate::simd::vector::Vector;
 
 /// A number to compute with.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+    /// As kept in memory between two computations.
+    type Memory: Copy + Default;
+    /// From memory.
+    fn load(from: &Self::Memory) -> Self;
+    /// To memory.
+    fn store(self, to: &mut Self::Memory);
     /// From one number.
     fn of(x: f64) -> Self;
     /// Sine and cosine.
@@ -19,6 +25,15 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
 }
 
 impl Number for f64 {
+    type Memory = Self;
+    #[inline(always)]
+    fn load(from: &Self) -> Self {
+        *from
+    }
+    #[inline(always)]
+    fn store(self, to: &mut Self) {
+        *to = self;
+    }
     #[inline(always)]
     fn of(x: f64) -> Self {
         x
@@ -45,20 +60,6 @@ impl Number for f64 {
 #[derive(Debug, Clone, Copy)]
 pub struct Eight<V>(pub V);
 
-impl<V: Vector> Eight<V> {
-    /// From memory.
-    #[inline(always)]
-    pub fn load(from: &[f64; 8]) -> Self {
-        Self(V::load(from))
-    }
-
-    /// To memory.
-    #[inline(always)]
-    pub fn store(self, to: &mut [f64; 8]) {
-        self.0.store(to);
-    }
-}
-
 /// (-1)^k / (2 k + first)!.
 const fn series<const N: usize>(first: u32) -> [f64; N] {
     let mut c = [0.0; N];
@@ -73,6 +74,15 @@ const fn series<const N: usize>(first: u32) -> [f64; N] {
 }
 
 impl<V: Vector> Number for Eight<V> {
+    type Memory = [f64; 8];
+    #[inline(always)]
+    fn load(from: &[f64; 8]) -> Self {
+        Self(V::load(from))
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64; 8]) {
+        self.0.store(to);
+    }
     #[inline(always)]
     fn of(x: f64) -> Self {
         Self(V::splat(x))

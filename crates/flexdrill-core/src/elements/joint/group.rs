@@ -2,7 +2,7 @@
 
 use super::Joint;
 use super::law::{JointLaw, RotationFunction, Stop, moments, tangent};
-use crate::simd::number::Eight;
+use crate::simd::number::{Eight, Number};
 use crate::simd::vector::Vector;
 
 /// A value per joint of a group.
@@ -22,22 +22,6 @@ pub struct JointGroup {
     rate: [Lane; 6],
 }
 
-const ZERO: RotationFunction<Lane> = RotationFunction {
-    value: [0.0; 8],
-    gradient: [[0.0; 8]; 6],
-    hessian: [[[0.0; 8]; 6]; 6],
-};
-
-const OPEN: Stop<Lane> = Stop {
-    moment: [0.0; 8],
-    stiffness: [0.0; 8],
-    damping: [0.0; 8],
-    energy: [0.0; 8],
-    dissipation: [0.0; 8],
-    gradient: [[0.0; 8]; 6],
-    hessian: [[[0.0; 8]; 6]; 6],
-};
-
 impl JointGroup {
     /// Of up to eight joints of one kind; there is at least one.
     pub fn of(joints: &[Joint]) -> Self {
@@ -54,9 +38,9 @@ impl JointGroup {
                 stop_stiffness: at(0).stop_stiffness,
                 stop_damping: at(0).stop_damping,
             },
-            rows: [ZERO; 2],
+            rows: Default::default(),
             count: Joint::rotational_rows(at(0).kind),
-            stop: OPEN,
+            stop: Stop::default(),
             shut: false,
             rate: [[0.0; 8]; 6],
         }
@@ -77,49 +61,26 @@ impl JointGroup {
     #[inline(always)]
     pub fn evaluate<V: Vector>(&mut self, q: &[Lane; 6], rate: &[Lane; 6], lambda: &[Lane; 2]) -> [Lane; 6] {
         self.rate = *rate;
-        let law = self.law.load::<V>();
-        let q: [Eight<V>; 6] = load(q);
-        let rows = law.rows(&q);
-        for (to, from) in self.rows.iter_mut().zip(&rows).take(self.count) {
-            from.store(to);
+        let (q, rate, lambda): ([Eight<V>; 6], [Eight<V>; 6], _) = (load(q), load(rate), load::<V, 2>(lambda));
+        self.law.rows(&q, &mut self.rows);
+        let was_shut = self.shut;
+        self.shut = self.law.has_stop() && self.law.stop(&q, &rate, &mut self.stop);
+        if was_shut && !self.shut {
+            (self.stop.moment, self.stop.energy, self.stop.dissipation) = ([0.0; 8], [0.0; 8], [0.0; 8]);
         }
-        let stop = if law.has_stop() {
-            law.stop(&q, &load(rate))
-        } else {
-            None
-        };
-        match &stop {
-            Some(stop) => stop.store(&mut self.stop),
-            None if self.shut => {
-                (self.stop.moment, self.stop.energy, self.stop.dissipation) = ([0.0; 8], [0.0; 8], [0.0; 8]);
-            }
-            None => {}
-        }
-        self.shut = stop.is_some();
-        let lambda: [Eight<V>; 2] = load(lambda);
         let mut out = [[0.0; 8]; 6];
-        for (to, from) in out
-            .iter_mut()
-            .zip(moments(&rows[..self.count], &lambda[..self.count], stop.as_ref()))
-        {
-            from.store(to);
-        }
+        let stop = self.shut.then_some(&self.stop);
+        moments(&self.rows[..self.count], &lambda[..self.count], stop, &mut out);
         out
     }
 
     /// Derivative of the moments in rotations and rates, by columns; see [`tangent`].
     #[inline(always)]
     pub fn tangent<V: Vector>(&self, lambda: &[Lane; 2], stiffness: f64, damping: f64, out: &mut [[Lane; 6]; 6]) {
-        let lambda: [Eight<V>; 2] = load(lambda);
-        let rows = [self.rows[0].load::<V>(), self.rows[1].load::<V>()];
-        let (stop, rate) = (self.stop.load::<V>(), load(&self.rate));
-        let stop = self.shut.then_some((&stop, &rate));
-        let made = tangent(&rows[..self.count], &lambda[..self.count], stop, stiffness, damping);
-        for (out, made) in out.iter_mut().zip(made) {
-            for (to, from) in out.iter_mut().zip(made) {
-                from.store(to);
-            }
-        }
+        let lambda = load::<V, 2>(lambda);
+        let stop = self.shut.then_some((&self.stop, &self.rate));
+        let rows = &self.rows[..self.count];
+        tangent(rows, &lambda[..self.count], stop, stiffness, damping, out);
     }
 }
 
@@ -130,90 +91,6 @@ fn load<V: Vector, const N: usize>(from: &[Lane; N]) -> [Eight<V>; N] {
         *to = Eight::load(from);
     }
     out
-}
-
-#[inline(always)]
-fn load_square<V: Vector, const N: usize>(from: &[[Lane; N]; N]) -> [[Eight<V>; N]; N] {
-    let mut out = [[Eight(V::splat(0.0)); N]; N];
-    for (to, from) in out.iter_mut().zip(from) {
-        *to = load(from);
-    }
-    out
-}
-
-#[inline(always)]
-fn store<V: Vector, const N: usize>(from: &[Eight<V>; N], to: &mut [Lane; N]) {
-    for (from, to) in from.iter().zip(to) {
-        from.store(to);
-    }
-}
-
-impl JointLaw<Lane> {
-    #[inline(always)]
-    fn load<V: Vector>(&self) -> JointLaw<Eight<V>> {
-        JointLaw {
-            kind: self.kind,
-            relative: load_square(&self.relative),
-            phase: Eight::load(&self.phase),
-            hinge_cosine: Eight::load(&self.hinge_cosine),
-            limit: Eight::load(&self.limit),
-            limit_cosine: Eight::load(&self.limit_cosine),
-            stop_stiffness: self.stop_stiffness,
-            stop_damping: self.stop_damping,
-        }
-    }
-}
-
-impl RotationFunction<Lane> {
-    #[inline(always)]
-    fn load<V: Vector>(&self) -> RotationFunction<Eight<V>> {
-        RotationFunction {
-            value: Eight::load(&self.value),
-            gradient: load(&self.gradient),
-            hessian: load_square(&self.hessian),
-        }
-    }
-}
-
-impl<V: Vector> RotationFunction<Eight<V>> {
-    #[inline(always)]
-    fn store(&self, to: &mut RotationFunction<Lane>) {
-        self.value.store(&mut to.value);
-        store(&self.gradient, &mut to.gradient);
-        for (from, to) in self.hessian.iter().zip(&mut to.hessian) {
-            store(from, to);
-        }
-    }
-}
-
-impl Stop<Lane> {
-    #[inline(always)]
-    fn load<V: Vector>(&self) -> Stop<Eight<V>> {
-        Stop {
-            moment: Eight::load(&self.moment),
-            stiffness: Eight::load(&self.stiffness),
-            damping: Eight::load(&self.damping),
-            energy: Eight::load(&self.energy),
-            dissipation: Eight::load(&self.dissipation),
-            gradient: load(&self.gradient),
-            hessian: load_square(&self.hessian),
-        }
-    }
-}
-
-impl<V: Vector> Stop<Eight<V>> {
-    #[inline(always)]
-    fn store(&self, to: &mut Stop<Lane>) {
-        self.moment.store(&mut to.moment);
-        self.stiffness.store(&mut to.stiffness);
-        self.damping.store(&mut to.damping);
-        self.energy.store(&mut to.energy);
-        self.dissipation.store(&mut to.dissipation);
-        store(&self.gradient, &mut to.gradient);
-        for (from, to) in self.hessian.iter().zip(&mut to.hessian) {
-            store(from, to);
-        }
-    }
 }
 
 #[cfg(test)]
@@ -265,24 +142,20 @@ mod tests {
                 let q = std::array::from_fn(|k| at(k, lane));
                 let rate = std::array::from_fn(|k| rates(k, lane));
                 let lambda = [lambda[0][lane], lambda[1][lane]];
-                let rows = joint.law.rows(&q);
-                let stop = if joint.law.has_stop() {
-                    joint.law.stop(&q, &rate)
-                } else {
-                    None
-                };
-                assert_eq!(stop.is_some(), lane < 3 && kind != JointKind::Revolute);
-                assert_eq!(stop.is_some_and(|stop| stop.moment > 0.0), stop.is_some() && lane != 1);
-                let moment = moments(&rows[..count], &lambda, stop.as_ref());
-                let m = tangent(&rows[..count], &lambda, stop.as_ref().map(|s| (s, &rate)), 1.0, 700.0);
+                let (mut rows, mut stop) = <([_; 2], _)>::default();
+                joint.law.rows(&q, &mut rows);
+                let shut = joint.law.has_stop() && joint.law.stop(&q, &rate, &mut stop);
+                assert_eq!(shut, lane < 3 && kind != JointKind::Revolute);
+                assert_eq!(stop.moment > 0.0, shut && lane != 1);
+                let (mut moment, mut m) = ([0.0; 6], [[0.0; 6]; 6]);
+                moments(&rows[..count], &lambda, shut.then_some(&stop), &mut moment);
+                let with_rate = shut.then_some((&stop, &rate));
+                tangent(&rows[..count], &lambda, with_rate, 1.0, 700.0, &mut m);
                 // Rounding of some hundred operations; sine and cosine to two units in the last place.
                 let near = |x: f64, y: f64, scale: f64| assert!((x - y).abs() < 1e-12 * scale, "joint {lane}: {x} {y}");
                 let largest = |x: &[f64]| x.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
-                let (shut, kept) = (
-                    stop.map_or([0.0; 3], |s| [s.moment, s.energy, s.dissipation]),
-                    group.stop(),
-                );
-                for (x, y) in [kept.moment, kept.energy, kept.dissipation].iter().zip(shut) {
+                let (one, kept) = ([stop.moment, stop.energy, stop.dissipation], group.stop());
+                for (x, y) in [kept.moment, kept.energy, kept.dissipation].iter().zip(one) {
                     near(x[lane], y, y.abs() + 1.0);
                 }
                 for (row, one) in group.rows().iter().zip(&rows) {

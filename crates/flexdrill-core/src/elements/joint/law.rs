@@ -1,4 +1,6 @@
 //! The law of a joint, for one joint (`T` = f64) or eight at a time: rotational rows of Eq. 13 and the limit stop.
+//!
+//! `M` is a number as kept in memory ([`Number::Memory`]): what a residual linearises is kept until the tangent needs it.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,31 +10,31 @@ use crate::simd::number::Number;
 use crate::tool::description::JointKind;
 
 /// A scalar function of a joint's six rotations with its derivatives.
-#[derive(Debug, Clone, Copy)]
-pub struct RotationFunction<T> {
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RotationFunction<M> {
     /// Value.
-    pub value: T,
+    pub value: M,
     /// First derivatives.
-    pub gradient: [T; 6],
+    pub gradient: [M; 6],
     /// Second derivatives, symmetric.
-    pub hessian: [[T; 6]; 6],
+    pub hessian: [[M; 6]; 6],
 }
 
 /// Where a joint stands and how far it bends.
 #[derive(Debug, Clone, Copy)]
-pub struct JointLaw<T> {
+pub struct JointLaw<M> {
     /// Which rows.
     pub kind: JointKind,
     /// Q = E_a^T E_b, by rows.
-    pub relative: [[T; 3]; 3],
+    pub relative: [[M; 3]; 3],
     /// Turn of the cross about the shaft (rad).
-    pub phase: T,
+    pub phase: M,
     /// cos(theta) of Eq. 13, third row.
-    pub hinge_cosine: T,
+    pub hinge_cosine: M,
     /// Bend angle at which the stop begins (rad).
-    pub limit: T,
+    pub limit: M,
     /// Its cosine.
-    pub limit_cosine: T,
+    pub limit_cosine: M,
     /// k of the stop (N m/rad).
     pub stop_stiffness: f64,
     /// c of the stop (s/rad).
@@ -40,40 +42,54 @@ pub struct JointLaw<T> {
 }
 
 /// The stop's moment with what its tangent takes. All zero where it is open.
-#[derive(Debug, Clone, Copy)]
-pub struct Stop<T> {
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Stop<M> {
     /// Moment M (N m, >= 0).
-    pub moment: T,
+    pub moment: M,
     /// d M / d angle at a constant rate: k (1 + c angle').
-    pub stiffness: T,
+    pub stiffness: M,
     /// d M / d angle': k (angle - limit) c.
-    pub damping: T,
+    pub damping: M,
     /// Energy in the stop's spring (J).
-    pub energy: T,
+    pub energy: M,
     /// Power taken by the stop's damping (W).
-    pub dissipation: T,
+    pub dissipation: M,
     /// d angle / d rotations.
-    pub gradient: [T; 6],
+    pub gradient: [M; 6],
     /// d2 angle / d rotations2.
-    pub hessian: [[T; 6]; 6],
+    pub hessian: [[M; 6]; 6],
 }
 
-impl<T: Number> RotationFunction<T> {
-    /// Zero everywhere.
+impl<M> RotationFunction<M> {
+    /// Keeps `product`.
     #[inline(always)]
-    pub fn zero() -> Self {
+    fn set<T: Number<Memory = M>>(&mut self, product: &Product<T>) {
+        product.value.store(&mut self.value);
+        for k in 0..6 {
+            product.gradient[k].store(&mut self.gradient[k]);
+            for l in 0..6 {
+                product.hessian[k][l].store(&mut self.hessian[k][l]);
+            }
+        }
+    }
+}
+
+/// d_a . (Q d_b) of a direction of the end above and one of the start below, with its derivatives in the six rotations.
+struct Product<T> {
+    value: T,
+    gradient: [T; 6],
+    hessian: [[T; 6]; 6],
+}
+
+impl<T: Number> Product<T> {
+    #[inline(always)]
+    fn of(above: &DirectionJet<T>, relative: &[[T; 3]; 3], below: &DirectionJet<T>) -> Self {
         let zero = T::of(0.0);
-        Self {
+        let mut out = Self {
             value: zero,
             gradient: [zero; 6],
             hessian: [[zero; 6]; 6],
-        }
-    }
-
-    /// d_a . (Q d_b) of a direction of the end above and one of the start below, Q by rows.
-    #[inline(always)]
-    fn bilinear(above: &DirectionJet<T>, relative: &[[T; 3]; 3], below: &DirectionJet<T>) -> Self {
-        let mut out = Self::zero();
+        };
         for (a, row) in above.iter().zip(relative) {
             let mut b = Jet::zero();
             for (part, &factor) in below.iter().zip(row) {
@@ -101,66 +117,72 @@ impl<T: Number> RotationFunction<T> {
     }
 }
 
-impl<T> JointLaw<T> {
+impl<M> JointLaw<M> {
     /// Whether the bend angle is limited by the stop. A revolute joint's is kept by its second row.
     pub fn has_stop(&self) -> bool {
         self.kind != JointKind::Revolute
     }
-}
 
-impl<T: Number> JointLaw<T> {
-    /// The rotational rows at rotations `q`, Eq. 13; the second belongs to [`JointKind::Revolute`] only.
+    /// Linearises the rotational rows at rotations `q`, Eq. 13: one, or two for [`JointKind::Revolute`].
     #[inline(always)]
-    pub fn rows(&self, q: &[T; 6]) -> [RotationFunction<T>; 2] {
+    pub fn rows<T: Number<Memory = M>>(&self, q: &[T; 6], rows: &mut [RotationFunction<M>; 2]) {
         match self.kind {
-            JointKind::Universal => [self.cross_row(q), RotationFunction::zero()],
-            JointKind::BallCage => [Self::equal_spin_row(q), RotationFunction::zero()],
-            JointKind::Revolute => [self.cross_row(q), self.hinge_row(q)],
+            JointKind::Universal => self.cross_row(q, &mut rows[0]),
+            JointKind::BallCage => equal_spin_row(q, &mut rows[0]),
+            JointKind::Revolute => {
+                self.cross_row(q, &mut rows[0]);
+                self.hinge_row(q, &mut rows[1]);
+            }
         }
     }
 
     /// Eq. 13, second row, a_z(a) . a_y(b) = 0: the two arms of the cross stay normal to each other.
     #[inline(always)]
-    pub fn cross_row(&self, q: &[T; 6]) -> RotationFunction<T> {
-        let a_y = transverse_axis((q[3] + self.phase).sin_cos(), q[4], q[5]);
-        RotationFunction::bilinear(&self.upper_arm(q), &self.relative, &a_y)
+    fn cross_row<T: Number<Memory = M>>(&self, q: &[T; 6], row: &mut RotationFunction<M>) {
+        let a_y = transverse_axis((q[3] + T::load(&self.phase)).sin_cos(), q[4], q[5]);
+        row.set(&Product::of(&self.upper_arm(q), &self.relative(), &a_y));
     }
 
     /// Eq. 13, third row, a_z(a) . a_x(b) - cos(theta) = 0.
     #[inline(always)]
-    pub fn hinge_row(&self, q: &[T; 6]) -> RotationFunction<T> {
-        let mut row = RotationFunction::bilinear(&self.upper_arm(q), &self.relative, &shaft_axis(q[4], q[5]));
-        row.value = row.value - self.hinge_cosine;
-        row
-    }
-
-    /// psi_a - psi_b = 0: a constant-velocity joint.
-    #[inline(always)]
-    pub fn equal_spin_row(q: &[T; 6]) -> RotationFunction<T> {
-        let mut row = RotationFunction::zero();
-        row.value = q[0] - q[3];
-        (row.gradient[0], row.gradient[3]) = (T::of(1.0), T::of(-1.0));
-        row
+    pub fn hinge_row<T: Number<Memory = M>>(&self, q: &[T; 6], row: &mut RotationFunction<M>) {
+        let mut product = Product::of(&self.upper_arm(q), &self.relative(), &shaft_axis(q[4], q[5]));
+        product.value = product.value - T::load(&self.hinge_cosine);
+        row.set(&product);
     }
 
     /// a_z(a): the arm of the cross that the link above carries.
     #[inline(always)]
-    fn upper_arm(&self, q: &[T; 6]) -> DirectionJet<T> {
-        transverse_axis((q[0] + self.phase + T::of(FRAC_PI_2)).sin_cos(), q[1], q[2])
+    fn upper_arm<T: Number<Memory = M>>(&self, q: &[T; 6]) -> DirectionJet<T> {
+        let angle = q[0] + T::load(&self.phase) + T::of(FRAC_PI_2);
+        transverse_axis(angle.sin_cos(), q[1], q[2])
     }
 
-    /// The stop at rotations `q` and rates `rate`: M = k (angle - limit)(1 + c angle') >= 0, which is continuous at onset. `None` where
-    /// it is open (for all joints of `T`), as nearly all are nearly always: derivatives are formed only where one is shut.
     #[inline(always)]
-    pub fn stop(&self, q: &[T; 6], rate: &[T; 6]) -> Option<Stop<T>> {
+    fn relative<T: Number<Memory = M>>(&self) -> [[T; 3]; 3] {
+        let mut out = [[T::of(0.0); 3]; 3];
+        for (to, from) in out.iter_mut().zip(&self.relative) {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = T::load(from);
+            }
+        }
+        out
+    }
+
+    /// The stop at rotations `q` and rates `rate`: M = k (angle - limit)(1 + c angle') >= 0, which is continuous at onset. Returns whether
+    /// it is shut (for some joint of `T`); where not, as nearly always, `stop` is left as it is.
+    #[inline(always)]
+    pub fn stop<T: Number<Memory = M>>(&self, q: &[T; 6], rate: &[T; 6], stop: &mut Stop<M>) -> bool {
+        let relative = self.relative::<T>();
         let upper = shaft_direction(q[1], q[2]);
         let below = shaft_direction(q[4], q[5]);
-        let lower = self
-            .relative
-            .map(|row| row[0] * below[0] + row[1] * below[1] + row[2] * below[2]);
+        let mut lower = [T::of(0.0); 3];
+        for (lower, row) in lower.iter_mut().zip(&relative) {
+            *lower = row[0] * below[0] + row[1] * below[1] + row[2] * below[2];
+        }
         let cosine = upper[0] * lower[0] + upper[1] * lower[1] + upper[2] * lower[2];
-        if !cosine.any_below(self.limit_cosine) {
-            return None;
+        if !cosine.any_below(T::load(&self.limit_cosine)) {
+            return false;
         }
         let across = [
             upper[1] * lower[2] - upper[2] * lower[1],
@@ -168,108 +190,125 @@ impl<T: Number> JointLaw<T> {
             upper[0] * lower[1] - upper[1] * lower[0],
         ];
         let sine = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).map(f64::sqrt);
-        let over = sine.zip(cosine, libm::atan2) - self.limit;
+        let over = sine.zip(cosine, libm::atan2) - T::load(&self.limit);
         let (k, c) = (self.stop_stiffness, self.stop_damping);
         let spring = over.map(|over| if over > 0.0 { k * over } else { 0.0 });
         let inverse = sine.zip(over, |sine, over| if over > 0.0 { 1.0 / sine } else { 0.0 });
         let ratio = cosine * inverse;
 
         // cos(angle) is smooth in the rotations; the angle follows from it by the chain rule.
-        let bend = RotationFunction::bilinear(&shaft_axis(q[1], q[2]), &self.relative, &shaft_axis(q[4], q[5]));
-        let gradient = bend.gradient.map(|slope| -(slope * inverse));
-        let mut hessian = bend.hessian;
+        let bend = Product::of(&shaft_axis(q[1], q[2]), &relative, &shaft_axis(q[4], q[5]));
+        let mut gradient = bend.gradient;
         let mut angle_rate = T::of(0.0);
         for i in 0..6 {
+            gradient[i] = -(gradient[i] * inverse);
+            gradient[i].store(&mut stop.gradient[i]);
             angle_rate = angle_rate + gradient[i] * rate[i];
+        }
+        for i in 0..6 {
             for j in 0..6 {
-                hessian[i][j] = -(hessian[i][j] * inverse) - gradient[i] * gradient[j] * ratio;
+                let bent = gradient[i] * gradient[j] * ratio;
+                (-(bend.hessian[i][j] * inverse) - bent).store(&mut stop.hessian[i][j]);
             }
         }
         // Pushing: shut, and not opening faster than the law can push. Where it opens too fast there is no moment and the spring's
         // energy goes into its damping.
         let pushing = |spring: f64, rate: f64| spring > 0.0 && 1.0 + c * rate > 0.0;
-        let when_pushing = |value: fn(f64, f64, f64, f64) -> f64| {
-            spring.zip(angle_rate, |spring, rate| {
-                if pushing(spring, rate) {
-                    value(k, c, spring, 1.0 + c * rate)
+        let zero_or = |pushing: bool, value: f64| if pushing { value } else { 0.0 };
+        spring
+            .zip(angle_rate, |s, rate| zero_or(pushing(s, rate), s * (1.0 + c * rate)))
+            .store(&mut stop.moment);
+        spring
+            .zip(angle_rate, |s, rate| zero_or(pushing(s, rate), k * (1.0 + c * rate)))
+            .store(&mut stop.stiffness);
+        spring
+            .zip(angle_rate, |s, rate| zero_or(pushing(s, rate), s * c))
+            .store(&mut stop.damping);
+        spring
+            .zip(over, |s, over| zero_or(over > 0.0, 0.5 * s * over))
+            .store(&mut stop.energy);
+        spring
+            .zip(angle_rate, |s, rate| {
+                if pushing(s, rate) {
+                    s * c * rate * rate
                 } else {
-                    0.0
+                    -s * rate
                 }
             })
-        };
-        Some(Stop {
-            moment: when_pushing(|_, _, spring, viscous| spring * viscous),
-            stiffness: when_pushing(|k, _, _, viscous| k * viscous),
-            damping: when_pushing(|_, c, spring, _| spring * c),
-            energy: spring.zip(over, |spring, over| if over > 0.0 { 0.5 * spring * over } else { 0.0 }),
-            dissipation: spring.zip(angle_rate, |spring, rate| {
-                if pushing(spring, rate) {
-                    spring * c * rate * rate
-                } else {
-                    -spring * rate
-                }
-            }),
-            gradient,
-            hessian,
-        })
+            .store(&mut stop.dissipation);
+        true
     }
 }
 
-/// Moments on the six rotations that a joint must balance: rows times their multipliers `lambda` (N m), and the stop.
+/// psi_a - psi_b = 0: a constant-velocity joint.
 #[inline(always)]
-pub fn moments<T: Number>(rows: &[RotationFunction<T>], lambda: &[T], stop: Option<&Stop<T>>) -> [T; 6] {
-    let mut out = [T::of(0.0); 6];
+fn equal_spin_row<T: Number>(q: &[T; 6], row: &mut RotationFunction<T::Memory>) {
+    let zero = T::of(0.0);
+    let mut product = Product {
+        value: q[0] - q[3],
+        gradient: [zero; 6],
+        hessian: [[zero; 6]; 6],
+    };
+    (product.gradient[0], product.gradient[3]) = (T::of(1.0), T::of(-1.0));
+    row.set(&product);
+}
+
+/// Moments on the six rotations that a joint must balance: rows times their multipliers `lambda` (N m), and the stop's where it is shut.
+#[inline(always)]
+pub fn moments<T: Number>(
+    rows: &[RotationFunction<T::Memory>],
+    lambda: &[T],
+    stop: Option<&Stop<T::Memory>>,
+    out: &mut [T::Memory; 6],
+) {
     for (k, out) in out.iter_mut().enumerate() {
-        *out = rows[0].gradient[k] * lambda[0];
+        let mut moment = T::load(&rows[0].gradient[k]) * lambda[0];
         for (row, &lambda) in rows.iter().zip(lambda).skip(1) {
-            *out = *out + row.gradient[k] * lambda;
+            moment = moment + T::load(&row.gradient[k]) * lambda;
         }
         if let Some(stop) = stop {
-            *out = *out + stop.gradient[k] * stop.moment;
+            moment = moment + T::load(&stop.gradient[k]) * T::load(&stop.moment);
         }
+        moment.store(out);
     }
-    out
 }
 
-/// Derivative of [`moments`] in the rotations, times `stiffness`, and in their rates, times `damping`: by columns.
-/// `rate` are the rates at which the stop was evaluated.
+/// Derivative of [`moments`] in the rotations, times `stiffness`, and in their rates, times `damping`: by columns. `stop` comes with the
+/// rates at which it was evaluated.
 #[inline(always)]
 pub fn tangent<T: Number>(
-    rows: &[RotationFunction<T>],
+    rows: &[RotationFunction<T::Memory>],
     lambda: &[T],
-    stop: Option<(&Stop<T>, &[T; 6])>,
+    stop: Option<(&Stop<T::Memory>, &[T::Memory; 6])>,
     stiffness: f64,
     damping: f64,
-) -> [[T; 6]; 6] {
+    out: &mut [[T::Memory; 6]; 6],
+) {
     let (stiff, damped) = (T::of(stiffness), T::of(damping));
-    let mut out = [[T::of(0.0); 6]; 6];
-    for (r, (row, &lambda)) in rows.iter().zip(lambda).enumerate() {
-        let lambda = lambda * stiff;
-        for (out, hessian) in out.iter_mut().zip(&row.hessian) {
-            for (out, &hessian) in out.iter_mut().zip(hessian) {
-                *out = if r == 0 {
-                    hessian * lambda
-                } else {
-                    *out + hessian * lambda
-                };
+    for l in 0..6 {
+        for k in 0..6 {
+            let mut sum = T::load(&rows[0].hessian[l][k]) * (lambda[0] * stiff);
+            for (row, &lambda) in rows.iter().zip(lambda).skip(1) {
+                sum = sum + T::load(&row.hessian[l][k]) * (lambda * stiff);
             }
+            sum.store(&mut out[l][k]);
         }
     }
-    let Some((stop, rate)) = stop else { return out };
+    let Some((stop, rate)) = stop else { return };
+    let (by_angle, by_rate, moment) = (T::load(&stop.stiffness), T::load(&stop.damping), T::load(&stop.moment));
     for l in 0..6 {
         // d M / d q_l = k (1 + c angle') g_l + k over c (H rate)_l, and with the rates k over c g_l.
         let mut turned = T::of(0.0);
-        for (&hessian, &rate) in stop.hessian[l].iter().zip(rate) {
-            turned = turned + hessian * rate;
+        for (hessian, rate) in stop.hessian[l].iter().zip(rate) {
+            turned = turned + T::load(hessian) * T::load(rate);
         }
-        let gradient = stop.gradient[l];
-        let slope = (stop.stiffness * gradient + stop.damping * turned) * stiff + stop.damping * gradient * damped;
+        let gradient = T::load(&stop.gradient[l]);
+        let slope = (by_angle * gradient + by_rate * turned) * stiff + by_rate * gradient * damped;
         for k in 0..6 {
-            let curved = stop.hessian[l][k] * stop.moment * stiff;
-            out[l][k] = out[l][k] + stop.gradient[k] * slope + curved;
+            let curved = T::load(&stop.hessian[l][k]) * moment * stiff;
+            (T::load(&out[l][k]) + T::load(&stop.gradient[k]) * slope + curved).store(&mut out[l][k]);
         }
     }
-    out
 }
 
 #[cfg(test)]
@@ -303,11 +342,27 @@ mod tests {
         for kind in [JointKind::Universal, JointKind::BallCage, JointKind::Revolute] {
             let law = joint(kind).law;
             let lambda = [40.0, -25.0];
-            let force = |q: &[f64; 6], rate: &[f64; 6]| moments(&law.rows(q), &lambda, law.stop(q, rate).as_ref());
-            let (rows, stop) = (law.rows(&AT), law.stop(&AT, &RATE));
-            assert!(stop.is_some_and(|stop| stop.moment > 0.0));
-            let by_angle = tangent(&rows, &lambda, stop.as_ref().map(|stop| (stop, &RATE)), 1.0, 0.0);
-            let by_rate = tangent(&rows, &lambda, stop.as_ref().map(|stop| (stop, &RATE)), 0.0, 1.0);
+            let count = Joint::rotational_rows(kind);
+            let linearised = |q: &[f64; 6], rate: &[f64; 6]| {
+                let (mut rows, mut stop) = Default::default();
+                law.rows(q, &mut rows);
+                assert!(law.stop(q, rate, &mut stop) && stop.moment > 0.0);
+                (rows, stop)
+            };
+            let force = |q: &[f64; 6], rate: &[f64; 6]| {
+                let (rows, stop) = linearised(q, rate);
+                let mut out = [0.0; 6];
+                moments(&rows[..count], &lambda, Some(&stop), &mut out);
+                out
+            };
+            let (rows, stop) = linearised(&AT, &RATE);
+            let derivative = |stiffness: f64, damping: f64| {
+                let mut out = [[0.0; 6]; 6];
+                let stop = Some((&stop, &RATE));
+                tangent(&rows[..count], &lambda, stop, stiffness, damping, &mut out);
+                out
+            };
+            let (by_angle, by_rate) = (derivative(1.0, 0.0), derivative(0.0, 1.0));
             let h = 1e-6;
             for l in 0..6 {
                 let moved = |x: &[f64; 6], by: f64| {
@@ -331,9 +386,10 @@ mod tests {
     fn a_stop_that_opens_too_fast_does_not_pull() {
         let law = joint(JointKind::Universal).law;
         let opening = [0.0, -30.0, 0.0, 0.0, 30.0, 0.0];
-        let stop = law.stop(&AT, &opening).expect("it is shut");
+        let mut stop = Stop::default();
+        assert!(law.stop(&AT, &opening, &mut stop));
         assert_eq!((stop.moment, stop.stiffness, stop.damping), (0.0, 0.0, 0.0));
         assert!(stop.energy > 0.0 && stop.dissipation > 0.0);
-        assert!(law.stop(&[0.0; 6], &opening).is_none());
+        assert!(!law.stop(&[0.0; 6], &opening, &mut stop));
     }
 }

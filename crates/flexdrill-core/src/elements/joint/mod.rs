@@ -51,7 +51,9 @@ impl Joint {
             stop_damping: description.stop_damping,
         };
         if description.hinge_angle == HingeAngle::AsBuilt {
-            law.hinge_cosine = law.hinge_row(&[0.0; 6]).value;
+            let mut row = Default::default();
+            law.hinge_row(&[0.0; 6], &mut row);
+            law.hinge_cosine = row.value;
         }
         Self { upper, lower, law }
     }
@@ -109,7 +111,11 @@ mod tests {
             hinge_angle: HingeAngle::AsBuilt,
         };
         let joint = Joint::new(&description, 0, frame(0.4), frame(0.4 + bend));
-        let turned = |psi: f64| joint.law.hinge_row(&[psi, 0.0, 0.0, psi, 0.0, 0.0]).value;
+        let turned = |psi: f64| {
+            let mut row = law::RotationFunction::default();
+            joint.law.hinge_row(&[psi, 0.0, 0.0, psi, 0.0, 0.0], &mut row);
+            row.value
+        };
         assert_eq!(turned(0.0), 0.0);
         let cosine = joint.law.hinge_cosine;
         // sin(bend) times the cosine of the hinge's turn away from the well's plane.
