@@ -11,7 +11,7 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::assembly::Assembler;
 use flexdrill_core::dynamics::outcome::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::linear::{BlockLu, CondensedElimination, LinearSolver, Operator};
+use flexdrill_core::linear::{BlockLu, CondensedElimination, LinearSolver, CondensedSystem};
 use flexdrill_core::twin::Simulation;
 use flexdrill_realtime::monotonic;
 
@@ -108,7 +108,7 @@ fn parts(c: &mut Criterion<ProcessorTime>) {
         bench("condense", &mut |b| {
             b.iter_batched(
                 || lasting.clone(),
-                |lasting| Operator::of(lasting, &model.joint_stations),
+                |lasting| CondensedSystem::of(lasting, &model.joint_stations),
                 BatchSize::SmallInput,
             );
         });
@@ -124,12 +124,12 @@ fn parts(c: &mut Criterion<ProcessorTime>) {
                 BatchSize::SmallInput,
             );
         });
-        let operator = Operator::of(lasting, &model.joint_stations).expect("joints that can be condensed");
+        let operator = CondensedSystem::of(lasting, &model.joint_stations).expect("joints that can be condensed");
         let mut condensed = CondensedElimination::new(&model.layout, &model.joint_stations);
         bench("factor and solve, condensed", &mut |b| {
             b.iter_batched_ref(
                 || rhs.clone(),
-                |x| condensed.solve(black_box(&operator), &assembler.changes, x),
+                |x| condensed.solve(black_box(&operator), &assembler.increment, x),
                 BatchSize::SmallInput,
             );
         });

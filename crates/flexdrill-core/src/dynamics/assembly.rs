@@ -7,7 +7,7 @@ use crate::dynamics::phases::Stopwatch;
 use crate::elements::gap::Touch;
 use crate::elements::joint::Joint;
 use crate::elements::joint::group::JointGroup;
-use crate::linear::{BlockSystem, Changes};
+use crate::linear::{BlockSystem, TangentIncrement};
 use crate::model::Model;
 use crate::simd::Instructions;
 
@@ -51,7 +51,7 @@ pub struct Assembler {
     pub(super) step_constant_for: Option<(TangentFactors, f64, f64)>,
     pub(super) instructions: Instructions,
     /// What contacts, joints and the bit add.
-    pub changes: Changes,
+    pub increment: TangentIncrement,
 }
 
 impl Assembler {
@@ -63,7 +63,7 @@ impl Assembler {
             step_constant: system.clone(),
             step_constant_for: None,
             instructions,
-            changes: Changes::new(
+            increment: TangentIncrement::new(
                 &model.layout,
                 model.joints.len(),
                 Joint::rotational_rows(model.description.joint.kind),

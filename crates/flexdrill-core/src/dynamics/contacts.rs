@@ -42,15 +42,15 @@ impl Assembler {
     /// Fills the contacts' part of the tangent increment.
     pub(super) fn contact_tangent(&mut self, model: &Model, factors: TangentFactors) {
         for (s, station) in model.stations.iter().enumerate() {
-            self.changes.touching[s] = match (&self.inner[s], &self.outer[s]) {
+            self.increment.touching[s] = match (&self.inner[s], &self.outer[s]) {
                 (None, None) => Touching::Nothing,
                 (None, Some(_)) => Touching::Guide,
                 (Some(_), _) => Touching::Both,
             };
-            if self.changes.touching[s] == Touching::Nothing {
+            if self.increment.touching[s] == Touching::Nothing {
                 continue;
             }
-            let block = &mut self.changes.contact[s];
+            let block = &mut self.increment.contact[s];
             *block = [[0.0; 12]; 12];
             // A local force change of minus `on` times `by` . motion is one of the same form on the nodes.
             if let Some(touch) = &self.inner[s] {

@@ -4,7 +4,7 @@ use crate::dynamics::assembly::{Assembler, JointReport};
 use crate::dynamics::state::{State, translation};
 use crate::dynamics::tangent::TangentFactors;
 use crate::elements::joint::group::{JointGroup, Lane};
-use crate::linear::JointChange;
+use crate::linear::JointIncrement;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -41,7 +41,7 @@ impl Assembler {
 
     /// Fills the joints' part of the tangent increment.
     pub(super) fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
-        for (change, report) in self.changes.joints.iter_mut().zip(&self.joints) {
+        for (change, report) in self.increment.joints.iter_mut().zip(&self.joints) {
             for (to, from) in change.rows.iter_mut().zip(&report.rows) {
                 for (to, from) in to.iter_mut().zip(from) {
                     *to = from * model.moment_scale;
@@ -49,7 +49,7 @@ impl Assembler {
             }
         }
         self.instructions.run(RotationalTangents {
-            changes: &mut self.changes.joints,
+            increment: &mut self.increment.joints,
             groups: &self.groups,
             model,
             state,
@@ -132,7 +132,7 @@ impl Kernel for RotationalRows<'_> {
 
 /// Their tangents.
 struct RotationalTangents<'a> {
-    changes: &'a mut [JointChange],
+    increment: &'a mut [JointIncrement],
     groups: &'a [JointGroup],
     model: &'a Model,
     state: &'a State,
@@ -145,7 +145,7 @@ impl Kernel for RotationalTangents<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self {
-            changes,
+            increment,
             groups,
             model,
             state,
@@ -156,7 +156,7 @@ impl Kernel for RotationalTangents<'_> {
             let first = 8 * g;
             let lambda = multipliers(model, state, first, group.rows().len());
             group.tangent::<V>(&lambda, factors.stiffness, factors.damping, &mut tangent);
-            for (lane, change) in changes[first..].iter_mut().enumerate().take(8) {
+            for (lane, change) in increment[first..].iter_mut().enumerate().take(8) {
                 for (to, from) in change.rotations.iter_mut().zip(&tangent) {
                     for (to, from) in to.iter_mut().zip(from) {
                         *to = from[lane];

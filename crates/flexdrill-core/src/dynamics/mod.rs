@@ -4,7 +4,6 @@ pub mod assembly;
 pub mod conditions;
 pub mod contacts;
 pub mod energy;
-pub mod halving;
 pub mod joints;
 pub mod newton;
 pub mod outcome;
@@ -14,6 +13,7 @@ pub mod scheme;
 pub mod state;
 pub mod statics;
 pub mod stepper;
+pub mod sub_steps;
 pub mod tangent;
 
 pub use newton::Tolerances;

@@ -8,7 +8,7 @@ use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tangent::TangentFactors;
 use crate::elements::joint::rotation::LARGEST_TILT;
-use crate::linear::{CondensedElimination, LinearSolver, Operator};
+use crate::linear::{CondensedElimination, CondensedSystem, LinearSolver};
 use crate::model::Model;
 use crate::simd::Instructions;
 use crate::tool::description::Body;
@@ -63,7 +63,7 @@ pub struct Newton {
 /// The way of steps in motion: geometric stiffness is left out of the tangent, which then lasts but for contacts and joints.
 struct Condensed {
     elimination: CondensedElimination,
-    operators: Vec<(Key, Operator)>,
+    systems: Vec<(Key, CondensedSystem)>,
 }
 
 /// What the lasting tangent depends on: factors, alpha, beta.
@@ -118,19 +118,19 @@ impl Newton {
     /// Condenses the tangent's lasting part for steps with these factors, if the tool's joints allow it; others take the plain way.
     pub fn prepare(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
         let key = key(factors, conditions);
-        let known = |condensed: &Condensed| condensed.operators.iter().any(|(known, _)| *known == key);
+        let known = |condensed: &Condensed| condensed.systems.iter().any(|(known, _)| *known == key);
         if self.condensed.as_ref().is_some_and(known) {
             return;
         }
         let step_constant = self.assembler.step_constant(model, conditions, factors);
-        let Some(operator) = Operator::of(step_constant, &model.joint_stations) else {
+        let Some(system) = CondensedSystem::of(step_constant, &model.joint_stations) else {
             return;
         };
         let condensed = self.condensed.get_or_insert_with(|| Condensed {
             elimination: CondensedElimination::new(&model.layout, &model.joint_stations, self.assembler.instructions()),
-            operators: Vec::new(),
+            systems: Vec::new(),
         });
-        condensed.operators.push((key, operator));
+        condensed.systems.push((key, system));
     }
 
     /// Solves the step of size `h` that ends under `conditions`. `to` comes with the axial forces to use and holds the new state on success;
@@ -220,13 +220,13 @@ impl Newton {
         }
         let key = key(factors, conditions);
         let condensed = self.condensed.as_mut().and_then(|condensed| {
-            let (_, operator) = condensed.operators.iter().find(|(known, _)| *known == key)?;
-            Some((&mut condensed.elimination, operator))
+            let (_, system) = condensed.systems.iter().find(|(known, _)| *known == key)?;
+            Some((&mut condensed.elimination, system))
         });
-        if let Some((elimination, operator)) = condensed {
+        if let Some((elimination, system)) = condensed {
             self.assembler.stopwatch.lap(Phase::Assembly);
             self.assembler.linearise(model, to, factors);
-            let solved = elimination.solve(operator, &self.assembler.changes, &mut self.correction);
+            let solved = elimination.solve(system, &self.assembler.increment, &mut self.correction);
             self.assembler.stopwatch.lap(Phase::Solve);
             solved?;
         } else {

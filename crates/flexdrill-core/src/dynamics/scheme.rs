@@ -100,7 +100,7 @@ impl Scheme {
     }
 
     /// The lagged acceleration of `from` for a step of size `h`, given that kept and the acceleration. It is that of (gamma - 1/2) steps
-    /// ago; where the size changes it is moved in proportion, or the step would be of first order.
+    /// ago; where the size increment it is moved in proportion, or the step would be of first order.
     #[inline(always)]
     fn lagged(&self, h: f64, from: &State) -> impl Fn(f64, f64) -> f64 + use<> {
         let same = !self.lags() || from.scheme_step == h || from.scheme_step == 0.0;

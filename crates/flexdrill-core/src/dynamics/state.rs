@@ -1,4 +1,4 @@
-//! What changes while the tool moves: displacements, velocities, accelerations, multipliers.
+//! What increment while the tool moves: displacements, velocities, accelerations, multipliers.
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};

@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
-use crate::dynamics::halving::{Halving, most_attempts};
 use crate::dynamics::newton::{Newton, Tolerances};
 use crate::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
+use crate::dynamics::sub_steps::{SubSteps, most_attempts};
 use crate::linear::{BlockLu, LinearSolver, SparseReference};
 use crate::model::{Model, ModelError};
 use crate::simd::Instructions;
@@ -283,24 +283,24 @@ impl Stepper {
         self.prepare(h);
         let start = (self.state.time, self.state.drive_angle);
         let audit_before = self.audit;
-        let mut way = Halving::new(self.max_halvings);
+        let mut sub_steps = SubSteps::new(self.max_halvings);
         let mut iterations = 0;
-        while let Some(part) = way.part() {
+        while let Some(part) = sub_steps.part() {
             match self.sub_step(h, start, forcing, part) {
                 Ok(made) => {
                     iterations += made;
-                    way.accept();
+                    sub_steps.accept();
                 }
                 Err((made, failure)) => {
                     iterations += made;
                     self.counters.rejected += 1;
                     self.counters.last_rejection = Some(failure);
-                    if way.is_whole() {
+                    if sub_steps.is_whole() {
                         // Nothing has changed yet. From here on a later part may fail after an earlier one was taken.
                         self.before_step.copy_from(&self.state);
                         self.energy_before_step.copy_from(&self.energy);
                     }
-                    if !way.reject() {
+                    if !sub_steps.reject() {
                         self.state.copy_from(&self.before_step);
                         self.energy.copy_from(&self.energy_before_step);
                         self.audit = audit_before;
@@ -311,7 +311,7 @@ impl Stepper {
                 }
             }
         }
-        let deepest = way.deepest();
+        let deepest = sub_steps.deepest();
         self.unwind();
         self.weight_on_bit = forcing.weight_on_bit[1];
         self.counters.iterations += u64::from(iterations);

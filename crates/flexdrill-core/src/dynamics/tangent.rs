@@ -30,7 +30,7 @@ impl Assembler {
         self.add_geometric_stiffness(model, state, factors.stiffness);
         self.stopwatch.lap(Phase::Assembly);
         self.linearise(model, state, factors);
-        self.changes.add_to(&mut self.system);
+        self.increment.add_to(&mut self.system);
         for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
             self.system.hold(unknown);
         }
@@ -47,7 +47,7 @@ impl Assembler {
         system
     }
 
-    /// What contacts, joints and the bit add to the tangent: fills [`Assembler::changes`] from the parts linearised by the last
+    /// What contacts, joints and the bit add to the tangent: fills [`Assembler::increment`] from the parts linearised by the last
     /// [`Assembler::residual`] at `state`.
     pub fn linearise(&mut self, model: &Model, state: &State, factors: TangentFactors) {
         self.contact_tangent(model, factors);
@@ -55,12 +55,12 @@ impl Assembler {
         self.joint_tangent(model, state, factors);
         // The bit's node is the first of the last station's block.
         let (last, spin) = (model.last(), Direction::Psi as usize);
-        if self.changes.touching[last] == Touching::Nothing {
-            self.changes.contact[last] = [[0.0; 12]; 12];
+        if self.increment.touching[last] == Touching::Nothing {
+            self.increment.contact[last] = [[0.0; 12]; 12];
         }
-        self.changes.touching[last] = Touching::Both;
-        self.changes.contact[last][spin][spin] += factors.damping * self.bit_torque_slope;
-        self.changes.drop_held();
+        self.increment.touching[last] = Touching::Both;
+        self.increment.contact[last][spin][spin] += factors.damping * self.bit_torque_slope;
+        self.increment.drop_held();
         self.stopwatch.lap(Phase::Assembly);
     }
 

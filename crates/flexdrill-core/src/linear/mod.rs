@@ -1,4 +1,4 @@
-//! The linear system of a Newton iteration and the two ways to solve it.
+//! The linear system of a Newton iteration and the its solvers.
 //!
 //! Unknowns are ordered by station, so the matrix is block tridiagonal (Eq. 41 over the whole tool). A plain station has a
 //! block of 12 (pipe node, guide node), a joint station one of 24 (end of the link above, guide, start of the link below, multipliers,
@@ -6,15 +6,14 @@
 
 mod block;
 mod block_lu;
-mod changes;
-mod condensed;
-mod reduction;
+mod condensation;
+mod increment;
 mod sparse;
 mod system;
 
 pub use block_lu::BlockLu;
-pub use changes::{Changes, ContactBlock, JointChange, Touching};
-pub use condensed::{CondensedElimination, Operator};
+pub use condensation::{CondensedElimination, CondensedSystem};
+pub use increment::{ContactBlock, JointIncrement, TangentIncrement, Touching};
 pub use sparse::SparseReference;
 pub(super) use system::add_columns;
 pub use system::{BlockSystem, Layout};

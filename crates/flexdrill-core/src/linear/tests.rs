@@ -4,7 +4,8 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::{
-    BlockLu, BlockSystem, Changes, CondensedElimination, Layout, LinearSolver, Operator, SparseReference, Touching,
+    BlockLu, BlockSystem, CondensedElimination, CondensedSystem, Layout, LinearSolver, SparseReference,
+    TangentIncrement, Touching,
 };
 use crate::simd::Instructions;
 
@@ -170,7 +171,7 @@ fn blocks_without_a_diagonal() {
 
 /// Makes a system of [`system`] one that lasts: no rotational rows, and each body coupled with itself only. What couples bodies belongs
 /// to what an iteration adds.
-fn lasting(joints: &[Option<Joint>], places: &[usize], seed: u64) -> BlockSystem {
+fn step_constant(joints: &[Option<Joint>], places: &[usize], seed: u64) -> BlockSystem {
     let mut system = system(joints, seed);
     for station in 0..joints.len() {
         let nodes = if places.contains(&station) { 18 } else { 12 };
@@ -209,11 +210,11 @@ fn with_guides_alike(mut system: BlockSystem) -> BlockSystem {
 }
 
 /// Random contacts and joints: per station nothing, the guide or both, as `touching` says.
-fn changes(layout: &Layout, joints: &[usize], touching: &[Touching], held: &[usize], seed: u64) -> Changes {
+fn increment(layout: &Layout, joints: &[usize], touching: &[Touching], held: &[usize], seed: u64) -> TangentIncrement {
     let mut random = Random(seed);
-    let mut changes = Changes::new(layout, joints.len(), 1, held.iter().copied());
-    changes.touching.copy_from_slice(touching);
-    for (block, touching) in changes.contact.iter_mut().zip(touching) {
+    let mut increment = TangentIncrement::new(layout, joints.len(), 1, held.iter().copied());
+    increment.touching.copy_from_slice(touching);
+    for (block, touching) in increment.contact.iter_mut().zip(touching) {
         let first = match touching {
             // What a block holds where nothing touches must not matter.
             Touching::Nothing => {
@@ -228,14 +229,14 @@ fn changes(layout: &Layout, joints: &[usize], touching: &[Touching], held: &[usi
             column[first..].iter_mut().for_each(|x| *x = random.next());
         }
     }
-    for joint in &mut changes.joints {
+    for joint in &mut increment.joints {
         joint.rotations.iter_mut().flatten().for_each(|x| *x = random.next());
         for k in 0..6 {
             joint.rows[0][k] = random.next() + if k % 3 == 0 { 3.0 } else { 0.0 };
         }
     }
-    changes.drop_held();
-    changes
+    increment.drop_held();
+    increment
 }
 
 #[test]
@@ -264,12 +265,15 @@ fn condensed_links() {
         let places: Vec<usize> = (0..joints.len()).filter(|&s| joints[s] == one).collect();
         let mut counted = [0; 4];
         for seed in 0..20 {
-            let mut lasting = lasting(&joints, &places, seed);
+            let mut step_constant = step_constant(&joints, &places, seed);
             if alike {
-                lasting = with_guides_alike(lasting);
+                step_constant = with_guides_alike(step_constant);
             }
-            let unknowns: Vec<usize> = held.iter().map(|&(s, k)| lasting.layout().offset(s) + k).collect();
-            unknowns.iter().for_each(|&unknown| lasting.hold(unknown));
+            let unknowns: Vec<usize> = held
+                .iter()
+                .map(|&(s, k)| step_constant.layout().offset(s) + k)
+                .collect();
+            unknowns.iter().for_each(|&unknown| step_constant.hold(unknown));
             let mut random = Random(seed + 500);
             let touching: Vec<Touching> = joints
                 .iter()
@@ -279,18 +283,18 @@ fn condensed_links() {
                     _ => Both,
                 })
                 .collect();
-            let changes = changes(lasting.layout(), &places, &touching, &unknowns, seed + 600);
-            let mut full = lasting.clone();
-            changes.add_to(&mut full);
+            let increment = increment(step_constant.layout(), &places, &touching, &unknowns, seed + 600);
+            let mut full = step_constant.clone();
+            increment.add_to(&mut full);
             let rhs: Vec<f64> = (0..full.layout().unknowns()).map(|_| random.next()).collect();
             let mut expected = rhs.clone();
             SparseReference::default().solve(&full, &mut expected).unwrap();
             let scale = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-            let operator = Operator::of(lasting.clone(), &places).unwrap();
+            let condensed = CondensedSystem::of(step_constant.clone(), &places).unwrap();
             for instructions in Instructions::available() {
-                let mut solver = CondensedElimination::new(lasting.layout(), &places, instructions);
+                let mut solver = CondensedElimination::new(step_constant.layout(), &places, instructions);
                 let mut x = rhs.clone();
-                solver.solve(&operator, &changes, &mut x).unwrap();
+                solver.solve(&condensed, &increment, &mut x).unwrap();
                 for (i, (x, expected)) in x.iter().zip(&expected).enumerate() {
                     // As for the other paths.
                     assert!(
@@ -299,7 +303,7 @@ fn condensed_links() {
                     );
                 }
                 let mut again = rhs.clone();
-                solver.solve(&operator, &changes, &mut again).unwrap();
+                solver.solve(&condensed, &increment, &mut again).unwrap();
                 assert!(x == again, "{instructions} gave different bits");
                 counted
                     .iter_mut()
@@ -315,19 +319,19 @@ fn condensed_links() {
 #[test]
 fn what_does_not_have_the_form_is_not_condensed() {
     use Joint::{OneRow, TwoRows};
-    let hinges = lasting(&[None, None, Some(TwoRows), None, None], &[2], 1);
-    assert!(Operator::of(hinges, &[2]).is_none());
-    let made = || lasting(&[None, None, Some(OneRow), None, None], &[2], 1);
-    assert!(Operator::of(made(), &[2]).is_some());
+    let hinges = step_constant(&[None, None, Some(TwoRows), None, None], &[2], 1);
+    assert!(CondensedSystem::of(hinges, &[2]).is_none());
+    let made = || step_constant(&[None, None, Some(OneRow), None, None], &[2], 1);
+    assert!(CondensedSystem::of(made(), &[2]).is_some());
     let mut held = made();
     held.hold(held.layout().offset(2) + 13);
-    assert!(Operator::of(held, &[2]).is_none());
+    assert!(CondensedSystem::of(held, &[2]).is_none());
     // Pipe and guide coupled by what is said to last: inside a link, and at the start below a joint.
     for (station, row, column) in [(1, 2, 8), (1, 8, 2), (2, 13, 7), (2, 7, 16)] {
         let mut coupled = made();
         coupled.add(station, row, column, 1.0);
         assert!(
-            Operator::of(coupled, &[2]).is_none(),
+            CondensedSystem::of(coupled, &[2]).is_none(),
             "entry {row}, {column} of station {station}"
         );
     }

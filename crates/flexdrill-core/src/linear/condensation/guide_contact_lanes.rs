@@ -1,11 +1,11 @@
-//! The guides of up to eight like spans eliminated at once, a span per lane: the method of [`super::guide_span`], whose spans one by one
+//! The guides of up to eight like spans eliminated at once, a span per lane: the method of [`super::guide_contact`], whose spans one by one
 //! leave a processor waiting for each pivot. Eight lanes have no row to fill up and no chain to wait for.
 
-use super::super::block::PIVOT_RATIO;
-use super::super::changes::{Changes, Touching};
-use super::Six;
-use super::guide_span::{COLUMNS, Condensed, GuideChain, RIGHT, TOP};
-use super::operator::Span;
+use super::PaddedColumns;
+use super::guide_contact::{COLUMNS, GuideChain, InterfaceMatrices, RIGHT, TOP};
+use super::system::Span;
+use crate::linear::block::PIVOT_RATIO;
+use crate::linear::increment::{TangentIncrement, Touching};
 use crate::simd::vector::Vector;
 
 /// Spans per group.
@@ -25,7 +25,7 @@ pub const NOTHING: SolvedLanes = [[[0.0; LANES]; 6]; COLUMNS];
 /// Spans with the same guide that are eliminated together; lanes without a span repeat the last one.
 #[derive(Debug, Clone, Copy)]
 pub struct Group {
-    /// Index of the guide in the operator.
+    /// Index of the guide in the system.
     pub guide: usize,
     /// Spans.
     pub spans: [usize; LANES],
@@ -33,7 +33,7 @@ pub struct Group {
     pub count: usize,
 }
 
-/// What the spans of a group put on their ends: see [`Condensed`].
+/// What the spans of a group put on their ends: see [`InterfaceMatrices`].
 struct Ends {
     top: [Column; 6],
     bottom: [Column; 6],
@@ -43,7 +43,7 @@ struct Ends {
 }
 
 impl GuideChain {
-    /// Eliminates the inner nodes of all spans in `group` from the top down; `spans` are the operator's, `forces` the right-hand sides by node,
+    /// Eliminates the inner nodes of all spans in `group` from the top down; `spans` are the system's, `forces` the right-hand sides by node,
     /// unknown and lane. Results per lane go to `out`.
     ///
     /// Returns whether the diagonal did as pivots everywhere; where not, nothing may be used and the spans have to be taken one by one.
@@ -52,10 +52,10 @@ impl GuideChain {
         &self,
         group: &Group,
         spans: &[Span],
-        changes: &Changes,
+        increment: &TangentIncrement,
         forces: &[Column],
         solved: &mut [SolvedLanes],
-        out: &mut [Condensed],
+        out: &mut [InterfaceMatrices],
     ) -> bool {
         let zero = [[0.0; LANES]; 6];
         let mut ends = Ends {
@@ -68,7 +68,7 @@ impl GuideChain {
         let mut carry = NOTHING;
         for (k, solved) in solved.iter_mut().enumerate() {
             let mut block = [zero; 6];
-            contacts(group, spans, changes, k, &mut block);
+            contacts(group, spans, increment, k, &mut block);
             for j in 0..6 {
                 for i in 0..6 {
                     let own = V::splat(self.diagonal[k][j][i]).plus(V::load(&block[j][i]));
@@ -172,11 +172,11 @@ pub fn expand_lanes<V: Vector>(solved: &[SolvedLanes], top: &Column, bottom: &Co
 
 /// What the wall adds at inner node `k` of every span.
 #[inline(always)]
-fn contacts(group: &Group, spans: &[Span], changes: &Changes, k: usize, block: &mut [Column; 6]) {
+fn contacts(group: &Group, spans: &[Span], increment: &TangentIncrement, k: usize, block: &mut [Column; 6]) {
     for (lane, &span) in group.spans.iter().enumerate() {
         let station = spans[span].first + k;
-        if changes.touching[station] == Touching::Guide {
-            for (to, from) in block.iter_mut().zip(&changes.contact[station][6..]) {
+        if increment.touching[station] == Touching::Guide {
+            for (to, from) in block.iter_mut().zip(&increment.contact[station][6..]) {
                 for (to, from) in to.iter_mut().zip(&from[6..]) {
                     to[lane] = *from;
                 }
@@ -223,7 +223,7 @@ fn eliminate<V: Vector>(a: &mut [Column; 6], b: &mut SolvedLanes) -> bool {
 }
 
 #[inline(always)]
-fn splat(m: &Six) -> [Column; 6] {
+fn splat(m: &PaddedColumns) -> [Column; 6] {
     let mut out = [[[0.0; LANES]; 6]; 6];
     for (to, from) in out.iter_mut().zip(m) {
         for (to, from) in to.iter_mut().zip(from) {
@@ -264,10 +264,10 @@ fn subtract_product<V: Vector>(m: &[[V; 6]; 6], x: &Column, out: &mut Column) {
 mod tests {
     use nalgebra::Matrix6;
 
-    use super::super::super::Layout;
-    use super::super::body::{Body, Chain};
-    use super::super::guide_span::expand;
+    use super::super::guide_contact::expand;
+    use super::super::substructure::{Chain, Substructure};
     use super::*;
+    use crate::linear::Layout;
     use crate::simd::vector::Portable;
 
     const NODES: usize = 3;
@@ -282,9 +282,9 @@ mod tests {
     }
 
     /// Five spans of three inner nodes, one after the other, with a wall that touches here and there.
-    fn case(diagonal: f64) -> (GuideChain, Vec<Span>, Changes, Group) {
+    fn case(diagonal: f64) -> (GuideChain, Vec<Span>, TangentIncrement, Group) {
         let mut seed = 5;
-        let body = Body::of(Chain {
+        let substructure = Substructure::of(Chain {
             diagonal: (0..NODES).map(|_| matrix(&mut seed, diagonal)).collect(),
             upper: (0..=NODES).map(|_| matrix(&mut seed, 0.0)).collect(),
             lower: (0..=NODES).map(|_| matrix(&mut seed, 0.0)).collect(),
@@ -295,16 +295,16 @@ mod tests {
                 inner: NODES,
                 pipe: 0,
                 guide: 0,
-                edge: 0,
+                coupling_of_pipe: 0,
             })
             .collect();
         let layout = Layout::new(vec![false; 5 * (NODES + 1) + 1]);
-        let mut changes = Changes::new(&layout, 0, 1, std::iter::empty());
+        let mut increment = TangentIncrement::new(&layout, 0, 1, std::iter::empty());
         for station in 0..layout.stations() {
             if station % 3 != 0 {
-                changes.touching[station] = Touching::Guide;
+                increment.touching[station] = Touching::Guide;
             }
-            for column in &mut changes.contact[station][6..] {
+            for column in &mut increment.contact[station][6..] {
                 column[6..].iter_mut().for_each(|x| *x = random(&mut seed));
             }
         }
@@ -313,20 +313,20 @@ mod tests {
             spans: [0, 1, 2, 3, 4, 4, 4, 4],
             count: 5,
         };
-        (GuideChain::of(&body.unwrap()), spans, changes, group)
+        (GuideChain::of(&substructure.unwrap()), spans, increment, group)
     }
 
     #[test]
     fn spans_together_are_spans_alone() {
-        let (chain, spans, changes, group) = case(20.0);
+        let (chain, spans, increment, group) = case(20.0);
         let mut seed = 11;
         let values: Vec<[[f64; LANES]; 6]> = (0..NODES + 2)
             .map(|_| std::array::from_fn(|_| std::array::from_fn(|_| random(&mut seed))))
             .collect();
         let (forces, ends) = values.split_at(NODES);
-        let mut together = vec![Condensed::NOTHING; 5];
+        let mut together = vec![InterfaceMatrices::NOTHING; 5];
         let mut solved = [NOTHING; NODES];
-        assert!(chain.condense_lanes::<Portable>(&group, &spans, &changes, forces, &mut solved, &mut together));
+        assert!(chain.condense_lanes::<Portable>(&group, &spans, &increment, forces, &mut solved, &mut together));
         let mut inner = [[[0.0; LANES]; 6]; NODES];
         expand_lanes::<Portable>(&solved, &ends[0], &ends[1], &mut inner);
         // Rounding of some hundred operations on numbers of the order of one.
@@ -335,11 +335,11 @@ mod tests {
             let stations = span.first..span.first + NODES;
             let mine: Vec<f64> = forces.iter().flatten().map(|x| x[lane]).collect();
             let mut solved = vec![[[0.0; 8]; COLUMNS]; NODES];
-            let (touching, contact) = (&changes.touching[stations.clone()], &changes.contact[stations]);
+            let (touching, contact) = (&increment.touching[stations.clone()], &increment.contact[stations]);
             let alone = chain
                 .condense::<Portable>(touching, contact, &mine, &mut solved)
                 .unwrap();
-            let parts = |c: &Condensed| [c.top, c.bottom, c.upper, c.lower].concat().concat();
+            let parts = |c: &InterfaceMatrices| [c.top, c.bottom, c.upper, c.lower].concat().concat();
             let (x, y) = (parts(&together[lane]), parts(&alone));
             x.iter().zip(&y).for_each(|(x, y)| near(*x, *y));
             for end in 0..2 {
@@ -354,27 +354,27 @@ mod tests {
 
     #[test]
     fn a_pivot_that_will_not_do_is_told() {
-        let (mut chain, spans, mut changes, group) = case(20.0);
-        let mut out = vec![Condensed::NOTHING; 5];
-        let mut run = |chain: &GuideChain, changes: &Changes| {
+        let (mut chain, spans, mut increment, group) = case(20.0);
+        let mut out = vec![InterfaceMatrices::NOTHING; 5];
+        let mut run = |chain: &GuideChain, increment: &TangentIncrement| {
             let mut solved = [NOTHING; NODES];
             chain.condense_lanes::<Portable>(
                 &group,
                 &spans,
-                changes,
+                increment,
                 &[[[1.0; LANES]; 6]; NODES],
                 &mut solved,
                 &mut out,
             )
         };
-        assert!(run(&chain, &changes));
+        assert!(run(&chain, &increment));
         // One lane that is not a number, then a first pivot of zero in all of them.
-        let kept = changes.contact[1][6][6];
-        changes.contact[1][6][6] = f64::NAN;
-        assert!(!run(&chain, &changes));
-        changes.contact[1][6][6] = kept;
-        changes.touching[1] = Touching::Nothing;
+        let kept = increment.contact[1][6][6];
+        increment.contact[1][6][6] = f64::NAN;
+        assert!(!run(&chain, &increment));
+        increment.contact[1][6][6] = kept;
+        increment.touching[1] = Touching::Nothing;
         chain.diagonal[0][0][0] = 0.0;
-        assert!(!run(&chain, &changes));
+        assert!(!run(&chain, &increment));
     }
 }

@@ -18,7 +18,7 @@ pub type ContactBlock = [[f64; 12]; 12];
 
 /// A joint's part over the rotations of (end above, start below).
 #[derive(Debug, Clone, Copy)]
-pub struct JointChange {
+pub struct JointIncrement {
     /// Stop, and curvature of the rotational rows, by columns.
     pub rotations: [[f64; 6]; 6],
     /// Gradients of the rotational rows.
@@ -27,20 +27,20 @@ pub struct JointChange {
 
 /// Additions of one iteration.
 #[derive(Debug, Clone)]
-pub struct Changes {
+pub struct TangentIncrement {
     /// Per station.
     pub touching: Vec<Touching>,
     /// Per station.
     pub contact: Vec<ContactBlock>,
     /// Per joint station, in order.
-    pub joints: Vec<JointChange>,
+    pub joints: Vec<JointIncrement>,
     /// Rotational rows per joint.
     pub rows: usize,
     /// Held unknowns with their stations: their equations take no additions.
     held: Vec<(usize, usize)>,
 }
 
-impl Changes {
+impl TangentIncrement {
     /// No additions, for `joints` joints of `rows` rotational rows. `held` are unknowns without an equation.
     pub fn new(layout: &Layout, joints: usize, rows: usize, held: impl Iterator<Item = usize>) -> Self {
         let stations = layout.stations();
@@ -48,7 +48,7 @@ impl Changes {
             touching: vec![Touching::Nothing; stations],
             contact: vec![[[0.0; 12]; 12]; stations],
             joints: vec![
-                JointChange {
+                JointIncrement {
                     rotations: [[0.0; 6]; 6],
                     rows: [[0.0; 6]; 2],
                 };

@@ -1,8 +1,8 @@
-//! How a step is cut into sub-steps: halved where one does not converge, doubled again as soon as its grid allows.
+//! Sub-stepping: a step is halved where one does not converge, doubled again as soon as its grid allows.
 
-/// The way through one step, in units of the smallest sub-step.
+/// Progress through one step, in units of the smallest sub-step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Halving {
+pub struct SubSteps {
     whole: u64,
     most: u32,
     done: u64,
@@ -10,7 +10,7 @@ pub struct Halving {
     deepest: u32,
 }
 
-impl Halving {
+impl SubSteps {
     /// At the beginning of a step that may be halved `most` times.
     pub fn new(most: u32) -> Self {
         Self {
@@ -78,15 +78,15 @@ mod tests {
     use super::*;
 
     /// Most attempts from here on, whatever is accepted or rejected.
-    fn worst(way: Halving, known: &mut HashMap<(u64, u32), u64>) -> u64 {
-        if way.part().is_none() {
+    fn worst(sub_steps: SubSteps, known: &mut HashMap<(u64, u32), u64>) -> u64 {
+        if sub_steps.part().is_none() {
             return 0;
         }
-        let key = (way.done, way.level);
+        let key = (sub_steps.done, sub_steps.level);
         if let Some(&worst) = known.get(&key) {
             return worst;
         }
-        let (mut accepted, mut rejected) = (way, way);
+        let (mut accepted, mut rejected) = (sub_steps, sub_steps);
         accepted.accept();
         let after_accept = worst(accepted, known);
         let after_reject = if rejected.reject() { worst(rejected, known) } else { 0 };
@@ -98,7 +98,7 @@ mod tests {
     fn the_bound_is_the_worst_of_all_ways_through_a_step() {
         for most in 0..=12 {
             assert_eq!(
-                worst(Halving::new(most), &mut HashMap::new()),
+                worst(SubSteps::new(most), &mut HashMap::new()),
                 most_attempts(most),
                 "{most}"
             );
@@ -108,22 +108,22 @@ mod tests {
 
     #[test]
     fn a_step_without_trouble_is_taken_whole() {
-        let mut way = Halving::new(6);
-        assert_eq!(way.part(), Some((0.0, 1.0)));
-        way.accept();
-        assert_eq!((way.part(), way.deepest()), (None, 0));
+        let mut sub_steps = SubSteps::new(6);
+        assert_eq!(sub_steps.part(), Some((0.0, 1.0)));
+        sub_steps.accept();
+        assert_eq!((sub_steps.part(), sub_steps.deepest()), (None, 0));
     }
 
     #[test]
     fn the_size_grows_again_on_its_own_grid() {
-        let mut way = Halving::new(2);
-        assert!(way.reject() && way.reject() && !way.reject());
-        assert_eq!(way.part(), Some((0.0, 0.25)));
-        way.accept();
-        assert_eq!(way.part(), Some((0.25, 0.5)));
-        way.accept();
-        assert_eq!(way.part(), Some((0.5, 1.0)));
-        way.accept();
-        assert_eq!((way.part(), way.deepest()), (None, 2));
+        let mut sub_steps = SubSteps::new(2);
+        assert!(sub_steps.reject() && sub_steps.reject() && !sub_steps.reject());
+        assert_eq!(sub_steps.part(), Some((0.0, 0.25)));
+        sub_steps.accept();
+        assert_eq!(sub_steps.part(), Some((0.25, 0.5)));
+        sub_steps.accept();
+        assert_eq!(sub_steps.part(), Some((0.5, 1.0)));
+        sub_steps.accept();
+        assert_eq!((sub_steps.part(), sub_steps.deepest()), (None, 2));
     }
 }

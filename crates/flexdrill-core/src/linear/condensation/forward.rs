@@ -1,26 +1,26 @@
 //! One iteration's solution: spans condensed, joints eliminated from the top down, everything recovered from the bottom up.
 
-use super::super::changes::Changes;
-use super::super::reduction::active;
-use super::super::{Layout, Singular};
-use super::additions::{add_block, add_contact, add_guide, add_joint, take};
-use super::guide_lanes::{self, Group, LANES, SolvedLanes};
-use super::guide_span::{Condensed, Solved, six};
-use super::operator::{Edge, Matrices, Operator, place, spread};
+use super::guide_contact::{InterfaceMatrices, Solved, six};
+use super::guide_contact_lanes::{self, Group, LANES, SolvedLanes};
+use super::increment::{add_block, add_contact, add_guide, add_joint, take};
+use super::joint_reduction::active;
 use super::pivots::{self, halves_mut};
-use super::{Block, COLUMNS, Columns, GUIDE, MULTIPLIER, SIZE, Six, U};
+use super::system::{CondensedSystem, InterfaceCoupling, Matrices, place, spread};
+use super::{Block, COLUMNS, Columns, GUIDE, MULTIPLIER, PaddedColumns, SIZE, U};
+use crate::linear::increment::TangentIncrement;
+use crate::linear::{Layout, Singular};
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 
 /// How a span takes part in this iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mode {
-    /// No contact inside: condensed as made.
-    Still,
-    /// The guide touches the wall inside: its nodes eliminated anew.
-    Guide,
-    /// The pipe touches the guide inside: its stations are in the sweep.
-    Open,
+    /// No contact inside: condensed once per step size.
+    Free,
+    /// The guide touches the wall inside: its nodes are eliminated anew.
+    GuideContact,
+    /// The pipe touches the guide inside: its stations take part in the sweep.
+    PipeContact,
 }
 
 /// A station as it was swept.
@@ -41,10 +41,10 @@ pub struct CondensedElimination {
     pub(super) room: usize,
     /// Right-hand sides inside a span.
     pub(super) forces: Vec<f64>,
-    /// Spans whose guides are eliminated together; those of [`Mode::Guide`] that are in no group are eliminated alone.
+    /// Spans whose guides are eliminated together; those of [`Mode::GuideContact`] that are in no group are eliminated alone.
     pub(super) groups: Vec<Group>,
     pub(super) grouped: Vec<bool>,
-    /// Per kind of guide, the group that still has room.
+    /// Per kind of guide, the group that clamped has room.
     pub(super) unfilled: Vec<Option<usize>>,
     /// Inner nodes of the longest span.
     pub(super) longest: usize,
@@ -55,7 +55,7 @@ pub struct CondensedElimination {
     /// Guides eliminated alone, by station.
     pub(super) solved: Vec<Solved>,
     /// What the guides of the spans put on their ends in this iteration, where eliminated anew.
-    pub(super) condensed: Vec<Condensed>,
+    pub(super) condensed: Vec<InterfaceMatrices>,
     pub(super) swept: Vec<Swept>,
     /// S^-1 (U, r) per swept station.
     pub(super) columns: Vec<Columns>,
@@ -65,16 +65,16 @@ pub struct CondensedElimination {
 
 /// Where a swept station's coupling to the next one comes from.
 struct Coupling<'a> {
-    pipe: &'a Edge,
-    guide_upper: &'a Six,
-    guide_lower: &'a Six,
+    pipe: &'a InterfaceCoupling,
+    guide_upper: &'a PaddedColumns,
+    guide_lower: &'a PaddedColumns,
 }
 
 /// One solution, for every width of vectors.
 struct Elimination<'a> {
     by: &'a mut CondensedElimination,
-    operator: &'a Operator,
-    changes: &'a Changes,
+    system: &'a CondensedSystem,
+    increment: &'a TangentIncrement,
     rhs: &'a mut [f64],
 }
 
@@ -85,15 +85,15 @@ impl Kernel for Elimination<'_> {
     fn run<V: Vector>(self) -> Result<(), Singular> {
         let Self {
             by,
-            operator,
-            changes,
+            system,
+            increment,
             rhs,
         } = self;
-        by.condense_spans::<V>(operator, changes, rhs);
-        by.condense_guides::<V>(operator, changes, rhs)?;
-        by.sweep::<V>(operator, changes, rhs)?;
-        by.recover::<V>(operator, rhs);
-        by.recover_spans::<V>(operator, rhs);
+        by.condense_spans::<V>(system, increment, rhs);
+        by.condense_guides::<V>(system, increment, rhs)?;
+        by.sweep::<V>(system, increment, rhs)?;
+        by.recover::<V>(system, rhs);
+        by.recover_spans::<V>(system, rhs);
         Ok(())
     }
 }
@@ -113,7 +113,7 @@ impl CondensedElimination {
         let spans = joints.len() + 1;
         Self {
             instructions,
-            modes: vec![Mode::Still; spans],
+            modes: vec![Mode::Free; spans],
             pipes: vec![0.0; room * spans],
             guides: vec![0.0; room * spans],
             room,
@@ -123,9 +123,9 @@ impl CondensedElimination {
             unfilled: vec![None; spans],
             longest,
             lane_values: vec![[[0.0; LANES]; 6]; longest],
-            solved_lanes: vec![guide_lanes::NOTHING; longest * spans],
+            solved_lanes: vec![guide_contact_lanes::NOTHING; longest * spans],
             solved: vec![[[0.0; 8]; COLUMNS]; stations],
-            condensed: vec![Condensed::NOTHING; spans],
+            condensed: vec![InterfaceMatrices::NOTHING; spans],
             swept: Vec::with_capacity(stations),
             columns: vec![[[0.0; SIZE]; COLUMNS]; stations],
             offsets: vec![[0.0; 3]; joints.len() + 2],
@@ -138,41 +138,51 @@ impl CondensedElimination {
         let mut counts = [0; 4];
         for (mode, &grouped) in self.modes.iter().zip(&self.grouped) {
             counts[match mode {
-                Mode::Still => 0,
-                Mode::Guide if !grouped => 1,
-                Mode::Guide => 2,
-                Mode::Open => 3,
+                Mode::Free => 0,
+                Mode::GuideContact if !grouped => 1,
+                Mode::GuideContact => 2,
+                Mode::PipeContact => 3,
             }] += 1;
         }
         counts
     }
 
-    /// Solves (lasting + changes) x = rhs; `rhs` becomes x.
+    /// Solves (step_constant + increment) x = rhs; `rhs` becomes x.
     ///
     /// # Errors
     /// When a block cannot be factorised.
-    pub fn solve(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) -> Result<(), Singular> {
+    pub fn solve(
+        &mut self,
+        system: &CondensedSystem,
+        increment: &TangentIncrement,
+        rhs: &mut [f64],
+    ) -> Result<(), Singular> {
         let instructions = self.instructions;
         instructions.run(Elimination {
             by: self,
-            operator,
-            changes,
+            system,
+            increment,
             rhs,
         })
     }
 
     /// From the top down.
     #[inline(always)]
-    fn sweep<V: Vector>(&mut self, operator: &Operator, changes: &Changes, rhs: &[f64]) -> Result<(), Singular> {
-        let layout = operator.layout();
+    fn sweep<V: Vector>(
+        &mut self,
+        system: &CondensedSystem,
+        increment: &TangentIncrement,
+        rhs: &[f64],
+    ) -> Result<(), Singular> {
+        let layout = system.layout();
         self.swept.clear();
         // What one swept station puts on the next.
         let mut carry = [[0.0; SIZE]; COLUMNS];
-        for (k, node) in operator.nodes.iter().enumerate() {
-            let matrices = &operator.matrices[node.matrices];
+        for (k, node) in system.nodes.iter().enumerate() {
+            let matrices = &system.matrices[node.matrices];
             let above = k.checked_sub(1).map(|above| self.modes[above]);
-            let below = self.modes.get(k).copied().filter(|_| k < operator.spans.len());
-            let open = |mode: Option<Mode>| mode == Some(Mode::Open);
+            let below = self.modes.get(k).copied().filter(|_| k < system.spans.len());
+            let open = |mode: Option<Mode>| mode == Some(Mode::PipeContact);
             let mut block = if open(above) || open(below) {
                 let mut block = matrices.own;
                 for (condensed, part) in [(!open(above), &matrices.above), (!open(below), &matrices.below)] {
@@ -187,14 +197,14 @@ impl CondensedElimination {
             if let Some(span) = k.checked_sub(1)
                 && !open(above)
             {
-                add_guide(&mut block, &self.guide_of(operator, span).bottom);
+                add_guide(&mut block, &self.guide_of(system, span).bottom);
             }
             if below.is_some() && !open(below) {
-                add_guide(&mut block, &self.guide_of(operator, k).top);
+                add_guide(&mut block, &self.guide_of(system, k).top);
             }
-            add_contact(&mut block, changes, node.station);
+            add_contact(&mut block, increment, node.station);
             if let Some(joint) = node.joint {
-                add_joint(&mut block, &changes.joints[joint]);
+                add_joint(&mut block, &increment.joints[joint]);
             }
             let mut right = self.right_hand_side(matrices, k, layout.offset(node.station), rhs, open(below));
             take(&mut block, &mut right, &carry);
@@ -203,15 +213,15 @@ impl CondensedElimination {
                 station: node.station,
                 node: Some(k),
             };
-            let Some(span) = operator.spans.get(k) else {
+            let Some(span) = system.spans.get(k) else {
                 self.last::<V>(&mut block, &right, swept)?;
                 break;
             };
             if !open(below) {
-                let guide = self.guide_of(operator, k);
+                let guide = self.guide_of(system, k);
                 let (guide_upper, guide_lower) = (guide.upper, guide.lower);
                 let coupling = Coupling {
-                    pipe: &operator.edges[span.edge],
+                    pipe: &system.couplings[span.coupling_of_pipe],
                     guide_upper: &guide_upper,
                     guide_lower: &guide_lower,
                 };
@@ -223,13 +233,13 @@ impl CondensedElimination {
             let (mut out, mut reduction, mut from) = (out, matrices.reduction.as_ref(), Some(k));
             for station in span.first..=span.first + span.inner {
                 let (upper, lower) = (
-                    &operator.lasting.upper[station - 1],
-                    &operator.lasting.lower[station - 1],
+                    &system.step_constant.upper[station - 1],
+                    &system.step_constant.lower[station - 1],
                 );
-                let edge = Edge::of(&upper.pipe, &lower.pipe, reduction);
-                let (guide_upper, guide_lower): (Six, Six) = (six(&upper.guide), six(&lower.guide));
+                let coupling_of_pipe = InterfaceCoupling::of(&upper.pipe, &lower.pipe, reduction);
+                let (guide_upper, guide_lower): (PaddedColumns, PaddedColumns) = (six(&upper.guide), six(&lower.guide));
                 let coupling = Coupling {
-                    pipe: &edge,
+                    pipe: &coupling_of_pipe,
                     guide_upper: &guide_upper,
                     guide_lower: &guide_lower,
                 };
@@ -237,9 +247,9 @@ impl CondensedElimination {
                 if station == span.first + span.inner {
                     break;
                 }
-                let own = &operator.lasting.diagonal.plain[layout.slot(station)];
+                let own = &system.step_constant.diagonal.plain[layout.slot(station)];
                 block = spread(|i, j| own[(i, j)]);
-                add_contact(&mut block, changes, station);
+                add_contact(&mut block, increment, station);
                 right = plain_right_hand_side(layout.offset(station), rhs);
                 take(&mut block, &mut right, &carry);
                 swept = Swept { station, node: None };
@@ -250,11 +260,11 @@ impl CondensedElimination {
     }
 
     #[inline(always)]
-    fn guide_of<'a>(&'a self, operator: &'a Operator, span: usize) -> &'a Condensed {
-        if self.modes[span] == Mode::Guide {
+    fn guide_of<'a>(&'a self, system: &'a CondensedSystem, span: usize) -> &'a InterfaceMatrices {
+        if self.modes[span] == Mode::GuideContact {
             &self.condensed[span]
         } else {
-            &operator.guides[operator.spans[span].guide].still
+            &system.guides[system.spans[span].guide].clamped
         }
     }
 

@@ -1,28 +1,29 @@
 //! Elimination along the joints: what lies between two joints is condensed beforehand.
 //!
 //! Between its joints a link is linear, and so is the guide between two joint stations; their matrices last as long as the step size
-//! does. So the inner stations of every span are eliminated once per step size ([`body`]), and an iteration works on joints only
-//! ([`sweep`]): 34 blocks of 16 for the paper's tool instead of 170 stations. Where the guide touches the wall inside a span, the
-//! guide's inner stations are eliminated anew ([`guide_span`], several spans at once in [`guide_lanes`]); where the pipe touches the guide
+//! does. So the inner stations of every span are eliminated once per step size ([`substructure`]), and an iteration works on joints only
+//! ([`forward`]): 34 blocks of 16 for the paper's tool instead of 170 stations. Where the guide touches the wall inside a span, the
+//! guide's inner stations are eliminated anew ([`guide_contact`], several spans at once in [`guide_contact_lanes`]); where the pipe touches the guide
 //! there, the span's stations take part in the sweep one by one. See `docs/solver.md`.
 //!
 //! Order inside a block of 16: rotations of the end above (0..3), its displacement (3..6), rotations of the start below (6..9), guide
 //! (9..15), rotational multiplier (15). The displacement of the start below and the translational multipliers are taken out as in
-//! [`super::reduction`]. Stations without a joint have one pipe node: rotations at 0..3, displacement at 3..6.
+//! [`joint_reduction`]. Stations without a joint have one pipe node: rotations at 0..3, displacement at 3..6.
 
-mod additions;
-mod body;
-mod condensing;
-mod guide_lanes;
-mod guide_span;
-mod operator;
+mod backward;
+mod forward;
+mod guide_contact;
+mod guide_contact_lanes;
+mod increment;
+mod joint_reduction;
 mod pivots;
-mod recovery;
 mod span;
-mod sweep;
+mod spans;
+mod substructure;
+mod system;
 
-pub use operator::Operator;
-pub use sweep::CondensedElimination;
+pub use forward::CondensedElimination;
+pub use system::CondensedSystem;
 
 /// Unknowns per block.
 const SIZE: usize = 16;
@@ -43,5 +44,5 @@ const PIPE_PLACES: [usize; 6] = [3, 4, 5, 0, 1, 2];
 type Block = [[f64; SIZE]; SIZE];
 /// Solved columns of a block.
 type Columns = [[f64; SIZE]; COLUMNS];
-/// Six columns of six, each filled up to a vector of eight.
-type Six = [[f64; 8]; 6];
+/// PaddedColumns columns of six, each filled up to a vector of eight.
+type PaddedColumns = [[f64; 8]; 6];

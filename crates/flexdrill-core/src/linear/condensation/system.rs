@@ -1,22 +1,22 @@
-//! The lasting part of the tangent with its spans condensed: made once per step size.
+//! The step_constant part of the tangent with its spans condensed: made once per step size.
 
 use nalgebra::{Matrix6, SMatrix};
 
-use super::super::reduction::Reduction;
-use super::super::system::{BlockSystem, Layout};
-use super::body::{Body, Chain, close};
-use super::guide_span::{Condensed, GuideChain, six};
-use super::{Block, GUIDE, MULTIPLIER, PIPE_PLACES, SIZE, Six};
+use super::guide_contact::{GuideChain, InterfaceMatrices, six};
+use super::joint_reduction::Reduction;
+use super::substructure::{Chain, Substructure, close};
+use super::{Block, GUIDE, MULTIPLIER, PIPE_PLACES, PaddedColumns, SIZE};
+use crate::linear::system::{BlockSystem, Layout};
 
 type Block24 = [[f64; 24]; 24];
 
 /// Between two stations of the sweep: the pipe's coupling, in the order of the blocks.
 #[derive(Debug, Clone)]
-pub struct Edge {
+pub struct InterfaceCoupling {
     /// Rows of the station above (its outgoing six), columns of the one below (rotations, displacement).
-    pub upper: Six,
+    pub upper: PaddedColumns,
     /// Rows of the station below, columns of the one above.
-    pub lower: Six,
+    pub lower: PaddedColumns,
     /// Columns of the start below's own displacement in `lower`.
     pub lower_offset: [[f64; 8]; 3],
     /// Rows of the start below's displacement in `upper`, by columns.
@@ -25,7 +25,7 @@ pub struct Edge {
 
 /// What a joint's start below adds that the reduction has taken out.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Below {
+pub struct StartBelow {
     /// Columns of its displacement, reduced.
     pub columns: [[f64; SIZE]; 3],
     /// Rows of its displacement over its own six unknowns, by columns.
@@ -46,20 +46,20 @@ pub struct Matrices {
     /// How the start below was taken out, at a joint.
     pub reduction: Option<Reduction>,
     /// With the span below condensed.
-    pub start: Below,
+    pub start: StartBelow,
     /// Without.
-    pub own_start: Below,
+    pub own_start: StartBelow,
 }
 
 /// A guide between two stations of the sweep.
 #[derive(Debug, Clone)]
 pub struct Guide {
     /// Its matrices.
-    pub body: Body,
+    pub substructure: Substructure,
     /// The same, for an elimination with contacts.
     pub chain: GuideChain,
     /// What it puts on its ends without contact.
-    pub still: Condensed,
+    pub clamped: InterfaceMatrices,
 }
 
 /// A station of the sweep.
@@ -67,7 +67,7 @@ pub struct Guide {
 pub struct Node {
     /// Station.
     pub station: usize,
-    /// Its matrices among [`Operator::matrices`].
+    /// Its matrices among [`CondensedSystem::matrices`].
     pub matrices: usize,
     /// Its joint.
     pub joint: Option<usize>,
@@ -80,63 +80,67 @@ pub struct Span {
     pub first: usize,
     /// Number of inner stations.
     pub inner: usize,
-    /// Its pipe among [`Operator::pipes`].
+    /// Its pipe among [`CondensedSystem::pipes`].
     pub pipe: usize,
-    /// Its guide among [`Operator::guides`].
+    /// Its guide among [`CondensedSystem::guides`].
     pub guide: usize,
-    /// Its coupling among [`Operator::edges`].
-    pub edge: usize,
+    /// Its coupling among [`CondensedSystem::couplings`].
+    pub coupling_of_pipe: usize,
 }
 
-/// The lasting tangent of one step size, condensed to the joints.
+/// The step_constant tangent of one step size, condensed to the joints.
 #[derive(Debug, Clone)]
-pub struct Operator {
-    /// The lasting tangent itself.
-    pub lasting: BlockSystem,
+pub struct CondensedSystem {
+    /// The step_constant tangent itself.
+    pub step_constant: BlockSystem,
     /// Top, joints, bottom.
     pub nodes: Vec<Node>,
     /// Span k is between nodes k and k + 1.
     pub spans: Vec<Span>,
     /// Different pipes.
-    pub pipes: Vec<Body>,
+    pub pipes: Vec<Substructure>,
     /// Different guides.
     pub guides: Vec<Guide>,
     /// Different couplings.
-    pub edges: Vec<Edge>,
+    pub couplings: Vec<InterfaceCoupling>,
     /// Different stations.
     pub matrices: Vec<Matrices>,
 }
 
-impl Operator {
-    /// Condenses `lasting`, whose joints are at the stations `joints`. `None` where the joints do not have the form that
+impl CondensedSystem {
+    /// Condenses `step_constant`, whose joints are at the stations `joints`. `None` where the joints do not have the form that
     /// the reduction needs (two rotational rows, held translations), where something that lasts couples pipe and guide, or where an inner
     /// matrix is singular.
-    pub fn of(lasting: BlockSystem, joints: &[usize]) -> Option<Self> {
-        if !bodies_are_apart(&lasting, joints) {
+    pub fn of(step_constant: BlockSystem, joints: &[usize]) -> Option<Self> {
+        if !bodies_are_apart(&step_constant, joints) {
             return None;
         }
-        let layout = lasting.layout().clone();
+        let layout = step_constant.layout().clone();
         let last = layout.stations() - 1;
         let mut stations = vec![0];
         stations.extend_from_slice(joints);
         if last > 0 {
             stations.push(last);
         }
-        let (mut pipes, mut guides, mut spans) = (Vec::<Body>::new(), Vec::<Guide>::new(), Vec::new());
+        let (mut pipes, mut guides, mut spans) = (Vec::<Substructure>::new(), Vec::<Guide>::new(), Vec::new());
         for ends in stations.windows(2) {
-            let (pipe, guide) = chains(&lasting, ends[0], ends[1]);
-            let pipe = index_of(&mut pipes, |body| body.chain.is_close(&pipe), || Body::of(pipe.clone()))?;
+            let (pipe, guide) = chains(&step_constant, ends[0], ends[1]);
+            let pipe = index_of(
+                &mut pipes,
+                |substructure| substructure.chain.is_close(&pipe),
+                || Substructure::of(pipe.clone()),
+            )?;
             let guide = index_of(
                 &mut guides,
-                |known| known.body.chain.is_close(&guide),
-                || Body::of(guide.clone()).map(Guide::of),
+                |known| known.substructure.chain.is_close(&guide),
+                || Substructure::of(guide.clone()).map(Guide::of),
             )?;
             spans.push(Span {
                 first: ends[0] + 1,
                 inner: ends[1] - ends[0] - 1,
                 pipe,
                 guide,
-                edge: 0,
+                coupling_of_pipe: 0,
             });
         }
         let mut matrices = Vec::<Matrices>::new();
@@ -146,9 +150,9 @@ impl Operator {
             let below = spans.get(k).map(|span| &pipes[span.pipe].top);
             let joint = joints.binary_search(&station).ok();
             let made = if joint.is_some() {
-                Matrices::of_joint(&lasting, station, above, below)?
+                Matrices::of_joint(&step_constant, station, above, below)?
             } else {
-                Matrices::of_end(&lasting, station, above, below)
+                Matrices::of_end(&step_constant, station, above, below)
             };
             let matrices = index_of(&mut matrices, |known| known.is_close(&made), || Some(made.clone()))?;
             nodes.push(Node {
@@ -157,26 +161,31 @@ impl Operator {
                 joint,
             });
         }
-        let mut edges = Vec::<Edge>::new();
+        let mut couplings = Vec::<InterfaceCoupling>::new();
         for (k, span) in spans.iter_mut().enumerate() {
             let pipe = &pipes[span.pipe];
-            let edge = Edge::of(&pipe.upper, &pipe.lower, matrices[nodes[k].matrices].reduction.as_ref());
-            span.edge = index_of(&mut edges, |known| known.is_close(&edge), || Some(edge.clone()))?;
+            let coupling_of_pipe =
+                InterfaceCoupling::of(&pipe.upper, &pipe.lower, matrices[nodes[k].matrices].reduction.as_ref());
+            span.coupling_of_pipe = index_of(
+                &mut couplings,
+                |known| known.is_close(&coupling_of_pipe),
+                || Some(coupling_of_pipe.clone()),
+            )?;
         }
         Some(Self {
-            lasting,
+            step_constant,
             nodes,
             spans,
             pipes,
             guides,
-            edges,
+            couplings,
             matrices,
         })
     }
 
     /// Its layout.
     pub fn layout(&self) -> &Layout {
-        self.lasting.layout()
+        self.step_constant.layout()
     }
 }
 
@@ -239,25 +248,25 @@ fn chains(system: &BlockSystem, top: usize, bottom: usize) -> (Chain, Chain) {
 }
 
 impl Guide {
-    fn of(body: Body) -> Self {
+    fn of(substructure: Substructure) -> Self {
         Self {
-            chain: GuideChain::of(&body),
-            still: Condensed {
-                top: six(&body.top),
-                bottom: six(&body.bottom),
-                upper: six(&body.upper),
-                lower: six(&body.lower),
+            chain: GuideChain::of(&substructure),
+            clamped: InterfaceMatrices {
+                top: six(&substructure.top),
+                bottom: six(&substructure.bottom),
+                upper: six(&substructure.upper),
+                lower: six(&substructure.lower),
                 right: [[0.0; 8]; 2],
             },
-            body,
+            substructure,
         }
     }
 }
 
-impl Edge {
+impl InterfaceCoupling {
     /// From the natural order (displacement, rotations) of both nodes; `joint` is the reduction of the station above, if it is a joint.
     pub fn of(upper: &Matrix6<f64>, lower: &Matrix6<f64>, joint: Option<&Reduction>) -> Self {
-        let mut edge = Self {
+        let mut coupling_of_pipe = Self {
             upper: [[0.0; 8]; 6],
             lower: [[0.0; 8]; 6],
             lower_offset: [[0.0; 8]; 3],
@@ -266,13 +275,13 @@ impl Edge {
         for (j, place) in PIPE_PLACES.into_iter().enumerate() {
             let column = upper.column(place);
             let (u, rotations) = ([column[0], column[1], column[2]], [column[3], column[4], column[5]]);
-            edge.multiplier_rows[j] = u;
+            coupling_of_pipe.multiplier_rows[j] = u;
             let (first, second) = match joint {
                 Some(reduction) => (reduction.turned_back(u), rotations),
                 None => (rotations, u),
             };
-            edge.upper[j][..3].copy_from_slice(&first);
-            edge.upper[j][3..6].copy_from_slice(&second);
+            coupling_of_pipe.upper[j][..3].copy_from_slice(&first);
+            coupling_of_pipe.upper[j][3..6].copy_from_slice(&second);
         }
         let row_order = |column: [f64; 6]| {
             let mut out = [0.0; 8];
@@ -283,7 +292,7 @@ impl Edge {
         };
         let column = |j: usize| row_order(std::array::from_fn(|i| lower[(i, j)]));
         for j in 0..3 {
-            edge.lower_offset[j] = column(j);
+            coupling_of_pipe.lower_offset[j] = column(j);
             match joint {
                 Some(reduction) => {
                     let mut turned = [0.0; 6];
@@ -292,16 +301,16 @@ impl Edge {
                             *x += lower[(i, k)] * reduction.turn[j][k];
                         }
                     }
-                    edge.lower[j] = row_order(turned);
-                    edge.lower[3 + j] = column(3 + j);
+                    coupling_of_pipe.lower[j] = row_order(turned);
+                    coupling_of_pipe.lower[3 + j] = column(3 + j);
                 }
                 None => {
-                    edge.lower[j] = column(3 + j);
-                    edge.lower[3 + j] = column(j);
+                    coupling_of_pipe.lower[j] = column(3 + j);
+                    coupling_of_pipe.lower[3 + j] = column(j);
                 }
             }
         }
-        edge
+        coupling_of_pipe
     }
 
     fn is_close(&self, other: &Self) -> bool {
@@ -311,7 +320,7 @@ impl Edge {
     }
 }
 
-impl Below {
+impl StartBelow {
     fn of(reduction: &Reduction, block: &Block24) -> Self {
         Self {
             columns: std::array::from_fn(|k| reduction.rows(&block[12 + k])),
@@ -346,8 +355,8 @@ impl Matrices {
             own: reduced(&own),
             above: reduced(&above.data.0),
             below: reduced(&below.data.0),
-            start: Below::of(&reduction, &condensed),
-            own_start: Below::of(&reduction, &own),
+            start: StartBelow::of(&reduction, &condensed),
+            own_start: StartBelow::of(&reduction, &own),
             reduction: Some(reduction),
         })
     }
@@ -391,8 +400,8 @@ impl Matrices {
             above,
             below,
             reduction: None,
-            start: Below::default(),
-            own_start: Below::default(),
+            start: StartBelow::default(),
+            own_start: StartBelow::default(),
         }
     }
 

@@ -1,8 +1,8 @@
 //! What is added to a station's block in an iteration: spans, contacts, its joint, and the station above.
 
-use super::super::changes::{Changes, JointChange, Touching};
-use super::operator::place;
-use super::{BELOW, Block, Columns, GUIDE, MULTIPLIER, SIZE, Six, U};
+use super::system::place;
+use super::{BELOW, Block, Columns, GUIDE, MULTIPLIER, PaddedColumns, SIZE, U};
+use crate::linear::increment::{JointIncrement, TangentIncrement, Touching};
 
 #[inline(always)]
 pub fn add_block(block: &mut Block, part: &Block) {
@@ -14,7 +14,7 @@ pub fn add_block(block: &mut Block, part: &Block) {
 }
 
 #[inline(always)]
-pub fn add_guide(block: &mut Block, part: &Six) {
+pub fn add_guide(block: &mut Block, part: &PaddedColumns) {
     for (to, from) in block[GUIDE..MULTIPLIER].iter_mut().zip(part) {
         for (x, y) in to[GUIDE..MULTIPLIER].iter_mut().zip(from) {
             *x += y;
@@ -24,9 +24,9 @@ pub fn add_guide(block: &mut Block, part: &Six) {
 
 /// Contact at the station.
 #[inline(always)]
-pub fn add_contact(block: &mut Block, changes: &Changes, station: usize) {
-    let contact = &changes.contact[station];
-    match changes.touching[station] {
+pub fn add_contact(block: &mut Block, increment: &TangentIncrement, station: usize) {
+    let contact = &increment.contact[station];
+    match increment.touching[station] {
         Touching::Nothing => {}
         Touching::Guide => {
             for (to, from) in block[GUIDE..MULTIPLIER].iter_mut().zip(&contact[6..]) {
@@ -53,7 +53,7 @@ pub fn add_contact(block: &mut Block, changes: &Changes, station: usize) {
 
 /// The joint's rotations and its rotational row.
 #[inline(always)]
-pub fn add_joint(block: &mut Block, change: &JointChange) {
+pub fn add_joint(block: &mut Block, change: &JointIncrement) {
     let row = &change.rows[0];
     for k in 0..3 {
         let (above, below) = (&change.rotations[k], &change.rotations[3 + k]);

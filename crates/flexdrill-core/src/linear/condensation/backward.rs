@@ -2,21 +2,21 @@
 
 use nalgebra::Matrix6;
 
-use super::super::reduction::PLACES;
-use super::guide_lanes::{LANES, expand_lanes};
-use super::guide_span::expand;
-use super::operator::{Edge, Matrices, Operator, place};
+use super::forward::{CondensedElimination, Mode};
+use super::guide_contact::expand;
+use super::guide_contact_lanes::{LANES, expand_lanes};
+use super::joint_reduction::PLACES;
 use super::pivots::{halves_mut, load};
 use super::span::{End, scatter};
-use super::sweep::{CondensedElimination, Mode};
+use super::system::{CondensedSystem, InterfaceCoupling, Matrices, place};
 use super::{GUIDE, MULTIPLIER, SIZE, U};
 use crate::simd::vector::Vector;
 
 impl CondensedElimination {
     /// From the bottom up: every swept station's unknowns.
     #[inline(always)]
-    pub(super) fn recover<V: Vector>(&mut self, operator: &Operator, rhs: &mut [f64]) {
-        let layout = operator.layout();
+    pub(super) fn recover<V: Vector>(&mut self, system: &CondensedSystem, rhs: &mut [f64]) {
+        let layout = system.layout();
         // Rotations, displacement, guide of the station below.
         let mut below = [0.0; 12];
         for (swept, columns) in self.swept.iter().zip(&self.columns).rev() {
@@ -34,17 +34,17 @@ impl CondensedElimination {
             for (half, place) in halves_mut(&mut x).iter_mut().enumerate() {
                 even[half].plus(odd[half]).store(place);
             }
-            let matrices = swept.node.map(|node| &operator.matrices[operator.nodes[node].matrices]);
+            let matrices = swept.node.map(|node| &system.matrices[system.nodes[node].matrices]);
             match (swept.node, matrices) {
                 (Some(node), Some(matrices)) if matrices.reduction.is_some() => {
-                    let open = self.modes[node] == Mode::Open;
-                    let edge;
-                    let edge = if open {
-                        let coupling = &operator.lasting.upper[swept.station].pipe;
-                        edge = Edge::of(coupling, &Matrix6::zeros(), None);
-                        &edge
+                    let open = self.modes[node] == Mode::PipeContact;
+                    let coupling_of_pipe;
+                    let coupling_of_pipe = if open {
+                        let coupling = &system.step_constant.upper[swept.station].pipe;
+                        coupling_of_pipe = InterfaceCoupling::of(coupling, &Matrix6::zeros(), None);
+                        &coupling_of_pipe
                     } else {
-                        &operator.edges[operator.spans[node].edge]
+                        &system.couplings[system.spans[node].coupling_of_pipe]
                     };
                     let start = if open {
                         &matrices.own_start.rows
@@ -55,7 +55,7 @@ impl CondensedElimination {
                     recover_joint(
                         matrices,
                         start,
-                        &edge.multiplier_rows,
+                        &coupling_of_pipe.multiplier_rows,
                         self.offsets[node],
                         &x,
                         &below,
@@ -78,24 +78,24 @@ impl CondensedElimination {
 
     /// Inner stations of the spans that were condensed.
     #[inline(always)]
-    pub(super) fn recover_spans<V: Vector>(&mut self, operator: &Operator, rhs: &mut [f64]) {
-        let layout = operator.layout();
-        for (k, span) in operator.spans.iter().enumerate() {
-            if self.modes[k] == Mode::Open || span.inner == 0 {
+    pub(super) fn recover_spans<V: Vector>(&mut self, system: &CondensedSystem, rhs: &mut [f64]) {
+        let layout = system.layout();
+        for (k, span) in system.spans.iter().enumerate() {
+            if self.modes[k] == Mode::PipeContact || span.inner == 0 {
                 continue;
             }
-            let ends = End::of(operator, k);
+            let ends = End::of(system, k);
             let room = k * self.room..(k + 1) * self.room;
             let first = layout.offset(span.first);
-            let still = &mut self.pipes[room.clone()];
-            operator.pipes[span.pipe].expand::<V>(&ends.values(&ends.pipe, rhs), still);
-            scatter(still, first, span.inner, rhs);
-            if self.modes[k] == Mode::Still {
-                let still = &mut self.guides[room];
-                operator.guides[span.guide]
-                    .body
-                    .expand::<V>(&ends.values(&ends.guide, rhs), still);
-                scatter(still, first + 6, span.inner, rhs);
+            let clamped = &mut self.pipes[room.clone()];
+            system.pipes[span.pipe].expand::<V>(&ends.values(&ends.pipe, rhs), clamped);
+            scatter(clamped, first, span.inner, rhs);
+            if self.modes[k] == Mode::Free {
+                let clamped = &mut self.guides[room];
+                system.guides[span.guide]
+                    .substructure
+                    .expand::<V>(&ends.values(&ends.guide, rhs), clamped);
+                scatter(clamped, first + 6, span.inner, rhs);
             } else if !self.grouped[k] {
                 let values = ends.values(&ends.guide, rhs);
                 let (mut top, mut bottom) = ([0.0; 6], [0.0; 6]);
@@ -109,18 +109,18 @@ impl CondensedElimination {
             }
         }
         for g in 0..self.groups.len() {
-            self.recover_group::<V>(operator, g, rhs);
+            self.recover_group::<V>(system, g, rhs);
         }
     }
 
     /// Guides that were eliminated together.
     #[inline(always)]
-    fn recover_group<V: Vector>(&mut self, operator: &Operator, g: usize, rhs: &mut [f64]) {
+    fn recover_group<V: Vector>(&mut self, system: &CondensedSystem, g: usize, rhs: &mut [f64]) {
         let group = &self.groups[g];
-        let nodes = operator.guides[group.guide].body.nodes();
+        let nodes = system.guides[group.guide].substructure.nodes();
         let (mut top, mut bottom) = ([[0.0; LANES]; 6], [[0.0; LANES]; 6]);
         for (lane, &k) in group.spans.iter().enumerate() {
-            let ends = End::of(operator, k);
+            let ends = End::of(system, k);
             for i in 0..6 {
                 top[i][lane] = rhs[ends.guide[0] + i];
                 bottom[i][lane] = rhs[ends.guide[1] + i];
@@ -130,7 +130,7 @@ impl CondensedElimination {
         let solved = &self.solved_lanes[g * self.longest..g * self.longest + nodes];
         expand_lanes::<V>(solved, &top, &bottom, inner);
         for (lane, &k) in group.spans.iter().enumerate().take(group.count) {
-            let first = operator.layout().offset(operator.spans[k].first) + 6;
+            let first = system.layout().offset(system.spans[k].first) + 6;
             for (node, inner) in inner.iter().enumerate() {
                 for (to, from) in rhs[first + 12 * node..first + 12 * node + 6].iter_mut().zip(inner) {
                     *to = from[lane];

@@ -1,12 +1,12 @@
 //! The first step of an iteration: spans without contact between pipe and guide take the right-hand sides inside them to their ends, and
 //! guides that touch the wall are eliminated anew, like ones together.
 
-use super::super::Singular;
-use super::super::changes::{Changes, Touching};
-use super::guide_lanes::{Group, LANES};
-use super::operator::Operator;
+use super::forward::{CondensedElimination, Mode};
+use super::guide_contact_lanes::{Group, LANES};
 use super::span::{End, gather};
-use super::sweep::{CondensedElimination, Mode};
+use super::system::CondensedSystem;
+use crate::linear::Singular;
+use crate::linear::increment::{TangentIncrement, Touching};
 use crate::simd::vector::Vector;
 
 /// Spans from which on they are eliminated together: a group takes as long as three spans alone.
@@ -15,34 +15,39 @@ const WORTH: usize = 3;
 impl CondensedElimination {
     /// Finds the mode of every span and takes the right-hand sides inside pipes and untouched guides to the ends.
     #[inline(always)]
-    pub(super) fn condense_spans<V: Vector>(&mut self, operator: &Operator, changes: &Changes, rhs: &mut [f64]) {
-        let layout = operator.layout();
-        for (k, span) in operator.spans.iter().enumerate() {
-            let mut mode = Mode::Still;
-            for touching in &changes.touching[span.first..span.first + span.inner] {
+    pub(super) fn condense_spans<V: Vector>(
+        &mut self,
+        system: &CondensedSystem,
+        increment: &TangentIncrement,
+        rhs: &mut [f64],
+    ) {
+        let layout = system.layout();
+        for (k, span) in system.spans.iter().enumerate() {
+            let mut mode = Mode::Free;
+            for touching in &increment.touching[span.first..span.first + span.inner] {
                 match touching {
-                    Touching::Both => mode = Mode::Open,
-                    Touching::Guide if mode == Mode::Still => mode = Mode::Guide,
+                    Touching::Both => mode = Mode::PipeContact,
+                    Touching::Guide if mode == Mode::Free => mode = Mode::GuideContact,
                     _ => {}
                 }
             }
             self.modes[k] = mode;
-            if mode == Mode::Open || span.inner == 0 {
+            if mode == Mode::PipeContact || span.inner == 0 {
                 continue;
             }
-            let ends = End::of(operator, k);
+            let ends = End::of(system, k);
             let forces = &mut self.forces;
             gather(forces, layout.offset(span.first), span.inner, rhs);
-            let still = &mut self.pipes[k * self.room..(k + 1) * self.room];
-            let onto = operator.pipes[span.pipe].condense::<V>(forces, still);
+            let clamped = &mut self.pipes[k * self.room..(k + 1) * self.room];
+            let onto = system.pipes[span.pipe].condense::<V>(forces, clamped);
             for i in 0..6 {
                 rhs[ends.pipe[0] + i] += onto[i];
                 rhs[ends.pipe[1] + i] += onto[6 + i];
             }
-            if mode == Mode::Still {
+            if mode == Mode::Free {
                 gather(forces, layout.offset(span.first) + 6, span.inner, rhs);
-                let still = &mut self.guides[k * self.room..(k + 1) * self.room];
-                let onto = operator.guides[span.guide].body.condense::<V>(forces, still);
+                let clamped = &mut self.guides[k * self.room..(k + 1) * self.room];
+                let onto = system.guides[span.guide].substructure.condense::<V>(forces, clamped);
                 for i in 0..6 {
                     rhs[ends.guide[0] + i] += onto[i];
                     rhs[ends.guide[1] + i] += onto[6 + i];
@@ -55,27 +60,27 @@ impl CondensedElimination {
     #[inline(always)]
     pub(super) fn condense_guides<V: Vector>(
         &mut self,
-        operator: &Operator,
-        changes: &Changes,
+        system: &CondensedSystem,
+        increment: &TangentIncrement,
         rhs: &mut [f64],
     ) -> Result<(), Singular> {
-        self.form_groups(operator);
+        self.form_groups(system);
         for g in 0..self.groups.len() {
-            self.condense_group::<V>(operator, changes, g, rhs);
+            self.condense_group::<V>(system, increment, g, rhs);
         }
-        let layout = operator.layout();
-        for (k, span) in operator.spans.iter().enumerate() {
-            if self.modes[k] != Mode::Guide {
+        let layout = system.layout();
+        for (k, span) in system.spans.iter().enumerate() {
+            if self.modes[k] != Mode::GuideContact {
                 continue;
             }
             if !self.grouped[k] {
                 let inner = span.first..span.first + span.inner;
                 gather(&mut self.forces, layout.offset(span.first) + 6, span.inner, rhs);
-                self.condensed[k] = operator.guides[span.guide]
+                self.condensed[k] = system.guides[span.guide]
                     .chain
                     .condense::<V>(
-                        &changes.touching[inner.clone()],
-                        &changes.contact[inner.clone()],
+                        &increment.touching[inner.clone()],
+                        &increment.contact[inner.clone()],
                         &self.forces,
                         &mut self.solved[inner],
                     )
@@ -84,7 +89,7 @@ impl CondensedElimination {
                         pivot,
                     })?;
             }
-            let ends = End::of(operator, k);
+            let ends = End::of(system, k);
             let right = &self.condensed[k].right;
             for i in 0..6 {
                 rhs[ends.guide[0] + i] += right[0][i];
@@ -95,12 +100,12 @@ impl CondensedElimination {
     }
 
     /// Puts spans with the same guide together, up to eight.
-    fn form_groups(&mut self, operator: &Operator) {
+    fn form_groups(&mut self, system: &CondensedSystem) {
         self.groups.clear();
         self.grouped.fill(false);
         self.unfilled.fill(None);
-        for (k, span) in operator.spans.iter().enumerate() {
-            if self.modes[k] != Mode::Guide {
+        for (k, span) in system.spans.iter().enumerate() {
+            if self.modes[k] != Mode::GuideContact {
                 continue;
             }
             let g = match self.unfilled[span.guide] {
@@ -125,12 +130,18 @@ impl CondensedElimination {
 
     /// Eliminates a group's guides; if some pivot will not do, they are left to be eliminated alone.
     #[inline(always)]
-    fn condense_group<V: Vector>(&mut self, operator: &Operator, changes: &Changes, g: usize, rhs: &[f64]) {
+    fn condense_group<V: Vector>(
+        &mut self,
+        system: &CondensedSystem,
+        increment: &TangentIncrement,
+        g: usize,
+        rhs: &[f64],
+    ) {
         let group = &mut self.groups[g];
-        let nodes = operator.guides[group.guide].body.nodes();
+        let nodes = system.guides[group.guide].substructure.nodes();
         let forces = &mut self.lane_values[..nodes];
         for (lane, &k) in group.spans.iter().enumerate() {
-            let first = operator.layout().offset(operator.spans[k].first) + 6;
+            let first = system.layout().offset(system.spans[k].first) + 6;
             for (node, forces) in forces.iter_mut().enumerate() {
                 for (to, from) in forces.iter_mut().zip(&rhs[first + 12 * node..first + 12 * node + 6]) {
                     to[lane] = *from;
@@ -138,8 +149,8 @@ impl CondensedElimination {
             }
         }
         let solved = &mut self.solved_lanes[g * self.longest..g * self.longest + nodes];
-        let chain = &operator.guides[group.guide].chain;
-        if chain.condense_lanes::<V>(group, &operator.spans, changes, forces, solved, &mut self.condensed) {
+        let chain = &system.guides[group.guide].chain;
+        if chain.condense_lanes::<V>(group, &system.spans, increment, forces, solved, &mut self.condensed) {
             for &k in &group.spans[..group.count] {
                 self.grouped[k] = true;
             }

@@ -2,9 +2,9 @@
 
 use nalgebra::Matrix6;
 
-use super::super::changes::{ContactBlock, Touching};
-use super::body::Body;
-use super::{Six, pivots};
+use super::substructure::Substructure;
+use super::{PaddedColumns, pivots};
+use crate::linear::increment::{ContactBlock, Touching};
 use crate::simd::vector::Vector;
 
 /// Columns of an inner node: the next node's six, the top end's six, the right-hand side.
@@ -19,20 +19,20 @@ pub type Solved = [[f64; 8]; COLUMNS];
 
 /// What the span puts on its ends.
 #[derive(Debug, Clone, Copy)]
-pub struct Condensed {
+pub struct InterfaceMatrices {
     /// On the top end's diagonal block.
-    pub top: Six,
+    pub top: PaddedColumns,
     /// On the bottom end's.
-    pub bottom: Six,
+    pub bottom: PaddedColumns,
     /// Rows of the top end, columns of the bottom end.
-    pub upper: Six,
+    pub upper: PaddedColumns,
     /// Rows of the bottom end, columns of the top end.
-    pub lower: Six,
+    pub lower: PaddedColumns,
     /// On the ends' right-hand sides.
     pub right: [[f64; 8]; 2],
 }
 
-impl Condensed {
+impl InterfaceMatrices {
     /// Nothing put on the ends.
     pub const NOTHING: Self = Self {
         top: [[0.0; 8]; 6],
@@ -44,26 +44,26 @@ impl Condensed {
 }
 
 /// A 6 x 6 matrix with its columns filled up to eight.
-pub fn six(m: &Matrix6<f64>) -> Six {
+pub fn six(m: &Matrix6<f64>) -> PaddedColumns {
     std::array::from_fn(|j| std::array::from_fn(|i| if i < 6 { m[(i, j)] } else { 0.0 }))
 }
 
 /// Matrices of an inner node and its neighbours, filled up to eight rows.
 #[derive(Debug, Clone)]
 pub struct GuideChain {
-    pub(super) diagonal: Vec<Six>,
-    pub(super) upper: Vec<Six>,
-    pub(super) lower: Vec<Six>,
+    pub(super) diagonal: Vec<PaddedColumns>,
+    pub(super) upper: Vec<PaddedColumns>,
+    pub(super) lower: Vec<PaddedColumns>,
 }
 
 impl GuideChain {
     /// Of a guide's chain.
-    pub fn of(body: &Body) -> Self {
+    pub fn of(substructure: &Substructure) -> Self {
         let all = |m: &[Matrix6<f64>]| m.iter().map(six).collect();
         Self {
-            diagonal: all(&body.chain.diagonal),
-            upper: all(&body.chain.upper),
-            lower: all(&body.chain.lower),
+            diagonal: all(&substructure.chain.diagonal),
+            upper: all(&substructure.chain.upper),
+            lower: all(&substructure.chain.lower),
         }
     }
 
@@ -79,10 +79,10 @@ impl GuideChain {
         contact: &[ContactBlock],
         forces: &[f64],
         solved: &mut [Solved],
-    ) -> Result<Condensed, (usize, f64)> {
-        let mut out = Condensed {
+    ) -> Result<InterfaceMatrices, (usize, f64)> {
+        let mut out = InterfaceMatrices {
             upper: self.upper[0],
-            ..Condensed::NOTHING
+            ..InterfaceMatrices::NOTHING
         };
         // What the node above adds: columns of L S^-1 (U, A_t, r).
         let mut carry = [[0.0; 8]; COLUMNS];
@@ -161,7 +161,7 @@ pub fn expand<V: Vector>(solved: &[Solved], top: &[f64; 6], bottom: &[f64; 6], m
 
 /// out -= m x.
 #[inline(always)]
-fn times<V: Vector>(m: &Six, x: &[f64; 8], out: &mut [f64; 8]) {
+fn times<V: Vector>(m: &PaddedColumns, x: &[f64; 8], out: &mut [f64; 8]) {
     let mut sum = V::load(out);
     for (column, &x) in m.iter().zip(x) {
         sum = sum.minus_product(V::load(column), V::splat(x));

@@ -1,7 +1,7 @@
-//! Gauss-Jordan elimination of the small blocks, over [`Vector`]: see [`super::super::block`] for the method and its pivoting.
+//! Gauss-Jordan elimination of the small blocks, over [`Vector`]: see [`crate::linear::block`] for the method and its pivoting.
 
-use super::super::block::{PIVOT_RATIO, exchange};
-use super::{SIZE, Six};
+use super::{PaddedColumns, SIZE};
+use crate::linear::block::{PIVOT_RATIO, exchange};
 use crate::simd::vector::Vector;
 
 /// Rows after k: 1 where a pivot may be looked for.
@@ -113,7 +113,7 @@ struct Pair<V> {
 }
 
 impl<V: Vector> Pair<V> {
-    /// `None` if the pair will not do: as with one pivot, no multiplier of a row still to come may be larger than 1 / [`PIVOT_RATIO`].
+    /// `None` if the pair will not do: as with one pivot, no multiplier of a row clamped to come may be larger than 1 / [`PIVOT_RATIO`].
     #[inline(always)]
     fn of(first: &[f64; SIZE], second: &[f64; SIZE], k: usize) -> Option<Self> {
         let (p, q, r, s) = (first[k], second[k], first[k + 1], second[k + 1]);
@@ -231,7 +231,7 @@ pub fn sixteen<V: Vector, const C: usize>(
 /// # Errors
 /// As [`sixteen`].
 #[inline(always)]
-pub fn six<V: Vector, const C: usize>(a: &mut Six, b: &mut [[f64; 8]; C]) -> Result<(), f64> {
+pub fn six<V: Vector, const C: usize>(a: &mut PaddedColumns, b: &mut [[f64; 8]; C]) -> Result<(), f64> {
     let mut reciprocals = [0.0; 8];
     for k in 0..6 {
         let size = a[k][k].abs();
@@ -258,7 +258,7 @@ pub fn six<V: Vector, const C: usize>(a: &mut Six, b: &mut [[f64; 8]; C]) -> Res
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::block::solve_columns;
+    use super::crate::linear::block::solve_columns;
     use super::*;
     use crate::simd::vector::Portable;
 

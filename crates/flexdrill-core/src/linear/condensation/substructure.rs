@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, Matrix6};
 use super::pivots::{halves_mut, load};
 use crate::simd::vector::Vector;
 
-/// Block-tridiagonal matrix of one body from end to end: nodes 0 (top end) to m + 1 (bottom end), six unknowns each. The ends' diagonal
+/// Block-tridiagonal matrix of one substructure from end to end: nodes 0 (top end) to m + 1 (bottom end), six unknowns each. The ends' diagonal
 /// blocks are not part of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
@@ -19,7 +19,7 @@ pub struct Chain {
 
 /// The inner nodes eliminated. With inner unknowns i and ends t, b: A_ii x_i = r_i - A_it x_t - A_ib x_b.
 #[derive(Debug, Clone)]
-pub struct Body {
+pub struct Substructure {
     /// As it was before.
     pub chain: Chain,
     /// A_ii^-1, by columns of `padded` rows.
@@ -67,7 +67,7 @@ pub fn close(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * scale)
 }
 
-impl Body {
+impl Substructure {
     /// Condenses `chain`, or `None` if its inner matrix is singular.
     pub fn of(chain: Chain) -> Option<Self> {
         let m = chain.diagonal.len();
@@ -135,18 +135,18 @@ impl Body {
         self.chain.diagonal.len()
     }
 
-    /// From the forces inside, `forces` (filled up with zeros): what they put on the ends (top, bottom), and in `still` the inner
+    /// From the forces inside, `forces` (filled up with zeros): what they put on the ends (top, bottom), and in `clamped` the inner
     /// displacements while the ends do not move.
     #[inline(always)]
-    pub fn condense<V: Vector>(&self, forces: &[f64], still: &mut [f64]) -> [f64; 16] {
+    pub fn condense<V: Vector>(&self, forces: &[f64], clamped: &mut [f64]) -> [f64; 16] {
         let mut ends = [V::splat(0.0); 2];
         for (column, &force) in self.onto_ends.iter().zip(forces) {
             let (force, column) = (V::splat(force), load::<V>(column));
             ends[0] = ends[0].plus_product(column[0], force);
             ends[1] = ends[1].plus_product(column[1], force);
         }
-        still[..self.padded].fill(0.0);
-        add_product::<V>(&self.inverse, self.padded, forces, still);
+        clamped[..self.padded].fill(0.0);
+        add_product::<V>(&self.inverse, self.padded, forces, clamped);
         let mut out = [0.0; 16];
         for (half, ends) in halves_mut(&mut out).iter_mut().zip(ends) {
             ends.store(half);
@@ -154,14 +154,14 @@ impl Body {
         out
     }
 
-    /// Inner displacements from those of the ends (top, bottom); `still` are those of [`Body::condense`].
+    /// Inner displacements from those of the ends (top, bottom); `clamped` are those of [`Substructure::condense`].
     #[inline(always)]
-    pub fn expand<V: Vector>(&self, ends: &[f64; 12], still: &mut [f64]) {
+    pub fn expand<V: Vector>(&self, ends: &[f64; 12], clamped: &mut [f64]) {
         let mut negative = *ends;
         for x in &mut negative {
             *x = -*x;
         }
-        add_product::<V>(&self.gain, self.padded, &negative, still);
+        add_product::<V>(&self.gain, self.padded, &negative, clamped);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Values at the ends of a span and inside it, in the numbering of the whole system.
 
-use super::operator::Operator;
+use super::system::CondensedSystem;
 
 /// First unknowns of the nodes at both ends of a span.
 pub struct End {
@@ -12,9 +12,9 @@ pub struct End {
 
 impl End {
     #[inline(always)]
-    pub fn of(operator: &Operator, span: usize) -> Self {
-        let layout = operator.layout();
-        let (top, bottom) = (operator.nodes[span], operator.nodes[span + 1]);
+    pub fn of(system: &CondensedSystem, span: usize) -> Self {
+        let layout = system.layout();
+        let (top, bottom) = (system.nodes[span], system.nodes[span + 1]);
         let (above, below) = (layout.offset(top.station), layout.offset(bottom.station));
         let start = if top.joint.is_some() { 12 } else { 0 };
         Self {
@@ -32,7 +32,7 @@ impl End {
     }
 }
 
-/// Collects a body's values of `nodes` plain stations, twelve apart from `first`; the rest of `to` is zero.
+/// Collects a substructure's values of `nodes` plain stations, twelve apart from `first`; the rest of `to` is zero.
 #[inline(always)]
 pub fn gather(to: &mut [f64], first: usize, nodes: usize, from: &[f64]) {
     for (k, to) in to.chunks_exact_mut(6).enumerate().take(nodes) {
