@@ -1,5 +1,6 @@
 //! Whirl analysis on orbits with known answers.
 
+mod support;
 mod synthetic_orbits;
 
 use std::collections::BTreeMap;
@@ -8,7 +9,8 @@ use std::f64::consts::TAU;
 use flexdrill_core::motion::{PlaceSample, Severity, WatchedPlace, WhirlAnalysis, WhirlKind, WhirlSettings};
 use flexdrill_core::tool::Body;
 use proptest::prelude::*;
-use synthetic_orbits::{Bench, CLEARANCE, Ellipse, Labelled, Random, SAMPLE_INTERVAL, circle};
+use support::Random;
+use synthetic_orbits::{Bench, CLEARANCE, Ellipse, Labelled, SAMPLE_INTERVAL, circle};
 
 /// 40 r/min.
 const SPEED: f64 = 40.0 * TAU / 60.0;

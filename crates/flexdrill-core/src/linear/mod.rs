@@ -9,13 +9,13 @@ mod block_lu;
 mod changes;
 mod condensed;
 mod reduction;
-mod sparse;
+mod reference;
 mod system;
 
 pub use block_lu::BlockLu;
 pub use changes::{Changes, ContactBlock, JointChange, Touching};
 pub use condensed::{CondensedElimination, Operator};
-pub use sparse::SparseReference;
+pub use reference::BandReference;
 pub(super) use system::add_columns;
 pub use system::{BlockSystem, Layout};
 

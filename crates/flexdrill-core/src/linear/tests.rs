@@ -1,10 +1,10 @@
-//! Every path of the station elimination and of the condensed one gives what the sparse reference gives, on random systems with joints
+//! Every path of the station elimination and of the condensed one gives what the reference gives, on random systems with joints
 //! of every kind.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::{
-    BlockLu, BlockSystem, Changes, CondensedElimination, Layout, LinearSolver, Operator, SparseReference, Touching,
+    BandReference, BlockLu, BlockSystem, Changes, CondensedElimination, Layout, LinearSolver, Operator, Touching,
 };
 use crate::simd::Instructions;
 
@@ -103,7 +103,7 @@ fn compare(system: &BlockSystem, seed: u64) {
     let mut random = Random(seed);
     let rhs: Vec<f64> = (0..system.layout().unknowns()).map(|_| random.next()).collect();
     let mut expected = rhs.clone();
-    SparseReference::default().solve(system, &mut expected).unwrap();
+    BandReference.solve(system, &mut expected).unwrap();
     let scale = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     for instructions in Instructions::available() {
         let mut solver = BlockLu::new(system.layout(), instructions);
@@ -284,7 +284,7 @@ fn condensed_links() {
             changes.add_to(&mut full);
             let rhs: Vec<f64> = (0..full.layout().unknowns()).map(|_| random.next()).collect();
             let mut expected = rhs.clone();
-            SparseReference::default().solve(&full, &mut expected).unwrap();
+            BandReference.solve(&full, &mut expected).unwrap();
             let scale = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             let operator = Operator::of(lasting.clone(), &places).unwrap();
             for instructions in Instructions::available() {

@@ -6,7 +6,7 @@
 //!     motion in a window. `full_spectrum`: its forward and backward lines.
 //!   - `classify`: from these to a kind of whirl. `severity`: from kind, reach and contact to a level. `tool_level`: from
 //!     the places' levels to the one warning.
-//! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact; `held_level`: how they rise and fall.
+//! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact; `hysteresis`: how they rise and fall.
 //! - [`IncidentLog`] makes a table of all this over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] sum up what happens between two outputs.
 //! - [`settings`]: every threshold, with its reason.
@@ -14,7 +14,7 @@
 mod classify;
 mod contact_statistics;
 mod full_spectrum;
-mod held_level;
+mod hysteresis;
 mod incidents;
 mod orbit;
 mod orbit_window;
@@ -28,7 +28,7 @@ mod tool_level;
 mod whirl;
 
 pub use contact_statistics::{ContactStatistics, RootMeanSquare};
-pub use held_level::{HeldLevel, HeldThresholds};
+pub use hysteresis::{Alarm, AlarmThresholds};
 pub use incidents::{Incident, IncidentKind, IncidentLog, IncidentPlace, Observation};
 pub use place::{PlaceSample, WatchedPlace};
 pub use report::{Severity, ShockLevel, WhirlKind, WhirlReport, WhirlWarningLevel};

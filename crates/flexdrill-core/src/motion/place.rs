@@ -193,7 +193,7 @@ impl Place {
 
     /// The kind that the level stands for: while it is held or latched, the one that led to it.
     pub(super) fn level_kind(&self) -> WhirlKind {
-        match (self.severity.level, self.kind) {
+        match (self.severity.level(), self.kind) {
             (Severity::Ok, _) => WhirlKind::None,
             (_, WhirlKind::None) => self.severity.kind,
             (_, kind) => kind,

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
+use crate::units::rpm_to_rad_per_s;
 
 /// How whirl is found and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -26,8 +27,8 @@ pub struct WhirlSettings {
     /// Turns of a new whirl for which they must agree. By chance a broad-band motion looks like one whirl, but not for
     /// long.
     pub confirmation_turns: f64,
-    /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 0.5
-    /// rad/s is 5 r/min.
+    /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 5
+    /// r/min is an eighth of the paper's speed.
     pub min_rotary_speed: f64,
     /// RMS orbit radius over clearance from which a motion counts as an orbit. Below a tenth of the clearance the
     /// motion is that of a pipe at rest on a wall with a trembling contact.
@@ -121,7 +122,7 @@ impl Default for WhirlSettings {
             evaluation_interval: 0.05,
             confirmations: 2,
             confirmation_turns: 0.3,
-            min_rotary_speed: 0.5,
+            min_rotary_speed: rpm_to_rad_per_s(5.0),
             min_orbit_ratio: 0.1,
             min_axis_ratio: 0.25,
             steady_direction: 0.6,

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::hysteresis::{Change, Hysteresis};
 use super::settings::{LevelThresholds, WhirlSettings};
 use super::{Severity, WhirlKind};
 
@@ -21,18 +22,14 @@ pub(super) struct Evidence {
 /// The level of one place.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct PlaceSeverity {
-    pub(super) level: Severity,
+    hysteresis: Hysteresis,
     /// The kind that was seen last while the level's conditions were met.
     pub(super) kind: WhirlKind,
     /// How long the conditions of WATCH, WARNING and CRITICAL have been met (s).
     met_for: [f64; 3],
-    /// How long those of the present level have not (s).
-    unmet_for: f64,
     /// Model time until which CRITICAL is latched (s).
     latched_until: f64,
 }
-
-const LEVELS: [Severity; 3] = [Severity::Watch, Severity::Warning, Severity::Critical];
 
 impl PlaceSeverity {
     /// Takes the evidence at model time `time` (s), `elapsed` (s) after the one before. `input_trust`, 0 to 1, is how far the
@@ -47,8 +44,8 @@ impl PlaceSeverity {
     ) {
         let mut raised = Severity::Ok;
         let mut held = Severity::Ok;
-        for (index, level) in LEVELS.into_iter().enumerate() {
-            let stands = self.level >= level;
+        for (index, level) in Severity::RAISED.into_iter().enumerate() {
+            let stands = self.level() >= level;
             let (factor, trust) = if stands {
                 (1.0 - settings.hysteresis, 1.0)
             } else {
@@ -68,22 +65,17 @@ impl PlaceSeverity {
         if evidence.kind != WhirlKind::None && raised.max(held) > Severity::Ok {
             self.kind = evidence.kind;
         }
-        if raised > self.level {
-            if raised == Severity::Critical {
-                self.latched_until = time + settings.latch;
-            }
-            self.level = raised;
-            self.unmet_for = 0.0;
-        } else if held >= self.level {
-            self.unmet_for = 0.0;
-        } else {
-            self.unmet_for += elapsed;
-            let latched = self.level == Severity::Critical && time < self.latched_until;
-            if self.unmet_for >= settings.hold_off && !latched {
-                self.level = held;
-                self.unmet_for = 0.0;
-            }
+        let latched = self.level() == Severity::Critical && time < self.latched_until;
+        let change = self
+            .hysteresis
+            .update(elapsed, raised, held, settings.hold_off, latched);
+        if change == Change::Rose && raised == Severity::Critical {
+            self.latched_until = time + settings.latch;
         }
+    }
+
+    pub(super) fn level(&self) -> Severity {
+        self.hysteresis.level
     }
 
     /// Ends the latch.
@@ -145,7 +137,7 @@ mod tests {
             .enumerate()
             .map(|(index, evidence)| {
                 place.update(from + index as f64 * STEP, STEP, evidence, 1.0, &settings);
-                place.level
+                place.level()
             })
             .collect()
     }

@@ -8,10 +8,10 @@ impl WhirlWarningLevel {
     pub(super) fn update(&mut self, time: f64, places: &[Place], input_trust: f64) {
         let worst = places
             .iter()
-            .map(|place| place.severity.level)
+            .map(|place| place.severity.level())
             .max()
             .unwrap_or_default();
-        let keeps = |place: &Place| place.severity.level == worst;
+        let keeps = |place: &Place| place.severity.level() == worst;
         let entry = if worst == Severity::Ok {
             0
         } else if places.get(self.entry).is_some_and(keeps) {

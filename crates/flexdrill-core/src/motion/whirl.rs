@@ -188,7 +188,7 @@ impl WhirlAnalysis {
             &mut out.confidence,
             places.clone().map(|at| at.evidence.confidence * trust),
         );
-        fill(&mut out.severity, places.clone().map(|at| at.severity.level));
+        fill(&mut out.severity, places.clone().map(|at| at.severity.level()));
         fill(&mut out.level_kind, places.clone().map(Place::level_kind));
         fill(&mut out.rolling, places.clone().map(|at| at.evidence.rolling));
         fill(&mut out.rolling_share, places.clone().map(Place::rolling_share));
@@ -277,7 +277,9 @@ impl WhirlAnalysis {
     fn evaluate(&mut self, index: usize, time: f64) {
         self.look(index);
         let place = &mut self.places[index];
-        let elapsed = (time - place.evaluated).clamp(0.0, 2.0 * self.settings.evaluation_interval);
+        let elapsed = (time - place.evaluated)
+            .max(0.0)
+            .min(2.0 * self.settings.evaluation_interval);
         place.evaluated = time;
         place
             .severity

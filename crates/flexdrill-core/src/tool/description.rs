@@ -101,7 +101,7 @@ pub struct Material {
 }
 
 /// A round tube.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tube {
     /// Outer diameter (m).
     pub outer_diameter: f64,
@@ -194,6 +194,22 @@ pub enum Body {
     Pipe,
     /// The continuous guide pipe around it.
     Guide,
+}
+
+impl Body {
+    /// As in sentences: `pipe`, `guide pipe`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pipe => "pipe",
+            Self::Guide => "guide pipe",
+        }
+    }
+}
+
+impl std::fmt::Display for Body {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
 }
 
 /// A place along the tool.

@@ -42,14 +42,9 @@ impl Observer {
                 .flat_map(|&s| [(s, Body::Pipe), (s, Body::Guide)])
                 .collect()
         } else {
-            settings
-                .watched
-                .iter()
-                .copied()
-                .filter(|&(station, _)| station <= model.last())
-                .collect()
+            settings.watched.clone()
         };
-        let decimation = ((settings.whirl_sample_interval / settings.time_step).round() as u64).max(1);
+        let decimation = settings.whirl_sample_steps();
         let watched = places
             .iter()
             .map(|&(station, body)| watched_place(model, station, body))
@@ -71,11 +66,9 @@ impl Observer {
         }
     }
 
-    /// Whether both watch the same places in the same way.
+    /// Whether both watch the same stations.
     pub(super) fn fits(&self, other: &Self) -> bool {
-        self.places == other.places
-            && self.decimation == other.decimation
-            && self.whirl.settings() == other.whirl.settings()
+        self.places == other.places && self.decimation == other.decimation
     }
 
     pub(super) fn last_iterations(&self) -> u32 {
