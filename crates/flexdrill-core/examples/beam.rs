@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
-    Body, Direction, GapDescription, LoadHistory, Place, PointLoad, Rayleigh, Support, ToolDescription, Tube,
+    Body, Direction, GapDescription, LoadHistory, Location, PointLoad, Rayleigh, Support, ToolDescription, Tube,
     WellDescription, WellSection, WobPath,
 };
 use flexdrill_core::twin::{Simulation, SimulationSettings};
@@ -35,7 +35,7 @@ fn bar(load: PointLoad) -> ToolDescription {
         outer: no_contact,
         gravity: 0.0,
         supports: vec![Support {
-            place: Place::Top,
+            location: Location::Top,
             body: Body::Pipe,
             directions: vec![U, V, W, Psi, PhiY, PhiZ],
         }],
@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // At rest under 100 N across its end.
     let force = 100.0;
     let across = PointLoad {
-        place: Place::Bottom,
+        location: Location::Bottom,
         body: Body::Pipe,
         direction: Direction::W,
         history: LoadHistory::Constant(force),
@@ -88,7 +88,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // Let go: the first bending frequency, from upward crossings of the tip over 20 periods.
     let gone = PointLoad {
-        place: Place::Bottom,
+        location: Location::Bottom,
         body: Body::Pipe,
         direction: Direction::W,
         history: LoadHistory::Table(vec![(0.0, force), (1e-9, 0.0)]),

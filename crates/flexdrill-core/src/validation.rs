@@ -3,7 +3,7 @@
 //! These bounds are those without which the mechanics cannot compute: a mass above zero, a step above zero, lists of the right length.
 //! What is sensible in practice is narrower and stands with the YAML schema.
 
-use crate::tool::description::Place;
+use crate::tool::description::Location;
 
 /// A description, settings or parameters that cannot be computed with.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -32,13 +32,13 @@ pub enum ValidationError {
     },
     /// A location outside the tool.
     #[error(
-        "{field} = {place:?}: not on the tool, which has stations 0 to {last_station} and {joints} joints, counted from 0"
+        "{field} = {location:?}: not on the tool, which has stations 0 to {last_station} and {joints} joints, counted from 0"
     )]
-    Place {
+    Location {
         /// Path of the field.
         field: String,
         /// The location found.
-        place: Place,
+        location: Location,
         /// Last station.
         last_station: usize,
         /// Number of joints.

@@ -2,6 +2,7 @@
 
 mod support;
 
+use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::energy::joint_violation;
 use flexdrill_core::dynamics::newton::Tolerances;
 use flexdrill_core::dynamics::scheme::Scheme;
@@ -11,7 +12,15 @@ use flexdrill_core::tool::ToolDescription;
 use nalgebra::Vector3;
 
 fn stepper(tolerances: Tolerances, solver: SolverKind) -> Stepper {
-    Stepper::new(&ToolDescription::paper(), Scheme::newmark(0.6), tolerances, 6, solver).unwrap()
+    Stepper::new(
+        &ToolDescription::paper(),
+        Scheme::newmark(0.6),
+        tolerances,
+        6,
+        solver,
+        Instructions::best(),
+    )
+    .unwrap()
 }
 
 #[test]

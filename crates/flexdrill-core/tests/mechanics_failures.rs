@@ -5,7 +5,7 @@ mod support;
 use flexdrill_core::dynamics::{FailureCause, StartError, StepFailure, StepOutcome};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
-    Body, Direction, LoadHistory, Place, PointLoad, Support, ToolDescription, WellDescription, WellSection,
+    Body, Direction, LoadHistory, Location, PointLoad, Support, ToolDescription, WellDescription, WellSection,
 };
 use flexdrill_core::twin::{BuildError, Simulation, SimulationSettings};
 use support::{coarse, hard_settings, tiny};
@@ -39,9 +39,9 @@ fn start_error(tool: &ToolDescription) -> StartError {
     }
 }
 
-fn load(place: Place, body: Body, direction: Direction, value: f64) -> PointLoad {
+fn load(location: Location, body: Body, direction: Direction, value: f64) -> PointLoad {
     PointLoad {
-        place,
+        location,
         body,
         direction,
         history: LoadHistory::Constant(value),
@@ -93,7 +93,7 @@ fn out_of_range() {
     // A single link without stiff neighbours is pulled out of the well.
     let mut tool = tiny().with_mesh(1, 2);
     tool.static_start = false;
-    tool.loads = vec![load(Place::Bottom, Body::Pipe, Direction::U, 1e12)];
+    tool.loads = vec![load(Location::Bottom, Body::Pipe, Direction::U, 1e12)];
     let simulation = Simulation::new(&tool, &SimulationSettings::default()).unwrap();
     let failure = failure(simulation, &INPUTS, 1000);
     assert_eq!(failure.cause, FailureCause::OutOfRange);
@@ -103,7 +103,7 @@ fn out_of_range() {
 #[test]
 fn a_start_that_overflows() {
     let mut tool = tiny();
-    tool.loads = vec![load(Place::Bottom, Body::Pipe, Direction::U, 1e300)];
+    tool.loads = vec![load(Location::Bottom, Body::Pipe, Direction::U, 1e300)];
     let error = start_error(&tool);
     assert!(matches!(error, StartError::Step(_)), "{error}");
     assert!(
@@ -116,7 +116,7 @@ fn a_start_that_overflows() {
 fn a_start_with_a_joint_held_on_both_sides() {
     let mut tool = tiny();
     tool.supports.push(Support {
-        place: Place::Joint(0),
+        location: Location::Joint(0),
         body: Body::Pipe,
         directions: vec![Direction::U, Direction::V, Direction::W],
     });
@@ -133,7 +133,7 @@ fn a_start_that_keeps_moving() {
         start_inclination: 0.0,
         sections: vec![WellSection::Straight { length: 0.32 }],
     };
-    tool.loads = vec![load(Place::Bottom, Body::Guide, Direction::Psi, 1e-3)];
+    tool.loads = vec![load(Location::Bottom, Body::Guide, Direction::Psi, 1e-3)];
     let error = start_error(&tool);
     assert!(
         matches!(error, StartError::Moving { speed, .. } if speed > 1e-6),

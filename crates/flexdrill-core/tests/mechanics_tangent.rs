@@ -3,11 +3,13 @@
 
 mod support;
 
-use flexdrill_core::dynamics::assembly::{Assembler, TangentFactors};
+use flexdrill_core::Instructions;
+use flexdrill_core::dynamics::assembly::Assembler;
 use flexdrill_core::dynamics::newton::Tolerances;
 use flexdrill_core::dynamics::scheme::Scheme;
 use flexdrill_core::dynamics::state::State;
 use flexdrill_core::dynamics::stepper::{SolverKind, Stepper};
+use flexdrill_core::dynamics::tangent::TangentFactors;
 use flexdrill_core::model::Model;
 use flexdrill_core::tool::{JointKind, ToolDescription, WobPath};
 use support::{Random, small};
@@ -48,6 +50,7 @@ fn check(tool: &ToolDescription) {
         Tolerances::default(),
         0,
         SolverKind::Stations,
+        Instructions::best(),
     )
     .unwrap();
     let model = stepper.model();
@@ -55,7 +58,7 @@ fn check(tool: &ToolDescription) {
     conditions.bit_torque = 90.0;
     let state = lively_state(model);
     let free = |i: usize| !model.held.contains(&i) && model.driven != Some(i) && !model.padding.contains(&i);
-    let mut assembler = Assembler::new(model);
+    let mut assembler = Assembler::new(model, Instructions::best());
     assembler.residual(model, &state, &conditions);
     assert!(assembler.inner.iter().flatten().count() > 2, "no inner contact to test");
     assert!(assembler.outer.iter().flatten().count() > 2, "no outer contact to test");
@@ -107,7 +110,7 @@ fn check(tool: &ToolDescription) {
                 moved.q[column] += factors.stiffness * step;
                 moved.v[column] += factors.damping * step;
                 moved.a[column] += factors.mass * step;
-                let mut assembler = Assembler::new(model);
+                let mut assembler = Assembler::new(model, Instructions::best());
                 assembler.residual(model, &moved, &conditions);
                 assembler.residual
             };

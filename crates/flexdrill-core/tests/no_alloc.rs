@@ -9,7 +9,7 @@ use std::cell::Cell;
 
 use flexdrill_core::dynamics::outcome::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{PlaceSample, WatchedPlace, WhirlAnalysis, WhirlReport, WhirlSettings};
+use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlReport, WhirlSettings};
 use flexdrill_core::tool::{Body, ToolDescription};
 use flexdrill_core::twin::Simulation;
 use support::{clock, coarse, hard_settings, simulation};
@@ -83,7 +83,7 @@ fn steps_that_are_halved_or_fail_allocate_nothing() {
 
 #[test]
 fn nothing_is_allocated_per_sample_or_report() {
-    let place = |station| WatchedPlace {
+    let watched = |station| WatchedStation {
         station,
         body: Body::Pipe,
         measured_depth: 0.1,
@@ -91,8 +91,8 @@ fn nothing_is_allocated_per_sample_or_report() {
         clearance: 8.5e-3,
         body_diameter: 63e-3,
     };
-    let mut analysis = WhirlAnalysis::new(&WhirlSettings::default(), 4e-3, (0..8).map(place).collect());
-    let mut samples = [PlaceSample::default(); 8];
+    let mut analysis = WhirlAnalysis::new(&WhirlSettings::default(), 4e-3, (0..8).map(watched).collect());
+    let mut samples = [StationSample::default(); 8];
     let mut report = WhirlReport::default();
     analysis.report(&mut report);
     let before = ALLOCATIONS.get();
@@ -100,7 +100,7 @@ fn nothing_is_allocated_per_sample_or_report() {
         let time = f64::from(step) * 4e-3;
         for (index, sample) in samples.iter_mut().enumerate() {
             let (sin, cos) = ((1.0 + index as f64) * 3.0 * time).sin_cos();
-            *sample = PlaceSample {
+            *sample = StationSample {
                 y: 5e-3 * cos,
                 z: 5e-3 * sin,
                 normal_force: 6e3,

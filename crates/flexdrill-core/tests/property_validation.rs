@@ -6,7 +6,7 @@ mod support;
 use flexdrill_core::dynamics::Scheme;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
-    Body, Direction, LoadHistory, Place, PointLoad, PointMass, Support, ToolDescription, WellSection,
+    Body, Direction, LoadHistory, Location, PointLoad, PointMass, Support, ToolDescription, WellSection,
 };
 use flexdrill_core::twin::{BuildError, Simulation, SimulationSettings};
 use flexdrill_core::validation::ValidationError;
@@ -25,7 +25,7 @@ fn with_everything() -> ToolDescription {
     let mut tool = tiny();
     tool.well.sections.push(WellSection::Straight { length: 0.1 });
     let load = |history| PointLoad {
-        place: Place::Joint(0),
+        location: Location::Joint(0),
         body: Body::Pipe,
         direction: Direction::V,
         history,
@@ -45,7 +45,7 @@ fn with_everything() -> ToolDescription {
         load(LoadHistory::Table(vec![(0.5, 1.0), (1.5, 2.0)])),
     ];
     tool.masses = vec![PointMass {
-        place: Place::Station(1),
+        location: Location::Station(1),
         body: Body::Guide,
         mass: 1.0,
     }];
@@ -94,8 +94,8 @@ fn changed<T: Serialize + DeserializeOwned>(original: &T, values: &[f64]) -> Vec
     for pointer in pointers {
         for &value in values {
             let mut tree = tree.clone();
-            let place = tree.pointer_mut(&pointer).unwrap();
-            *place = if place.is_u64() {
+            let number = tree.pointer_mut(&pointer).unwrap();
+            *number = if number.is_u64() {
                 Value::from(value as i64)
             } else {
                 Value::from(value)
@@ -223,8 +223,8 @@ fn errors_name_field_value_bound_and_unit() {
             "material.poisson_ratio = 0.6: must be above -1, at most 0.5",
         ),
         (
-            |t| t.supports[0].place = Place::Joint(32),
-            "supports[0].place = Joint(32): not on the tool, which has stations 0 to 165 and 32 joints",
+            |t| t.supports[0].location = Location::Joint(32),
+            "supports[0].location = Joint(32): not on the tool, which has stations 0 to 165 and 32 joints",
         ),
         (
             |t| t.supports[1].directions.clear(),
@@ -233,7 +233,7 @@ fn errors_name_field_value_bound_and_unit() {
         (
             |t| {
                 t.supports.push(Support {
-                    place: Place::Station(0),
+                    location: Location::Station(0),
                     body: Body::Pipe,
                     directions: vec![Direction::Psi],
                 });

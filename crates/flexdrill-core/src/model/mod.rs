@@ -9,7 +9,7 @@ use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
 use crate::elements::element_form::{ElementForms, Elements};
 use crate::elements::joint::Joint;
 use crate::linear::Layout;
-use crate::tool::description::{Body, Direction, Place, PointLoad, ToolDescription, WobPath};
+use crate::tool::description::{Body, Direction, Location, PointLoad, ToolDescription, WobPath};
 use crate::tool::section::SectionProperties;
 use crate::tool::well::{WellPath, frame_along, tangent};
 use crate::validation::ValidationError;
@@ -269,7 +269,7 @@ impl Model {
             description: description.clone(),
         };
         model.collect_elements();
-        model.place(description)?;
+        model.attach(description)?;
         Ok(model)
     }
 
@@ -290,9 +290,9 @@ impl Model {
         }
     }
 
-    fn place(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
+    fn attach(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
         for support in &d.supports {
-            for node in self.nodes("supports", support.place, support.body, true)? {
+            for node in self.nodes("supports", support.location, support.body, true)? {
                 self.held
                     .extend(support.directions.iter().map(|&direction| node + direction as usize));
             }
@@ -309,7 +309,7 @@ impl Model {
             self.held.retain(|&unknown| unknown != driven);
         }
         for load in &d.loads {
-            for node in self.nodes("loads", load.place, load.body, false)? {
+            for node in self.nodes("loads", load.location, load.body, false)? {
                 self.loads.push(ResolvedLoad {
                     unknown: node + load.direction as usize,
                     load: load.clone(),
@@ -317,7 +317,7 @@ impl Model {
             }
         }
         for mass in &d.masses {
-            for unknown in self.nodes("masses", mass.place, mass.body, false)? {
+            for unknown in self.nodes("masses", mass.location, mass.body, false)? {
                 let station = &self.stations[self.layout.station_of(unknown)];
                 let frame = match mass.body {
                     Body::Guide => station.frame,
@@ -334,19 +334,25 @@ impl Model {
         Ok(())
     }
 
-    /// First unknowns of the nodes at a place; with `both`, both pipe nodes of a joint station.
-    fn nodes(&self, what: &'static str, place: Place, body: Body, both: bool) -> Result<Vec<usize>, ValidationError> {
+    /// First unknowns of the nodes at a location; with `both`, both pipe nodes of a joint station.
+    fn nodes(
+        &self,
+        what: &'static str,
+        location: Location,
+        body: Body,
+        both: bool,
+    ) -> Result<Vec<usize>, ValidationError> {
         let last = self.stations.len() - 1;
-        let range = match place {
-            Place::Top => 0..1,
-            Place::Bottom => last..last + 1,
-            Place::Station(s) if s <= last => s..s + 1,
-            Place::Joint(j) if j < self.joints.len() => self.joint_stations[j]..self.joint_stations[j] + 1,
-            Place::All => 0..last + 1,
+        let range = match location {
+            Location::Top => 0..1,
+            Location::Bottom => last..last + 1,
+            Location::Station(s) if s <= last => s..s + 1,
+            Location::Joint(j) if j < self.joints.len() => self.joint_stations[j]..self.joint_stations[j] + 1,
+            Location::All => 0..last + 1,
             _ => {
-                return Err(ValidationError::Place {
+                return Err(ValidationError::Location {
                     field: what.to_owned(),
-                    place,
+                    location,
                     last_station: last,
                     joints: self.joints.len(),
                 });

@@ -102,7 +102,7 @@ pub struct WhirlReport {
     pub contact_duty: Vec<f64>,
     /// 0 to 1, lowered by doubtful inputs.
     pub confidence: Vec<f64>,
-    /// Level of the place.
+    /// Level of the station.
     pub severity: Vec<Severity>,
     /// Kind of whirl that the level stands for, also while it is only held.
     pub level_kind: Vec<WhirlKind>,
@@ -122,7 +122,7 @@ pub struct WhirlWarningLevel {
     pub severity: Severity,
     /// Kind of whirl behind it.
     pub kind: WhirlKind,
-    /// Index into the [`WhirlReport`] of the place behind it.
+    /// Index into the [`WhirlReport`] of the station behind it.
     pub entry: usize,
     /// rad/s over rad/s.
     pub whirl_ratio: f64,

@@ -13,13 +13,13 @@ pub struct WhirlSettings {
     pub window_turns: f64,
     /// Shortest long window (s), for fast tools.
     pub min_window: f64,
-    /// Longest long window (s), for slow or standing tools. Sets the memory: one record per sample and place.
+    /// Longest long window (s), for slow or standing tools. Sets the memory: one record per sample and station.
     pub max_window: f64,
     /// Length of the short window in turns of the strongest whirl line. It follows a change of direction within two
     /// whirl turns: the new direction leads once it fills more than half of the window. Shorter windows take chance for
     /// whirl: at 1.6 turns one broad-band motion in ten is misnamed, at 2 one in twenty.
     pub short_window_turns: f64,
-    /// Longest time between two evaluations of the same place (s); a tool faster than 40 r/min is looked at 30 times per
+    /// Longest time between two evaluations of the same station (s); a tool faster than 40 r/min is looked at 30 times per
     /// turn. Places take turns, so that the cost is spread over the samples.
     pub evaluation_interval: f64,
     /// Evaluations in a row that must agree before the kind changes.
@@ -51,7 +51,7 @@ pub struct WhirlSettings {
     /// How far the motion is trusted by the state of the inputs behind it, as factor on the confidence; see
     /// [`InputTrust`].
     pub input_trust: InputTrust,
-    /// Confidence from which a place may raise the level.
+    /// Confidence from which a station may raise the level.
     pub min_confidence: f64,
     /// Relative difference to the rate of rolling without slip, `- spin * d / (D - d)`, within which backward whirl
     /// counts as rolling. Rolling loads the pipe with bending at several times its turning rate, so it raises the
@@ -99,7 +99,7 @@ impl Default for InputTrust {
     }
 }
 
-/// When a place reaches a level: whirl of any kind and *all* of these for `duration`.
+/// When a station reaches a level: whirl of any kind and *all* of these for `duration`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LevelThresholds {
     /// Largest distance from the gap's centre over the clearance.

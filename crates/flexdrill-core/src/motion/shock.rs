@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_strike_counts_by_its_impulse_and_names_its_place() {
+    fn a_strike_counts_by_its_impulse_and_names_its_station() {
         let mut watch = ShockWatch::new(&ShockSettings::default(), 5);
         run(&mut watch, 0.0, 15e3, 10_000, 0.5);
         // 2 / pi x 15 kN x 2 ms = 19.1 N s.

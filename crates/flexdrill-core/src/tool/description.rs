@@ -212,9 +212,9 @@ impl std::fmt::Display for Body {
     }
 }
 
-/// A place along the tool.
+/// A location along the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Place {
+pub enum Location {
     /// First station.
     Top,
     /// Last station.
@@ -249,7 +249,7 @@ pub enum Direction {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Support {
     /// Where.
-    pub place: Place,
+    pub location: Location,
     /// On which pipe.
     pub body: Body,
     /// Which directions, in the node's own frame.
@@ -297,7 +297,7 @@ pub enum LoadHistory {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointLoad {
     /// Where; `Joint` loads the end of the link above.
-    pub place: Place,
+    pub location: Location,
     /// On which pipe.
     pub body: Body,
     /// Along which direction (moment for rotations).
@@ -310,7 +310,7 @@ pub struct PointLoad {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PointMass {
     /// Where.
-    pub place: Place,
+    pub location: Location,
     /// On which pipe.
     pub body: Body,
     /// kg.

@@ -5,7 +5,7 @@
 //! assumed; the reasons stand beside the same numbers in `config/default.yaml`, and a test holds the two together.
 
 use super::description::{
-    BitDescription, Body, Direction, GapDescription, HingeAngle, JointDescription, JointKind, Material, Place,
+    BitDescription, Body, Direction, GapDescription, HingeAngle, JointDescription, JointKind, Location, Material,
     Rayleigh, Support, ToolDescription, Tube, WellDescription, WellSection, WobPath,
 };
 use crate::units::deg_to_rad;
@@ -128,10 +128,10 @@ impl Material {
 fn table_1() -> Vec<Support> {
     use Direction::{U, V, W};
     let mut supports = Vec::new();
-    for (place, directions) in [(Place::Top, vec![U, V, W]), (Place::Bottom, vec![V, W])] {
+    for (location, directions) in [(Location::Top, vec![U, V, W]), (Location::Bottom, vec![V, W])] {
         for body in [Body::Pipe, Body::Guide] {
             supports.push(Support {
-                place,
+                location,
                 body,
                 directions: directions.clone(),
             });

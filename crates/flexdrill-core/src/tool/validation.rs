@@ -2,7 +2,7 @@
 
 use super::description::{
     BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, LiveParameters, LoadHistory,
-    Material, Place, ToolDescription, Tube, WellDescription, WellSection,
+    Location, Material, ToolDescription, Tube, WellDescription, WellSection,
 };
 use crate::validation::{Bound, ValidationError, count, length, require};
 
@@ -72,19 +72,19 @@ impl ToolDescription {
         Bound::Positive.check("guide_bending_factor", self.guide_bending_factor, "")
     }
 
-    fn validate_place(&self, field: String, place: Place) -> Checked {
+    fn validate_location(&self, field: String, location: Location) -> Checked {
         let (last_station, joints) = (self.links * self.elements_per_link, self.links - 1);
-        let on_tool = match place {
-            Place::Top | Place::Bottom | Place::All => true,
-            Place::Station(station) => station <= last_station,
-            Place::Joint(joint) => joint < joints,
+        let on_tool = match location {
+            Location::Top | Location::Bottom | Location::All => true,
+            Location::Station(station) => station <= last_station,
+            Location::Joint(joint) => joint < joints,
         };
         if on_tool {
             Ok(())
         } else {
-            Err(ValidationError::Place {
+            Err(ValidationError::Location {
                 field,
-                place,
+                location,
                 last_station,
                 joints,
             })
@@ -94,13 +94,13 @@ impl ToolDescription {
     fn validate_supports(&self) -> Checked {
         for (index, support) in self.supports.iter().enumerate() {
             let field = |name: &str| format!("supports[{index}].{name}");
-            self.validate_place(field("place"), support.place)?;
+            self.validate_location(field("location"), support.location)?;
             require(
                 !support.directions.is_empty(),
                 &field("directions"),
                 "a support that holds no direction; name one or leave the support out",
             )?;
-            let at_drive = matches!(support.place, Place::Top | Place::All | Place::Station(0));
+            let at_drive = matches!(support.location, Location::Top | Location::All | Location::Station(0));
             require(
                 !(self.drive_top
                     && at_drive
@@ -115,7 +115,7 @@ impl ToolDescription {
 
     fn validate_loads(&self) -> Checked {
         for (index, load) in self.loads.iter().enumerate() {
-            self.validate_place(format!("loads[{index}].place"), load.place)?;
+            self.validate_location(format!("loads[{index}].location"), load.location)?;
             let unit = match load.direction {
                 Direction::U | Direction::V | Direction::W => "N",
                 Direction::Psi | Direction::PhiY | Direction::PhiZ => "N m",
@@ -123,7 +123,7 @@ impl ToolDescription {
             load.history.validate(&format!("loads[{index}].history"), unit)?;
         }
         for (index, mass) in self.masses.iter().enumerate() {
-            self.validate_place(format!("masses[{index}].place"), mass.place)?;
+            self.validate_location(format!("masses[{index}].location"), mass.location)?;
             Bound::NotNegative.check(&format!("masses[{index}].mass"), mass.mass, "kg")?;
         }
         Ok(())

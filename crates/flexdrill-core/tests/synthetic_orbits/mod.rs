@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use flexdrill_core::motion::{PlaceSample, WatchedPlace, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
+use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
 use flexdrill_core::tool::Body;
 
 use crate::support::Random;
@@ -44,7 +44,7 @@ impl Ellipse {
     }
 }
 
-/// An analysis of one place, fed sample by sample.
+/// An analysis of one station, fed sample by sample.
 pub struct Bench {
     pub analysis: WhirlAnalysis,
     pub report: WhirlReport,
@@ -58,7 +58,7 @@ impl Bench {
     }
 
     pub fn with(settings: &WhirlSettings) -> Self {
-        let place = WatchedPlace {
+        let watched = WatchedStation {
             station: 5,
             body: Body::Pipe,
             measured_depth: 0.76,
@@ -67,7 +67,7 @@ impl Bench {
             body_diameter: 63e-3,
         };
         let mut bench = Self {
-            analysis: WhirlAnalysis::new(settings, SAMPLE_INTERVAL, vec![place]),
+            analysis: WhirlAnalysis::new(settings, SAMPLE_INTERVAL, vec![watched]),
             report: WhirlReport::default(),
             time: 0.0,
             step: 0,
@@ -81,7 +81,7 @@ impl Bench {
         self.step += 1;
         self.time = self.step as f64 * SAMPLE_INTERVAL;
         let contact_share = if normal_force > 0.0 { 1.0 } else { 0.0 };
-        let sample = PlaceSample {
+        let sample = StationSample {
             y,
             z,
             normal_force,
