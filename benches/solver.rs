@@ -11,7 +11,7 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::assembly::Assembler;
 use flexdrill_core::dynamics::outcome::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::linear::{BlockLu, CondensedElimination, LinearSolver, CondensedSystem};
+use flexdrill_core::linear::{BlockLu, CondensedElimination, CondensedSystem, LinearSolver};
 use flexdrill_core::twin::Simulation;
 use flexdrill_realtime::monotonic;
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::Checker;
 use super::place::{At, Mesh};
-use flexdrill_core::tool::{Body, Direction, Place, Support, WobPath};
+use flexdrill_core::tool::{Body, Direction, Location, Support, WobPath};
 
 /// Supports, drive and load path.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -95,7 +95,10 @@ impl Boundary {
                     );
                     let spin_held_at_drive = self.drive == Drive::Top
                         && held.body == Body::Pipe
-                        && matches!(held.at.place(mesh), Place::Top | Place::All | Place::Station(0))
+                        && matches!(
+                            held.at.location(mesh),
+                            Location::Top | Location::All | Location::Station(0)
+                        )
                         && held.fix.contains(&Direction::Psi);
                     c.require(
                         !spin_held_at_drive,
@@ -135,10 +138,10 @@ impl Boundary {
                 BottomAxial::Free => vec![V, W],
                 BottomAxial::Fixed => vec![U, V, W],
             };
-            for (place, directions) in [(Place::Top, vec![U, V, W]), (Place::Bottom, bottom)] {
+            for (location, directions) in [(Location::Top, vec![U, V, W]), (Location::Bottom, bottom)] {
                 for body in [Body::Pipe, Body::Guide] {
                     supports.push(Support {
-                        place,
+                        location,
                         body,
                         directions: directions.clone(),
                     });
@@ -146,7 +149,7 @@ impl Boundary {
             }
         }
         supports.extend(self.supports.iter().map(|held| Support {
-            place: held.at.place(mesh),
+            location: held.at.location(mesh),
             body: held.body,
             directions: held.fix.clone(),
         }));

@@ -76,7 +76,7 @@ impl Load {
 
     pub(super) fn describe(&self, mesh: &Mesh) -> PointLoad {
         PointLoad {
-            place: self.at.place(mesh),
+            location: self.at.location(mesh),
             body: self.body,
             direction: self.direction,
             history: self.history.describe(),
@@ -164,7 +164,7 @@ impl Mass {
 
     pub(super) fn describe(&self, mesh: &Mesh) -> PointMass {
         PointMass {
-            place: self.at.place(mesh),
+            location: self.at.location(mesh),
             body: self.body,
             mass: self.mass,
         }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
-use flexdrill_core::tool::Place;
+use flexdrill_core::tool::Location;
 
 /// `top`, `bottom`, `all`, `{station: 12}`, `{joint: 3}` or `{measured_depth: 2.5}`. Stations and joints count from 0
 /// at the top, so that joint 0 is `joint_01` in the outputs.
@@ -66,18 +66,18 @@ impl At {
         }
     }
 
-    pub(super) fn place(&self, mesh: &Mesh) -> Place {
+    pub(super) fn location(&self, mesh: &Mesh) -> Location {
         match *self {
-            Self::Top => Place::Top,
-            Self::Bottom => Place::Bottom,
-            Self::All => Place::All,
-            Self::Station(station) => Place::Station(station),
-            Self::Joint(joint) => Place::Joint(joint),
+            Self::Top => Location::Top,
+            Self::Bottom => Location::Bottom,
+            Self::All => Location::All,
+            Self::Station(station) => Location::Station(station),
+            Self::Joint(joint) => Location::Joint(joint),
             Self::MeasuredDepth(depth) => {
                 let last = mesh.last_station();
                 let nearest = (depth / mesh.length * last as f64).round();
                 // A float that is checked to be within 0..=last.
-                Place::Station((nearest.max(0.0) as usize).min(last))
+                Location::Station((nearest.max(0.0) as usize).min(last))
             }
         }
     }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
-use flexdrill_core::motion::{HeldThresholds, ShockSettings, StickSlipSettings};
+use flexdrill_core::motion::{AlarmThresholds, ShockSettings, StickSlipSettings};
 use flexdrill_core::units::{rad_per_s_to_rpm, rpm_to_rad_per_s};
 
 /// Stick-slip of the bit.
@@ -55,7 +55,7 @@ impl Default for StickSlip {
         let settings = StickSlipSettings::default();
         Self {
             window: settings.window,
-            // 1.05 rad/s is 10.03 r/min.
+            // Back from rad/s, without the conversion's last digit.
             gate_speed_rpm: rad_per_s_to_rpm(settings.gate_speed).round(),
             hysteresis: settings.thresholds.hysteresis,
             hold_off: settings.thresholds.hold_off,
@@ -78,7 +78,7 @@ impl Default for Shock {
 }
 
 impl Steps {
-    fn of(thresholds: &HeldThresholds) -> Self {
+    fn of(thresholds: &AlarmThresholds) -> Self {
         let [watch, warning, critical] = thresholds.levels;
         Self {
             watch,
@@ -130,7 +130,7 @@ impl StickSlip {
         StickSlipSettings {
             window: self.window,
             gate_speed: rpm_to_rad_per_s(self.gate_speed_rpm),
-            thresholds: HeldThresholds {
+            thresholds: AlarmThresholds {
                 levels: [self.levels.watch, self.levels.warning, self.levels.critical],
                 hysteresis: self.hysteresis,
                 hold_off: self.hold_off,
@@ -153,7 +153,7 @@ impl Shock {
         ShockSettings {
             interval: self.interval,
             mean_time: self.mean_time,
-            thresholds: HeldThresholds {
+            thresholds: AlarmThresholds {
                 levels: [self.levels.watch, self.levels.warning, self.levels.critical],
                 hysteresis: self.hysteresis,
                 hold_off: self.hold_off,

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use flexdrill_config::Config;
+use flexdrill_core::tool::ToolDescription;
+use flexdrill_core::twin::SimulationSettings;
 
 fn shipped() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config");
@@ -48,4 +50,12 @@ tool:
     let file = Config::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config/default.yaml")).unwrap();
     assert_eq!(minimal, file);
     assert!(file.warnings().is_empty(), "{:?}", file.warnings());
+}
+
+/// The core has the same numbers in code, for users without YAML.
+#[test]
+fn default_file_is_what_the_core_calls_the_papers_case() {
+    let file = Config::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config/default.yaml")).unwrap();
+    assert_eq!(file.tool(), ToolDescription::paper());
+    assert_eq!(file.simulation(), SimulationSettings::default());
 }

@@ -1,17 +1,19 @@
-//! A machine with AVX2 and one with AVX-512 compute the same to the bit, so that a bag recorded on one replays on the other. One test:
-//! the limit holds for the whole process.
+//! A machine with AVX2 and one with AVX-512 compute the same to the bit, so that a bag recorded on one replays on the other.
 
-use flexdrill_config::Config;
-use flexdrill_core::dynamics::outcome::StepOutcome;
+mod support;
+
+use flexdrill_core::Instructions;
+use flexdrill_core::dynamics::{SolverKind, StepOutcome};
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::simd::instructions::Instructions;
-use flexdrill_core::twin::{Simulation, Snapshot};
+use flexdrill_core::tool::ToolDescription;
+use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
+use support::hinged;
 
 /// State and snapshot after `steps` steps at 40 r/min and 20 kN from rest under that weight.
-fn run(config: &Config, instructions: Instructions, steps: u64) -> (Vec<f64>, Snapshot) {
-    instructions.limit();
-    let config = config.with_value("inputs.weight_on_bit.initial_kn", 20.0).unwrap();
-    let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+fn run(tool: &ToolDescription, instructions: Instructions, steps: u64) -> (Vec<f64>, Snapshot) {
+    let mut settings = SimulationSettings::default();
+    settings.initial_inputs.weight_on_bit = 20e3;
+    let mut simulation = Simulation::with_solver(tool, &settings, SolverKind::default(), instructions).unwrap();
     for _ in 0..steps {
         let outcome = simulation.advance(&Inputs {
             rotary_speed: 40.0 * std::f64::consts::TAU / 60.0,
@@ -26,19 +28,21 @@ fn run(config: &Config, instructions: Instructions, steps: u64) -> (Vec<f64>, Sn
 
 #[test]
 fn machines_agree_to_the_bit() {
-    let default = Config::load("../../config/default.yaml").unwrap();
+    let default = ToolDescription::paper();
     // The guide on the wall at many stations: spans eliminated together and alone.
-    let soft = default.with_value("tool.guide.bending_factor", 0.05).unwrap();
+    let soft = ToolDescription {
+        guide_bending_factor: 0.05,
+        ..default.clone()
+    };
     // Rotational rows and stops one joint at a time, stations without condensing.
-    let paper = Config::load("../../config/paper.yaml").unwrap();
-    for (name, config) in [("default", &default), ("soft guide", &soft), ("paper", &paper)] {
-        let (plain, _) = run(config, Instructions::Portable, 100);
-        let available: Vec<Instructions> = Instructions::all().filter(Instructions::available).collect();
-        let [Instructions::Portable, vectors @ ..] = available.as_slice() else {
-            panic!("{available:?} does not begin with the portable ones");
-        };
+    let hinged = hinged();
+    for (name, tool) in [("default", &default), ("soft guide", &soft), ("hinged", &hinged)] {
+        let (plain, _) = run(tool, Instructions::PORTABLE, 100);
+        let available: Vec<Instructions> = Instructions::available().collect();
+        assert_eq!(available[0], Instructions::PORTABLE);
+        let vectors = &available[1..];
         for &instructions in vectors {
-            let (q, _) = run(config, instructions, 100);
+            let (q, _) = run(tool, instructions, 100);
             let scale = plain.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             for (i, (x, expected)) in q.iter().zip(&plain).enumerate() {
                 // Newton leaves 1e-6 of the forces, the motion multiplies differences by e every 15 ms: 28 times in 50 ms.
@@ -53,9 +57,9 @@ fn machines_agree_to_the_bit() {
             return;
         };
         // Longer, since nothing may differ.
-        let expected = run(config, *first, 1000);
+        let expected = run(tool, *first, 1000);
         for &instructions in others {
-            let got = run(config, instructions, 1000);
+            let got = run(tool, instructions, 1000);
             assert!(
                 got.0 == expected.0,
                 "{name}: {instructions:?} gives another state than {first:?}"

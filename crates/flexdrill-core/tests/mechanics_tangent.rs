@@ -1,37 +1,24 @@
 //! The assembled tangent is the derivative of the assembled residual, for every term: stiffness, damping and mass, with contacts, friction,
 //! stops and all joint kinds at work.
 
-use flexdrill_config::Config;
-use flexdrill_core::dynamics::assembly::{Assembler, TangentFactors};
+mod support;
+
+use flexdrill_core::Instructions;
+use flexdrill_core::dynamics::assembly::Assembler;
 use flexdrill_core::dynamics::newton::Tolerances;
 use flexdrill_core::dynamics::scheme::Scheme;
 use flexdrill_core::dynamics::state::State;
 use flexdrill_core::dynamics::stepper::{SolverKind, Stepper};
+use flexdrill_core::dynamics::tangent::TangentFactors;
 use flexdrill_core::model::Model;
 use flexdrill_core::tool::{JointKind, ToolDescription, WobPath};
-
-/// A tool of four links of two elements in the paper's well.
-fn small_tool() -> ToolDescription {
-    let config = Config::load("../../config/default.yaml").unwrap();
-    let config = config
-        .with_value("tool.links", 4)
-        .unwrap()
-        .with_value("tool.elements_per_link", 2)
-        .unwrap();
-    let mut tool = config.tool();
-    // Four links build 22.5 degrees each; a wide limit leaves some of the stops shut and some open.
-    tool.joint.limit = 0.39;
-    tool
-}
+use support::{Random, small};
 
 /// A state with every term active: tilts, spins, contacts in both layers, stops, multipliers, axial forces. Deterministic.
 fn lively_state(model: &Model) -> State {
     let mut state = State::at_rest(model);
-    let mut seed = 12345_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (seed >> 33) as f64 / f64::from(1_u32 << 31) * 2.0 - 1.0
-    };
+    let mut generator = Random(12345);
+    let mut random = || generator.next();
     for i in 0..model.unknowns() {
         state.q[i] = 1e-5 * random();
         state.v[i] = 0.1 * random();
@@ -63,6 +50,7 @@ fn check(tool: &ToolDescription) {
         Tolerances::default(),
         0,
         SolverKind::Stations,
+        Instructions::best(),
     )
     .unwrap();
     let model = stepper.model();
@@ -70,7 +58,7 @@ fn check(tool: &ToolDescription) {
     conditions.bit_torque = 90.0;
     let state = lively_state(model);
     let free = |i: usize| !model.held.contains(&i) && model.driven != Some(i) && !model.padding.contains(&i);
-    let mut assembler = Assembler::new(model);
+    let mut assembler = Assembler::new(model, Instructions::best());
     assembler.residual(model, &state, &conditions);
     assert!(assembler.inner.iter().flatten().count() > 2, "no inner contact to test");
     assert!(assembler.outer.iter().flatten().count() > 2, "no outer contact to test");
@@ -122,7 +110,7 @@ fn check(tool: &ToolDescription) {
                 moved.q[column] += factors.stiffness * step;
                 moved.v[column] += factors.damping * step;
                 moved.a[column] += factors.mass * step;
-                let mut assembler = Assembler::new(model);
+                let mut assembler = Assembler::new(model, Instructions::best());
                 assembler.residual(model, &moved, &conditions);
                 assembler.residual
             };
@@ -150,19 +138,19 @@ fn check(tool: &ToolDescription) {
 
 #[test]
 fn universal_joints() {
-    check(&small_tool());
+    check(&small());
 }
 
 #[test]
 fn ball_cage_joints() {
-    let mut tool = small_tool();
+    let mut tool = small();
     tool.joint.kind = JointKind::BallCage;
     check(&tool);
 }
 
 #[test]
 fn revolute_joints_and_shared_weight() {
-    let mut tool = small_tool();
+    let mut tool = small();
     tool.joint.kind = JointKind::Revolute;
     tool.wob_path = WobPath::Shared;
     check(&tool);

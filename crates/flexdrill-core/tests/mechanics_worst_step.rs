@@ -1,25 +1,26 @@
 //! The worst step is bounded: what Newton and halving can cost at most, and what is left when even that does not help.
 
-use flexdrill_config::Config;
+mod support;
+
 use flexdrill_core::dynamics::outcome::{FailureCause, StepOutcome};
 use flexdrill_core::dynamics::state::State;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::twin::Simulation;
+use flexdrill_core::twin::{Simulation, SimulationSettings};
+use flexdrill_core::units::rpm_to_rad_per_s;
+use support::{coarse, hard_settings};
 
 /// The tool at 120 r/min and 30 kN with `max_iterations` and `max_halvings`, in steps of 2 ms, eight times what converges well: joints
 /// strike their stops and the pipe strikes the guide within a step.
 fn hard(max_iterations: u32, max_halvings: u32) -> (Simulation, Inputs) {
-    let config = Config::load("../../config/coarse.yaml")
-        .and_then(|config| config.with_value("solver.time_step", 0.002))
-        .and_then(|config| config.with_value("solver.max_iterations", max_iterations))
-        .and_then(|config| config.with_value("solver.max_halvings", max_halvings))
-        .and_then(|config| config.with_value("inputs.rotary_speed.slew_rpm_per_s", 120))
-        .unwrap();
+    let settings = SimulationSettings {
+        rotary_speed_slew: rpm_to_rad_per_s(120.0),
+        ..hard_settings(max_iterations, max_halvings)
+    };
     let inputs = Inputs {
         rotary_speed: 12.57,
         weight_on_bit: 30e3,
     };
-    (Simulation::new(&config.tool(), &config.simulation()).unwrap(), inputs)
+    (Simulation::new(&coarse(), &settings).unwrap(), inputs)
 }
 
 /// All numbers of a state, bit by bit: equal floats may differ in their zeros' signs.

@@ -1,12 +1,18 @@
 //! Once the tool is built, advancing it and looking at it allocate nothing.
 
+#![allow(unsafe_code)] // the allocator that counts
+
+mod support;
+
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use flexdrill_config::Config;
 use flexdrill_core::dynamics::outcome::StepOutcome;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlReport, WhirlSettings};
+use flexdrill_core::tool::{Body, ToolDescription};
 use flexdrill_core::twin::Simulation;
+use support::{clock, coarse, hard_settings, simulation};
 
 struct Counting;
 
@@ -37,8 +43,7 @@ static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn advance_and_snapshot_allocate_nothing() {
-    let config = Config::load("../../config/default.yaml").unwrap();
-    let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    let mut simulation = simulation(&ToolDescription::paper());
     let mut snapshot = simulation.new_snapshot();
     let inputs = Inputs {
         rotary_speed: 4.19,
@@ -62,13 +67,8 @@ fn advance_and_snapshot_allocate_nothing() {
 #[test]
 fn steps_that_are_halved_or_fail_allocate_nothing() {
     // Large steps and two corrections per sub-step: too few for a collision, so that steps are halved, and fail in the end.
-    let config = Config::load("../../config/coarse.yaml")
-        .and_then(|config| config.with_value("solver.time_step", 0.002))
-        .and_then(|config| config.with_value("solver.max_iterations", 2))
-        .and_then(|config| config.with_value("solver.max_halvings", 3))
-        .unwrap();
-    let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
-    simulation.set_clock(flexdrill_realtime::monotonic::now);
+    let mut simulation = Simulation::new(&coarse(), &hard_settings(2, 3)).unwrap();
+    simulation.set_clock(clock);
     let inputs = Inputs {
         rotary_speed: 4.19,
         weight_on_bit: 10e3,
@@ -79,4 +79,37 @@ fn steps_that_are_halved_or_fail_allocate_nothing() {
         .count();
     assert_eq!(ALLOCATIONS.get() - before, 0);
     assert!(failed > 0 && simulation.stepper().counters().halved_steps > 0);
+}
+
+#[test]
+fn nothing_is_allocated_per_sample_or_report() {
+    let watched = |station| WatchedStation {
+        station,
+        body: Body::Pipe,
+        measured_depth: 0.1,
+        inclination: 0.1,
+        clearance: 8.5e-3,
+        body_diameter: 63e-3,
+    };
+    let mut analysis = WhirlAnalysis::new(&WhirlSettings::default(), 4e-3, (0..8).map(watched).collect());
+    let mut samples = [StationSample::default(); 8];
+    let mut report = WhirlReport::default();
+    analysis.report(&mut report);
+    let before = ALLOCATIONS.get();
+    for step in 1..5000 {
+        let time = f64::from(step) * 4e-3;
+        for (index, sample) in samples.iter_mut().enumerate() {
+            let (sin, cos) = ((1.0 + index as f64) * 3.0 * time).sin_cos();
+            *sample = StationSample {
+                y: 5e-3 * cos,
+                z: 5e-3 * sin,
+                normal_force: 6e3,
+                contact_share: 0.5,
+            };
+        }
+        analysis.push(time, 4.2, &samples);
+        analysis.report(&mut report);
+    }
+    assert_eq!(ALLOCATIONS.get(), before);
+    assert!(report.whirl_ratio.iter().all(|ratio| *ratio > 0.5), "{report:?}");
 }

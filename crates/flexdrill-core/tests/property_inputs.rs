@@ -1,14 +1,31 @@
 //! The door: what it refuses, how states age, and that its targets are always within the limits.
 
-use flexdrill_config::InputsConfig;
-use flexdrill_core::inputs::{Door, InputKind, InputState, RejectionReason};
+use flexdrill_core::inputs::{Door, InputKind, InputRule, InputState, RejectionReason};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use proptest::prelude::*;
 
 use InputKind::{RotarySpeed, WeightOnBit};
 
+/// Rules like those of `config/default.yaml`.
 fn door() -> Door {
-    Door::new(InputsConfig::default().rules())
+    let rotary_speed = InputRule {
+        min: 0.0,
+        max: 120.0,
+        tare_error: 0.0,
+        initial: 0.0,
+        safe: 0.0,
+        safe_ramp: 5.0,
+        slow_age: 2.5,
+        max_age: 5.0,
+        hold_before_safe: 10.0,
+    };
+    let weight_on_bit = InputRule {
+        max: 60.0,
+        tare_error: 0.5,
+        safe_ramp: 1.0,
+        ..rotary_speed
+    };
+    Door::new([rotary_speed, weight_on_bit])
 }
 
 #[test]

@@ -1,14 +1,16 @@
 //! Whirl analysis on orbits with known answers.
 
+mod support;
 mod synthetic_orbits;
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use flexdrill_core::motion::{PlaceSample, Severity, WatchedPlace, WhirlAnalysis, WhirlKind, WhirlSettings};
+use flexdrill_core::motion::{Severity, StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlSettings};
 use flexdrill_core::tool::Body;
 use proptest::prelude::*;
-use synthetic_orbits::{Bench, CLEARANCE, Ellipse, Labelled, Random, SAMPLE_INTERVAL, circle};
+use support::Random;
+use synthetic_orbits::{Bench, CLEARANCE, Ellipse, Labelled, SAMPLE_INTERVAL, circle};
 
 /// 40 r/min.
 const SPEED: f64 = 40.0 * TAU / 60.0;
@@ -533,13 +535,13 @@ fn confusion_table_of_generated_orbits() {
     assert!(worst >= 0.99, "{worst}");
 }
 
-/// Time per sample of 64 places, half of which orbit with two lines and half of which rest, as the pipe's and the guide's do.
+/// Time per sample of 64 stations, half of which orbit with two lines and half of which rest, as the pipe's and the guide's do.
 /// Prints the figure of `docs/whirl.md`; a quiet core is needed for it.
 #[test]
 #[ignore = "a measurement: cargo test --release --test property_whirl cost -- --ignored --nocapture"]
 fn cost_of_a_sample() {
-    const PLACES: usize = 64;
-    let place = |index: usize| WatchedPlace {
+    const STATIONS: usize = 64;
+    let watched = |index: usize| WatchedStation {
         station: index,
         body: Body::Pipe,
         measured_depth: 0.0,
@@ -550,9 +552,9 @@ fn cost_of_a_sample() {
     let mut analysis = WhirlAnalysis::new(
         &WhirlSettings::default(),
         SAMPLE_INTERVAL,
-        (0..PLACES).map(place).collect(),
+        (0..STATIONS).map(watched).collect(),
     );
-    let mut samples = [PlaceSample::default(); PLACES];
+    let mut samples = [StationSample::default(); STATIONS];
     let (mut best, mut step) = (f64::MAX, 0u32);
     for _ in 0..30 {
         let mut spent = 0.0;
@@ -575,5 +577,5 @@ fn cost_of_a_sample() {
             best = f64::min(best, spent / 500.0);
         }
     }
-    println!("{:.1} us per sample of {PLACES} places", 1e6 * best);
+    println!("{:.1} us per sample of {STATIONS} stations", 1e6 * best);
 }

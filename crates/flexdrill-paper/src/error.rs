@@ -35,8 +35,8 @@ pub enum PaperError {
     },
     /// A step failed.
     #[error(
-        "paper: step failed at {:.4} s, station {}: {:?}; a smaller solver.time_step may help",
-        failure.time, failure.station, failure.cause
+        "paper: step failed at {:.4} s: {failure}; a smaller solver.time_step may help",
+        failure.time
     )]
     Step {
         /// Why and where.

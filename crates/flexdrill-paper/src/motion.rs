@@ -1,6 +1,6 @@
 //! Lateral motion of one pipe: how far it moves where, which way it turns, how broken its shape is.
 
-use flexdrill_core::motion::{PlaceSample, WatchedPlace, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
+use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
 use flexdrill_core::tool::Body;
 
 use super::record::{Axis, Record};
@@ -102,7 +102,7 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
     let stations = &record.stations;
     let n = stations.len();
     let places = (0..n)
-        .map(|s| WatchedPlace {
+        .map(|s| WatchedStation {
             station: s,
             body,
             measured_depth: stations.depth[s],
@@ -128,7 +128,7 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
         .len()
         .min((0.5 * settings.max_window / record.interval) as usize + every);
     let mut judgements = 0.0;
-    let mut samples = vec![PlaceSample::default(); n];
+    let mut samples = vec![StationSample::default(); n];
     for (sample, &time) in record.time.iter().enumerate() {
         for (place, (&y, &z)) in samples
             .iter_mut()

@@ -11,7 +11,7 @@ use flexdrill_core::dynamics::phases::{self, PhaseTimes};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::motion::WhirlSettings;
 use flexdrill_core::tool::LiveParameters;
-use flexdrill_core::twin::{BuildError, Frame, RunInputs, Schedule};
+use flexdrill_core::twin::{CheckpointError, Frame, RunInputs, Schedule};
 
 /// Frames in circulation: at 100 frames per second, two thirds of a second of a stalled publisher.
 pub const FRAMES: usize = 64;
@@ -42,7 +42,7 @@ pub enum Command {
     /// Back to the state after the start.
     Reset,
     /// Send the whole state. The one command that allocates on the solver's thread.
-    Checkpoint(SyncSender<Result<Vec<u8>, BuildError>>),
+    Checkpoint(SyncSender<Result<Vec<u8>, CheckpointError>>),
 }
 
 /// What the solver tells, in the order in which it happened.

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use crate::Pacer;
 use flexdrill_core::dynamics::outcome::StepOutcome;
-use flexdrill_core::twin::{Frame, Model, Run, RunInputs, Simulation};
+use flexdrill_core::twin::{Frame, Run, RunInputs};
 use rtrb::PushError;
 
 use crate::clock::Clock;
@@ -21,8 +21,8 @@ use crate::link::{Command, FRAMES, Phase, Report, SolverEnd};
 const SET_BACK: u64 = 2_000_000_000;
 
 /// Drives a run against a clock.
-pub struct Solver<C: Clock, M: Model = Simulation> {
-    run: Run<M>,
+pub struct Solver<C: Clock> {
+    run: Run,
     clock: C,
     end: SolverEnd,
     /// Frames that have not been used yet.
@@ -47,9 +47,9 @@ pub struct Solver<C: Clock, M: Model = Simulation> {
     first: bool,
 }
 
-impl<C: Clock, M: Model> Solver<C, M> {
+impl<C: Clock> Solver<C> {
     /// A solver that takes `steps_per_period` steps per deadline. Allocates all it needs.
-    pub fn new(run: Run<M>, clock: C, end: SolverEnd, steps_per_period: u64) -> Self {
+    pub fn new(run: Run, clock: C, end: SolverEnd, steps_per_period: u64) -> Self {
         let steps_per_period = steps_per_period.max(1);
         let time_step = run.simulation().settings().time_step;
         let spare = Box::new(run.new_frame());

@@ -1,5 +1,7 @@
 //! What a step came to.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::tool::description::Body;
@@ -16,6 +18,19 @@ pub enum StepOutcome {
     },
     /// No sub-step size down to the limit converged; the state is that before the step.
     Failed(StepFailure),
+}
+
+impl StepOutcome {
+    /// The failure as an error, for `?`.
+    ///
+    /// # Errors
+    /// When the step failed.
+    pub fn ok(self) -> Result<(), StepFailure> {
+        match self {
+            Self::Advanced { .. } => Ok(()),
+            Self::Failed(failure) => Err(failure),
+        }
+    }
 }
 
 /// Why and where a step or sub-step was not accepted.
@@ -48,6 +63,42 @@ pub enum FailureCause {
     /// A displacement or tilt left the range in which the model holds.
     OutOfRange,
 }
+
+impl FailureCause {
+    /// One word, as in messages: `not_converged`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NotConverged => "not_converged",
+            Self::NotFinite => "not_finite",
+            Self::Singular => "singular",
+            Self::OutOfRange => "out_of_range",
+        }
+    }
+}
+
+impl fmt::Display for FailureCause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotConverged => "Newton's iterations did not converge",
+            Self::NotFinite => "a number is not finite",
+            Self::Singular => "the linear system is singular",
+            Self::OutOfRange => "a displacement or tilt left the model's range",
+        })
+    }
+}
+
+impl fmt::Display for StepFailure {
+    /// Cause, place and size, without the time: whoever reports it has a clock of its own.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} (station {} of the {}, worst value {:.3e}, sub-step {:.3e} s)",
+            self.cause, self.station, self.body, self.value, self.step
+        )
+    }
+}
+
+impl std::error::Error for StepFailure {}
 
 /// Energy since the start (J). Signs: `drive`, `weight_on_bit`, `gravity` and `loads` are work done on the tool; `bit`,
 /// `friction`, `contact_damping`, `rayleigh_damping`, `numerical_damping` are taken from it.

@@ -10,11 +10,11 @@ use crate::linear::Singular;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum StartError {
     /// The mass matrix with the constraints is singular.
-    #[error("station {}: the accelerations at the start have no solution (pivot {:e}); a body without mass or support?", .0.station, .0.pivot)]
+    #[error("station {}: the accelerations at the start have no solution (pivot {:e}); a body without mass, or a joint whose nodes are both held?", .0.station, .0.pivot)]
     Singular(Singular),
     /// No step size brought the tool closer to rest.
-    #[error("the tool did not come to rest: {:?} at station {} of the {:?} after {:.3} s of settling, residual {:e}", .0.cause, .0.station, .0.body, .0.time, .0.value)]
-    Step(StepFailure),
+    #[error("the tool did not come to rest: {} after {:.3} s of settling", .0, .0.time)]
+    Step(#[source] StepFailure),
     /// Still moving after all steps.
     #[error(
         "the tool did not come to rest within {steps} steps: fastest node still moves at {speed:e} m/s (limit {limit:e}); is it supported in every direction?"

@@ -12,10 +12,13 @@ use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::sub_steps::{SubSteps, most_attempts};
-use crate::linear::{BlockLu, LinearSolver, SparseReference};
-use crate::model::{Model, ModelError};
+#[cfg(feature = "reference")]
+use crate::linear::SparseReference;
+use crate::linear::{BlockLu, LinearSolver};
+use crate::model::Model;
 use crate::simd::Instructions;
 use crate::tool::description::{Direction, LiveParameters, ToolDescription};
+use crate::validation::ValidationError;
 
 /// Inputs over one step: both change linearly from its start to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,8 +35,9 @@ pub enum SolverKind {
     /// Block elimination along the stations.
     #[default]
     Stations,
-    /// faer's sparse LU.
-    SparseReference,
+    /// faer's sparse LU, to hold the other against.
+    #[cfg(feature = "reference")]
+    Reference,
 }
 
 /// Counters since the start.
@@ -107,11 +111,12 @@ impl Stepper {
         max_halvings: u32,
         kind: SolverKind,
         instructions: Instructions,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, ValidationError> {
         let model = Model::new(description)?;
         let solver: Box<dyn LinearSolver> = match kind {
             SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
-            SolverKind::SparseReference => Box::new(SparseReference::default()),
+            #[cfg(feature = "reference")]
+            SolverKind::Reference => Box::new(SparseReference::default()),
         };
         let newton = Newton::new(&model, solver, tolerances, instructions);
         let state = State::at_rest(&model);

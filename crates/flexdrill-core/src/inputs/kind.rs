@@ -20,7 +20,7 @@ impl InputKind {
     /// Both, in the order of every per-input array.
     pub const ALL: [Self; 2] = [Self::RotarySpeed, Self::WeightOnBit];
 
-    /// 0 or 1: place in per-input arrays.
+    /// 0 or 1: index into per-input arrays.
     pub const fn index(self) -> usize {
         match self {
             Self::RotarySpeed => 0,

@@ -57,7 +57,7 @@ impl RejectionReason {
         "time_backwards",
     ];
 
-    /// Place in an array of counts.
+    /// Index into an array of counts.
     pub const fn index(&self) -> usize {
         match self {
             Self::NotFinite => 0,

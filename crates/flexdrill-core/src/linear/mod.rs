@@ -8,12 +8,14 @@ mod block;
 mod block_lu;
 mod condensation;
 mod increment;
+#[cfg(feature = "reference")]
 mod sparse;
 mod system;
 
 pub use block_lu::BlockLu;
 pub use condensation::{CondensedElimination, CondensedSystem};
 pub use increment::{ContactBlock, JointIncrement, TangentIncrement, Touching};
+#[cfg(feature = "reference")]
 pub use sparse::SparseReference;
 pub(super) use system::add_columns;
 pub use system::{BlockSystem, Layout};

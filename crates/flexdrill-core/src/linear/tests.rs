@@ -1,4 +1,4 @@
-//! Every path of the station elimination and of the condensed one gives what the sparse reference gives, on random systems with joints
+//! Every path of the station elimination and of the condensed one gives what the reference gives, on random systems with joints
 //! of every kind.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};

@@ -9,9 +9,10 @@ use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
 use crate::elements::element_form::{ElementForms, Elements};
 use crate::elements::joint::Joint;
 use crate::linear::Layout;
-use crate::tool::description::{Body, Direction, JointKind, Place, PointLoad, ToolDescription, WobPath};
+use crate::tool::description::{Body, Direction, Location, PointLoad, ToolDescription, WobPath};
 use crate::tool::section::SectionProperties;
 use crate::tool::well::{WellPath, frame_along, tangent};
+use crate::validation::ValidationError;
 
 /// An arc-length position that carries a pipe node and a guide node.
 #[derive(Debug, Clone)]
@@ -135,52 +136,13 @@ pub struct Model {
     pub description: ToolDescription,
 }
 
-/// Why a description cannot be built.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ModelError {
-    /// A list has the wrong length.
-    #[error("{what}: {got} entries, expected {expected}")]
-    Length {
-        /// Which list.
-        what: &'static str,
-        /// Entries found.
-        got: usize,
-        /// Entries needed.
-        expected: usize,
-    },
-    /// A value is outside what the model can take.
-    #[error("{what} = {value} {unit}: {bound}")]
-    Value {
-        /// Which value.
-        what: String,
-        /// Value found.
-        value: f64,
-        /// Its unit.
-        unit: &'static str,
-        /// What it must satisfy.
-        bound: &'static str,
-    },
-    /// A place is outside the tool.
-    #[error("{what}: {place:?} is not on the tool, which has stations 0 to {last_station} and {joints} joints")]
-    Place {
-        /// What is placed.
-        what: &'static str,
-        /// Where.
-        place: Place,
-        /// Last station.
-        last_station: usize,
-        /// Number of joints.
-        joints: usize,
-    },
-}
-
 impl Model {
     /// Builds the tool.
     ///
     /// # Errors
-    /// When lists do not fit the mesh, a value is not physical or a place is not on the tool.
-    pub fn new(description: &ToolDescription) -> Result<Self, ModelError> {
-        check(description)?;
+    /// See [`ToolDescription::validate`].
+    pub fn new(description: &ToolDescription) -> Result<Self, ValidationError> {
+        description.validate()?;
         let d = description;
         let path = WellPath::new(&d.well);
         let per_link = d.elements_per_link;
@@ -307,7 +269,7 @@ impl Model {
             description: description.clone(),
         };
         model.collect_elements();
-        model.place(description)?;
+        model.attach(description)?;
         Ok(model)
     }
 
@@ -328,9 +290,9 @@ impl Model {
         }
     }
 
-    fn place(&mut self, d: &ToolDescription) -> Result<(), ModelError> {
+    fn attach(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
         for support in &d.supports {
-            for node in self.nodes("supports", support.place, support.body, true)? {
+            for node in self.nodes("supports", support.location, support.body, true)? {
                 self.held
                     .extend(support.directions.iter().map(|&direction| node + direction as usize));
             }
@@ -347,7 +309,7 @@ impl Model {
             self.held.retain(|&unknown| unknown != driven);
         }
         for load in &d.loads {
-            for node in self.nodes("loads", load.place, load.body, false)? {
+            for node in self.nodes("loads", load.location, load.body, false)? {
                 self.loads.push(ResolvedLoad {
                     unknown: node + load.direction as usize,
                     load: load.clone(),
@@ -355,7 +317,7 @@ impl Model {
             }
         }
         for mass in &d.masses {
-            for unknown in self.nodes("masses", mass.place, mass.body, false)? {
+            for unknown in self.nodes("masses", mass.location, mass.body, false)? {
                 let station = &self.stations[self.layout.station_of(unknown)];
                 let frame = match mass.body {
                     Body::Guide => station.frame,
@@ -372,19 +334,25 @@ impl Model {
         Ok(())
     }
 
-    /// First unknowns of the nodes at a place; with `both`, both pipe nodes of a joint station.
-    fn nodes(&self, what: &'static str, place: Place, body: Body, both: bool) -> Result<Vec<usize>, ModelError> {
+    /// First unknowns of the nodes at a location; with `both`, both pipe nodes of a joint station.
+    fn nodes(
+        &self,
+        what: &'static str,
+        location: Location,
+        body: Body,
+        both: bool,
+    ) -> Result<Vec<usize>, ValidationError> {
         let last = self.stations.len() - 1;
-        let range = match place {
-            Place::Top => 0..1,
-            Place::Bottom => last..last + 1,
-            Place::Station(s) if s <= last => s..s + 1,
-            Place::Joint(j) if j < self.joints.len() => self.joint_stations[j]..self.joint_stations[j] + 1,
-            Place::All => 0..last + 1,
+        let range = match location {
+            Location::Top => 0..1,
+            Location::Bottom => last..last + 1,
+            Location::Station(s) if s <= last => s..s + 1,
+            Location::Joint(j) if j < self.joints.len() => self.joint_stations[j]..self.joint_stations[j] + 1,
+            Location::All => 0..last + 1,
             _ => {
-                return Err(ModelError::Place {
-                    what,
-                    place,
+                return Err(ValidationError::Location {
+                    field: what.to_owned(),
+                    location,
                     last_station: last,
                     joints: self.joints.len(),
                 });
@@ -450,60 +418,4 @@ impl GuideElement {
             beam,
         }
     }
-}
-
-fn check(d: &ToolDescription) -> Result<(), ModelError> {
-    let length = |what, got, expected| {
-        if got == expected {
-            Ok(())
-        } else {
-            Err(ModelError::Length { what, got, expected })
-        }
-    };
-    length("pipe_sections", d.pipe_sections.len(), d.elements_per_link)?;
-    length(
-        "pipe_contact_diameters",
-        d.pipe_contact_diameters.len(),
-        d.elements_per_link + 1,
-    )?;
-    let positive = |what: &str, value: f64, unit| {
-        if value.is_finite() && value > 0.0 {
-            Ok(())
-        } else {
-            Err(ModelError::Value {
-                what: what.to_owned(),
-                value,
-                unit,
-                bound: "must be greater than 0",
-            })
-        }
-    };
-    positive("links", d.links as f64, "")?;
-    positive("elements_per_link", d.elements_per_link as f64, "")?;
-    positive("well length", WellPath::new(&d.well).length(), "m")?;
-    positive("youngs_modulus", d.material.youngs_modulus, "Pa")?;
-    positive("density", d.material.density, "kg/m3")?;
-    positive("slip_speed", d.slip_speed, "m/s")?;
-    positive("guide_bending_factor", d.guide_bending_factor, "")?;
-    for (i, tube) in d.pipe_sections.iter().chain([&d.guide_section]).enumerate() {
-        let wall = tube.outer_diameter - tube.inner_diameter;
-        positive(
-            &format!("wall thickness of section {i} (the last is the guide's) times 2"),
-            wall,
-            "m",
-        )?;
-    }
-    for (i, &contact) in d.pipe_contact_diameters.iter().enumerate() {
-        let clearance = 0.5 * (d.guide_section.inner_diameter - contact);
-        positive(&format!("inner clearance at station {i} of a link"), clearance, "m")?;
-    }
-    positive(
-        "outer clearance",
-        0.5 * (d.hole_diameter - d.guide_section.outer_diameter),
-        "m",
-    )?;
-    if d.joint.kind != JointKind::Revolute {
-        positive("joint limit", d.joint.limit, "rad")?;
-    }
-    Ok(())
 }

@@ -72,7 +72,7 @@ fn agreement(one: f64, other: f64) -> f64 {
     }
 }
 
-/// Kind of motion at one place; the sense is that of the station frame (y towards z), not yet that of the rotation.
+/// Kind of motion at one station; the sense is that of the station frame (y towards z), not yet that of the rotation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Verdict {
     pub(super) kind: WhirlKind,
@@ -84,7 +84,7 @@ pub(super) struct Verdict {
     pub(super) window: f64,
 }
 
-/// The thresholds of a kind as they stand for a place: what is left needs less than what is entered.
+/// The thresholds of a kind as they stand for a station: what is left needs less than what is entered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gates {
     /// RMS radius (m) below which there is no orbit.

@@ -1,11 +1,11 @@
-//! The last seconds of one watched place, and the points that the estimators see.
+//! The last seconds of one watched station, and the points that the estimators see.
 //!
 //! Samples are kept one by one only as far back as a fast whirl needs; for longer windows they are summed up in blocks
 //! while they come in, so that no evaluation walks through thousands of samples.
 
 use serde::{Deserialize, Serialize};
 
-use super::PlaceSample;
+use super::StationSample;
 
 /// Most points of a long window: 32 per turn of the tool in a window of four turns.
 pub(super) const LONG_POINTS: usize = 128;
@@ -19,7 +19,7 @@ const BLOCK: f64 = 0.016;
 /// Lanes of the reductions over blocks: fixed, so that the sums are the same on every machine.
 const LANES: usize = 8;
 
-/// Samples and blocks of one place. Single precision is a ten-millionth of a clearance and halves the memory that each
+/// Samples and blocks of one station. Single precision is a ten-millionth of a clearance and halves the memory that each
 /// evaluation walks through.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct OrbitWindow {
@@ -152,7 +152,7 @@ impl OrbitWindow {
         }
     }
 
-    pub(super) fn push(&mut self, sample: &PlaceSample) {
+    pub(super) fn push(&mut self, sample: &StationSample) {
         self.samples.push([sample.y as f32, sample.z as f32]);
         let open = &mut self.open;
         open.samples += 1;
@@ -256,7 +256,7 @@ mod tests {
     fn filled(count: u32) -> OrbitWindow {
         let mut window = OrbitWindow::new(6.0, 4e-3);
         for step in 0..count {
-            window.push(&PlaceSample {
+            window.push(&StationSample {
                 y: f64::from(step),
                 z: -1.0,
                 normal_force: f64::from(step),

@@ -1,5 +1,7 @@
 //! Results of the analysis, as plain arrays.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::tool::description::Body;
@@ -20,7 +22,25 @@ pub enum WhirlKind {
     Chaotic = 3,
 }
 
-/// How bad.
+impl WhirlKind {
+    /// As in sentences: `forward whirl`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "no whirl",
+            Self::Forward => "forward whirl",
+            Self::Backward => "backward whirl",
+            Self::Chaotic => "chaotic whirl",
+        }
+    }
+}
+
+impl fmt::Display for WhirlKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Level of a warning.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
@@ -34,6 +54,27 @@ pub enum Severity {
     Warning = 2,
     /// Act now.
     Critical = 3,
+}
+
+impl Severity {
+    /// The levels above OK, rising.
+    pub const RAISED: [Self; 3] = [Self::Watch, Self::Warning, Self::Critical];
+
+    /// As in sentences: `ok`, `watch`, `warning`, `critical`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Watch => "watch",
+            Self::Warning => "warning",
+            Self::Critical => "critical",
+        }
+    }
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
 }
 
 /// One entry per watched station and pipe; all arrays of the same length.
@@ -61,7 +102,7 @@ pub struct WhirlReport {
     pub contact_duty: Vec<f64>,
     /// 0 to 1, lowered by doubtful inputs.
     pub confidence: Vec<f64>,
-    /// Level of the place.
+    /// Level of the station.
     pub severity: Vec<Severity>,
     /// Kind of whirl that the level stands for, also while it is only held.
     pub level_kind: Vec<WhirlKind>,
@@ -81,7 +122,7 @@ pub struct WhirlWarningLevel {
     pub severity: Severity,
     /// Kind of whirl behind it.
     pub kind: WhirlKind,
-    /// Index into the [`WhirlReport`] of the place behind it.
+    /// Index into the [`WhirlReport`] of the station behind it.
     pub entry: usize,
     /// rad/s over rad/s.
     pub whirl_ratio: f64,

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
+use crate::units::rpm_to_rad_per_s;
 
 /// How whirl is found and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -12,13 +13,13 @@ pub struct WhirlSettings {
     pub window_turns: f64,
     /// Shortest long window (s), for fast tools.
     pub min_window: f64,
-    /// Longest long window (s), for slow or standing tools. Sets the memory: one record per sample and place.
+    /// Longest long window (s), for slow or standing tools. Sets the memory: one record per sample and station.
     pub max_window: f64,
     /// Length of the short window in turns of the strongest whirl line. It follows a change of direction within two
     /// whirl turns: the new direction leads once it fills more than half of the window. Shorter windows take chance for
     /// whirl: at 1.6 turns one broad-band motion in ten is misnamed, at 2 one in twenty.
     pub short_window_turns: f64,
-    /// Longest time between two evaluations of the same place (s); a tool faster than 40 r/min is looked at 30 times per
+    /// Longest time between two evaluations of the same station (s); a tool faster than 40 r/min is looked at 30 times per
     /// turn. Places take turns, so that the cost is spread over the samples.
     pub evaluation_interval: f64,
     /// Evaluations in a row that must agree before the kind changes.
@@ -26,8 +27,8 @@ pub struct WhirlSettings {
     /// Turns of a new whirl for which they must agree. By chance a broad-band motion looks like one whirl, but not for
     /// long.
     pub confirmation_turns: f64,
-    /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 0.5
-    /// rad/s is 5 r/min.
+    /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 5
+    /// r/min is an eighth of the paper's speed.
     pub min_rotary_speed: f64,
     /// RMS orbit radius over clearance from which a motion counts as an orbit. Below a tenth of the clearance the
     /// motion is that of a pipe at rest on a wall with a trembling contact.
@@ -50,7 +51,7 @@ pub struct WhirlSettings {
     /// How far the motion is trusted by the state of the inputs behind it, as factor on the confidence; see
     /// [`InputTrust`].
     pub input_trust: InputTrust,
-    /// Confidence from which a place may raise the level.
+    /// Confidence from which a station may raise the level.
     pub min_confidence: f64,
     /// Relative difference to the rate of rolling without slip, `- spin * d / (D - d)`, within which backward whirl
     /// counts as rolling. Rolling loads the pipe with bending at several times its turning rate, so it raises the
@@ -98,7 +99,7 @@ impl Default for InputTrust {
     }
 }
 
-/// When a place reaches a level: whirl of any kind and *all* of these for `duration`.
+/// When a station reaches a level: whirl of any kind and *all* of these for `duration`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LevelThresholds {
     /// Largest distance from the gap's centre over the clearance.
@@ -121,7 +122,7 @@ impl Default for WhirlSettings {
             evaluation_interval: 0.05,
             confirmations: 2,
             confirmation_turns: 0.3,
-            min_rotary_speed: 0.5,
+            min_rotary_speed: rpm_to_rad_per_s(5.0),
             min_orbit_ratio: 0.1,
             min_axis_ratio: 0.25,
             steady_direction: 0.6,

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::hysteresis::{Change, Hysteresis};
 use super::settings::{LevelThresholds, WhirlSettings};
 use super::{Severity, WhirlKind};
 
-/// What a level is judged by, at one place.
+/// What a level is judged by, at one station.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Evidence {
     pub(super) kind: WhirlKind,
@@ -18,23 +19,19 @@ pub(super) struct Evidence {
     pub(super) rolling: bool,
 }
 
-/// The level of one place.
+/// The level of one station.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct PlaceSeverity {
-    pub(super) level: Severity,
+pub(super) struct StationSeverity {
+    hysteresis: Hysteresis,
     /// The kind that was seen last while the level's conditions were met.
     pub(super) kind: WhirlKind,
     /// How long the conditions of WATCH, WARNING and CRITICAL have been met (s).
     met_for: [f64; 3],
-    /// How long those of the present level have not (s).
-    unmet_for: f64,
     /// Model time until which CRITICAL is latched (s).
     latched_until: f64,
 }
 
-const LEVELS: [Severity; 3] = [Severity::Watch, Severity::Warning, Severity::Critical];
-
-impl PlaceSeverity {
+impl StationSeverity {
     /// Takes the evidence at model time `time` (s), `elapsed` (s) after the one before. `input_trust`, 0 to 1, is how far the
     /// inputs behind the motion can be trusted: what they make doubtful raises no level, but does not end one either.
     pub(super) fn update(
@@ -47,8 +44,8 @@ impl PlaceSeverity {
     ) {
         let mut raised = Severity::Ok;
         let mut held = Severity::Ok;
-        for (index, level) in LEVELS.into_iter().enumerate() {
-            let stands = self.level >= level;
+        for (index, level) in Severity::RAISED.into_iter().enumerate() {
+            let stands = self.level() >= level;
             let (factor, trust) = if stands {
                 (1.0 - settings.hysteresis, 1.0)
             } else {
@@ -68,22 +65,17 @@ impl PlaceSeverity {
         if evidence.kind != WhirlKind::None && raised.max(held) > Severity::Ok {
             self.kind = evidence.kind;
         }
-        if raised > self.level {
-            if raised == Severity::Critical {
-                self.latched_until = time + settings.latch;
-            }
-            self.level = raised;
-            self.unmet_for = 0.0;
-        } else if held >= self.level {
-            self.unmet_for = 0.0;
-        } else {
-            self.unmet_for += elapsed;
-            let latched = self.level == Severity::Critical && time < self.latched_until;
-            if self.unmet_for >= settings.hold_off && !latched {
-                self.level = held;
-                self.unmet_for = 0.0;
-            }
+        let latched = self.level() == Severity::Critical && time < self.latched_until;
+        let change = self
+            .hysteresis
+            .update(elapsed, raised, held, settings.hold_off, latched);
+        if change == Change::Rose && raised == Severity::Critical {
+            self.latched_until = time + settings.latch;
         }
+    }
+
+    pub(super) fn level(&self) -> Severity {
+        self.hysteresis.level
     }
 
     /// Ends the latch.
@@ -138,21 +130,21 @@ mod tests {
     }
 
     /// Level after each evaluation.
-    fn run(place: &mut PlaceSeverity, from: f64, evidence: &[Evidence]) -> Vec<Severity> {
+    fn run(watch: &mut StationSeverity, from: f64, evidence: &[Evidence]) -> Vec<Severity> {
         let settings = WhirlSettings::default();
         evidence
             .iter()
             .enumerate()
             .map(|(index, evidence)| {
-                place.update(from + index as f64 * STEP, STEP, evidence, 1.0, &settings);
-                place.level
+                watch.update(from + index as f64 * STEP, STEP, evidence, 1.0, &settings);
+                watch.level()
             })
             .collect()
     }
 
     #[test]
     fn levels_need_their_duration() {
-        let levels = run(&mut PlaceSeverity::default(), 0.0, &[strong(); 40]);
+        let levels = run(&mut StationSeverity::default(), 0.0, &[strong(); 40]);
         let first = |level| levels.iter().position(|&got| got >= level);
         assert_eq!(
             (first(Severity::Watch), first(Severity::Critical)),
@@ -162,16 +154,16 @@ mod tests {
 
     #[test]
     fn critical_is_latched_then_falls_after_the_hold_off() {
-        let mut place = PlaceSeverity::default();
-        run(&mut place, 0.0, &[strong(); 40]);
+        let mut watch = StationSeverity::default();
+        run(&mut watch, 0.0, &[strong(); 40]);
         let calm = [Evidence::default(); 400];
-        let levels = run(&mut place, 4.0, &calm);
+        let levels = run(&mut watch, 4.0, &calm);
         let end = levels
             .iter()
             .position(|&level| level < Severity::Critical)
             .map(|index| 4.0 + index as f64 * STEP);
         assert!(end.is_some_and(|end| (end - 32.9).abs() < 0.2), "{end:?}");
-        let mut acknowledged = PlaceSeverity::default();
+        let mut acknowledged = StationSeverity::default();
         run(&mut acknowledged, 0.0, &[strong(); 40]);
         acknowledged.acknowledge();
         let end = run(&mut acknowledged, 4.0, &calm)
@@ -182,7 +174,7 @@ mod tests {
 
     #[test]
     fn no_flapping_at_a_threshold() {
-        let mut place = PlaceSeverity::default();
+        let mut watch = StationSeverity::default();
         let wavering: Vec<_> = (0..3000)
             .map(|index| Evidence {
                 clearance_ratio: 0.5 + 0.04 * (index as f64 * 0.37).sin(),
@@ -195,9 +187,9 @@ mod tests {
             peak_force: 0.0,
             ..strong()
         }; 30];
-        run(&mut place, 0.0, &settled);
+        run(&mut watch, 0.0, &settled);
         assert!(
-            run(&mut place, 3.0, &wavering)
+            run(&mut watch, 3.0, &wavering)
                 .iter()
                 .all(|&level| level == Severity::Watch)
         );
@@ -210,7 +202,7 @@ mod tests {
             ..strong()
         };
         assert_eq!(
-            run(&mut PlaceSeverity::default(), 0.0, &[forward; 60])[59],
+            run(&mut StationSeverity::default(), 0.0, &[forward; 60])[59],
             Severity::Warning
         );
         let light = Evidence {
@@ -218,12 +210,12 @@ mod tests {
             ..strong()
         };
         assert_eq!(
-            run(&mut PlaceSeverity::default(), 0.0, &[light; 60])[59],
+            run(&mut StationSeverity::default(), 0.0, &[light; 60])[59],
             Severity::Watch
         );
         let rolling = Evidence { rolling: true, ..light };
         assert_eq!(
-            run(&mut PlaceSeverity::default(), 0.0, &[rolling; 60])[59],
+            run(&mut StationSeverity::default(), 0.0, &[rolling; 60])[59],
             Severity::Warning
         );
     }
@@ -235,7 +227,7 @@ mod tests {
             ..strong()
         };
         assert_eq!(
-            run(&mut PlaceSeverity::default(), 0.0, &[doubtful; 60])[59],
+            run(&mut StationSeverity::default(), 0.0, &[doubtful; 60])[59],
             Severity::Ok
         );
     }

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::held_level::{HeldLevel, HeldThresholds};
+use super::hysteresis::{Alarm, AlarmThresholds};
 use super::{Severity, ShockLevel};
 
 /// How shocks are measured and judged.
@@ -20,7 +20,7 @@ pub struct ShockSettings {
     pub mean_time: f64,
     /// Impulses (N s) of the levels. 5.5 N s turn round a link of 2.8 kg that strikes with 1 m/s. The paper's largest force, 44
     /// kN, as half a sine of 1.7 ms is 48 N s. Between them their geometric mean.
-    pub thresholds: HeldThresholds,
+    pub thresholds: AlarmThresholds,
 }
 
 impl Default for ShockSettings {
@@ -28,7 +28,7 @@ impl Default for ShockSettings {
         Self {
             interval: 0.02,
             mean_time: 0.1,
-            thresholds: HeldThresholds {
+            thresholds: AlarmThresholds {
                 levels: [5.0, 15.0, 45.0],
                 hysteresis: 0.15,
                 hold_off: 5.0,
@@ -107,7 +107,7 @@ pub struct ShockWatch {
     /// Pipe in guide, guide in hole.
     layers: [Shocks; 2],
     elapsed: f64,
-    held: HeldLevel,
+    alarm: Alarm,
     level: ShockLevel,
 }
 
@@ -118,7 +118,7 @@ impl ShockWatch {
             settings: *settings,
             layers: [Shocks::new(stations), Shocks::new(stations)],
             elapsed: 0.0,
-            held: HeldLevel::default(),
+            alarm: Alarm::default(),
             level: ShockLevel::default(),
         }
     }
@@ -143,15 +143,15 @@ impl ShockWatch {
                 worst = (impulse, layer, station);
             }
         }
-        let before = self.held.severity;
-        let counts = self.held.update(self.elapsed, worst.0, &self.settings.thresholds);
+        let before = self.alarm.severity();
+        let counts = self.alarm.update(self.elapsed, worst.0, &self.settings.thresholds);
         self.elapsed = 0.0;
-        if self.held.severity != before {
+        if self.alarm.severity() != before {
             self.level.since = time;
-            self.level.severity = self.held.severity;
+            self.level.severity = self.alarm.severity();
         }
-        let leads = counts && (self.held.severity > before || worst.0 > self.level.impulse);
-        if leads || self.held.severity == Severity::Ok {
+        let leads = counts && (self.alarm.severity() > before || worst.0 > self.level.impulse);
+        if leads || self.alarm.severity() == Severity::Ok {
             (self.level.impulse, self.level.layer, self.level.station) = worst;
         }
     }
@@ -175,7 +175,7 @@ impl ShockWatch {
     pub fn reset(&mut self) {
         self.layers.iter_mut().for_each(Shocks::reset);
         self.elapsed = 0.0;
-        self.held = HeldLevel::default();
+        self.alarm = Alarm::default();
         self.level = ShockLevel::default();
     }
 }
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_strike_counts_by_its_impulse_and_names_its_place() {
+    fn a_strike_counts_by_its_impulse_and_names_its_station() {
         let mut watch = ShockWatch::new(&ShockSettings::default(), 5);
         run(&mut watch, 0.0, 15e3, 10_000, 0.5);
         // 2 / pi x 15 kN x 2 ms = 19.1 N s.

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
-use super::held_level::{HeldLevel, HeldThresholds};
+use super::hysteresis::{Alarm, AlarmThresholds};
+use crate::units::rpm_to_rad_per_s;
 
 /// The window moves in steps of a block, so that extremes need no queue.
 const BLOCKS: usize = 30;
@@ -20,15 +21,15 @@ pub struct StickSlipSettings {
     /// r/min.
     pub gate_speed: f64,
     /// Index of the levels: 1 is a bit that just stops once per period, half of it and four fifths are on the way there.
-    pub thresholds: HeldThresholds,
+    pub thresholds: AlarmThresholds,
 }
 
 impl Default for StickSlipSettings {
     fn default() -> Self {
         Self {
             window: 3.0,
-            gate_speed: 1.05,
-            thresholds: HeldThresholds {
+            gate_speed: rpm_to_rad_per_s(10.0),
+            thresholds: AlarmThresholds {
                 levels: [0.5, 0.8, 1.0],
                 hysteresis: 0.15,
                 hold_off: 5.0,
@@ -49,7 +50,7 @@ pub struct StickSlip {
     blocks: Vec<Block>,
     current: usize,
     filled: usize,
-    held: HeldLevel,
+    alarm: Alarm,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -80,7 +81,7 @@ impl StickSlip {
             blocks: vec![Block::EMPTY; BLOCKS],
             current: 0,
             filled: 1,
-            held: HeldLevel::default(),
+            alarm: Alarm::default(),
         }
     }
 
@@ -90,7 +91,7 @@ impl StickSlip {
         // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
         if length + 0.5 * dt >= self.settings.window / BLOCKS as f64 {
             let index = self.index();
-            self.held.update(length, index, &self.settings.thresholds);
+            self.alarm.update(length, index, &self.settings.thresholds);
             self.current = (self.current + 1) % BLOCKS;
             self.blocks[self.current] = Block::EMPTY;
             self.filled = (self.filled + 1).min(BLOCKS);
@@ -127,14 +128,14 @@ impl StickSlip {
 
     /// The level that the index has reached.
     pub fn severity(&self) -> Severity {
-        self.held.severity
+        self.alarm.severity()
     }
 
     /// Empties the window.
     pub fn reset(&mut self) {
         self.blocks.fill(Block::EMPTY);
         (self.current, self.filled) = (0, 1);
-        self.held = HeldLevel::default();
+        self.alarm = Alarm::default();
     }
 }
 

@@ -1,4 +1,4 @@
-//! Whirl of every watched place, and the level of the whole tool.
+//! Whirl at every watched station, and the level of the whole tool.
 
 use std::f64::consts::TAU;
 
@@ -8,10 +8,10 @@ use super::classify::{Gates, View, judge};
 use super::full_spectrum::{FullSpectrum, Lines};
 use super::orbit::{measure_and_stretch, repetition, turning};
 use super::orbit_window::{OrbitWindow, Points};
-use super::place::{Circumstances, Place};
 use super::settings::WhirlSettings;
 use super::severity::Evidence;
-use super::{PlaceSample, Severity, WatchedPlace, WhirlReport, WhirlWarningLevel};
+use super::watched_station::{Circumstances, StationWatch};
+use super::{Severity, StationSample, WatchedStation, WhirlReport, WhirlWarningLevel};
 
 /// Part of the long window that must be filled before anything is said.
 const MIN_FILL: f64 = 0.5;
@@ -20,7 +20,7 @@ const MIN_FILL: f64 = 0.5;
 /// direction either until it fills a good part of the window.
 const CHAOS_PART: f64 = 0.25;
 
-/// Evaluations of a place per turn of the tool: three per turn of a whirl at ten times its speed.
+/// Evaluations of a station per turn of the tool: three per turn of a whirl at ten times its speed.
 const EVALUATIONS_PER_TURN: f64 = 30.0;
 
 /// After how many turns of the tool a motion may repeat itself: one and two, and one and a half, since a joint's cross
@@ -30,7 +30,7 @@ const REPETITION_TURNS: [f64; 3] = [1.0, 1.5, 2.0];
 /// Fewest samples of a short window.
 const MIN_SHORT_SAMPLES: usize = 32;
 
-/// Watches the orbits of many places. Everything is allocated by [`WhirlAnalysis::new`]; the same samples give the
+/// Watches the orbits of many stations. Everything is allocated by [`WhirlAnalysis::new`]; the same samples give the
 /// same bits.
 ///
 /// Frames: y is horizontal, z points to the low side, x down the hole, so a positive rotary speed turns y towards z.
@@ -38,15 +38,15 @@ const MIN_SHORT_SAMPLES: usize = 32;
 pub struct WhirlAnalysis {
     settings: WhirlSettings,
     sample_interval: f64,
-    places: Vec<Place>,
+    watches: Vec<StationWatch>,
     /// Angle of the drive at the newest samples, to get its mean speed over any window.
     drive_angle: Vec<f64>,
     drive_next: usize,
     drive_filled: usize,
     rotary_speed: f64,
     last_time: Option<f64>,
-    next_place: usize,
-    /// Part of a place that is due, carried from sample to sample.
+    next_watch: usize,
+    /// Part of an evaluation that is due, carried from sample to sample.
     due: f64,
     input_trust: f64,
     level: WhirlWarningLevel,
@@ -58,22 +58,22 @@ pub struct WhirlAnalysis {
 
 impl WhirlAnalysis {
     /// For samples that are `sample_interval` (s) apart, 2 to 5 ms for a tool at 20 to 120 r/min.
-    pub fn new(settings: &WhirlSettings, sample_interval: f64, places: Vec<WatchedPlace>) -> Self {
+    pub fn new(settings: &WhirlSettings, sample_interval: f64, stations: Vec<WatchedStation>) -> Self {
         let capacity = ((settings.max_window / sample_interval).ceil() as usize).max(MIN_SHORT_SAMPLES);
-        let places = places
+        let watches = stations
             .into_iter()
-            .map(|place| Place::new(place, OrbitWindow::new(settings.max_window, sample_interval)))
+            .map(|station| StationWatch::new(station, OrbitWindow::new(settings.max_window, sample_interval)))
             .collect();
         Self {
             settings: *settings,
             sample_interval,
-            places,
+            watches,
             drive_angle: vec![0.0; capacity + 1],
             drive_next: 0,
             drive_filled: 0,
             rotary_speed: 0.0,
             last_time: None,
-            next_place: 0,
+            next_watch: 0,
             due: 0.0,
             input_trust: 1.0,
             level: WhirlWarningLevel::default(),
@@ -82,11 +82,11 @@ impl WhirlAnalysis {
         }
     }
 
-    /// Takes one sample per watched place at model time `time` (s), with the rotary speed of the drive (rad/s).
+    /// Takes one sample per watched station at model time `time` (s), with the rotary speed of the drive (rad/s).
     ///
     /// Samples are expected at the interval given to [`WhirlAnalysis::new`]. A short gap is bridged by straight lines;
     /// after a long one, or when time goes backwards, the windows start anew. A repeated time is ignored.
-    pub fn push(&mut self, time: f64, rotary_speed: f64, samples: &[PlaceSample]) {
+    pub fn push(&mut self, time: f64, rotary_speed: f64, samples: &[StationSample]) {
         let steps = self
             .last_time
             .map_or(1.0, |last| ((time - last) / self.sample_interval).round());
@@ -105,19 +105,19 @@ impl WhirlAnalysis {
         }
         self.last_time = Some(time);
         self.store(rotary_speed, samples, 1.0);
-        for (place, sample) in self.places.iter_mut().zip(samples) {
-            place.last = *sample;
+        for (watch, sample) in self.watches.iter_mut().zip(samples) {
+            watch.last = *sample;
         }
-        self.due += self.places.len() as f64 * self.sample_interval / self.evaluation_interval();
+        self.due += self.watches.len() as f64 * self.sample_interval / self.evaluation_interval();
         let mut evaluated = 0;
-        while self.due >= 1.0 && evaluated < self.places.len() {
+        while self.due >= 1.0 && evaluated < self.watches.len() {
             self.due -= 1.0;
             evaluated += 1;
-            self.evaluate(self.next_place, time);
-            self.next_place = (self.next_place + 1) % self.places.len();
+            self.evaluate(self.next_watch, time);
+            self.next_watch = (self.next_watch + 1) % self.watches.len();
         }
         if evaluated > 0 {
-            self.level.update(time, &self.places, self.input_trust);
+            self.level.update(time, &self.watches, self.input_trust);
         }
     }
 
@@ -129,8 +129,8 @@ impl WhirlAnalysis {
             self.input_trust = trust;
             // Listeners are told at once that the standing warning is to be read differently.
             self.level.sequence += 1;
-            let place = self.places.get(self.level.entry);
-            self.level.confidence = place.map_or(0.0, |place| place.evidence.confidence) * trust;
+            let watch = self.watches.get(self.level.entry);
+            self.level.confidence = watch.map_or(0.0, |watch| watch.evidence.confidence) * trust;
         }
     }
 
@@ -155,44 +155,47 @@ impl WhirlAnalysis {
         &self.settings
     }
 
-    /// The places in the order of the samples.
-    pub fn places(&self) -> impl ExactSizeIterator<Item = &WatchedPlace> {
-        self.places.iter().map(|place| &place.place)
+    /// The watched stations in the order of the samples.
+    pub fn stations(&self) -> impl ExactSizeIterator<Item = &WatchedStation> {
+        self.watches.iter().map(|watch| &watch.station)
     }
 
-    /// Fills `out`, one entry per place. Does not allocate once `out` has the right size.
+    /// Fills `out`, one entry per watched station. Does not allocate once `out` has the right size.
     pub fn report(&self, out: &mut WhirlReport) {
         fn fill<T>(out: &mut Vec<T>, values: impl Iterator<Item = T>) {
             out.clear();
             out.extend(values);
         }
-        let places = self.places.iter();
-        fill(&mut out.station, places.clone().map(|at| at.place.station));
+        let watches = self.watches.iter();
+        fill(&mut out.station, watches.clone().map(|at| at.station.station));
         fill(
             &mut out.measured_depth,
-            places.clone().map(|at| at.place.measured_depth),
+            watches.clone().map(|at| at.station.measured_depth),
         );
-        fill(&mut out.inclination, places.clone().map(|at| at.place.inclination));
-        fill(&mut out.body, places.clone().map(|at| at.place.body));
-        fill(&mut out.kind, places.clone().map(|at| at.kind));
-        fill(&mut out.whirl_rate, places.clone().map(|at| at.whirl_rate));
-        fill(&mut out.whirl_ratio, places.clone().map(|at| at.whirl_ratio));
-        fill(&mut out.orbit_radius, places.clone().map(|at| at.orbit_radius));
+        fill(&mut out.inclination, watches.clone().map(|at| at.station.inclination));
+        fill(&mut out.body, watches.clone().map(|at| at.station.body));
+        fill(&mut out.kind, watches.clone().map(|at| at.kind));
+        fill(&mut out.whirl_rate, watches.clone().map(|at| at.whirl_rate));
+        fill(&mut out.whirl_ratio, watches.clone().map(|at| at.whirl_ratio));
+        fill(&mut out.orbit_radius, watches.clone().map(|at| at.orbit_radius));
         fill(
             &mut out.clearance_ratio,
-            places.clone().map(|at| at.evidence.clearance_ratio),
+            watches.clone().map(|at| at.evidence.clearance_ratio),
         );
-        fill(&mut out.contact_duty, places.clone().map(|at| at.evidence.contact_duty));
+        fill(
+            &mut out.contact_duty,
+            watches.clone().map(|at| at.evidence.contact_duty),
+        );
         let trust = self.input_trust;
         fill(
             &mut out.confidence,
-            places.clone().map(|at| at.evidence.confidence * trust),
+            watches.clone().map(|at| at.evidence.confidence * trust),
         );
-        fill(&mut out.severity, places.clone().map(|at| at.severity.level));
-        fill(&mut out.level_kind, places.clone().map(Place::level_kind));
-        fill(&mut out.rolling, places.clone().map(|at| at.evidence.rolling));
-        fill(&mut out.rolling_share, places.clone().map(Place::rolling_share));
-        fill(&mut out.peak_force, places.clone().map(|at| at.evidence.peak_force));
+        fill(&mut out.severity, watches.clone().map(|at| at.severity.level()));
+        fill(&mut out.level_kind, watches.clone().map(StationWatch::level_kind));
+        fill(&mut out.rolling, watches.clone().map(|at| at.evidence.rolling));
+        fill(&mut out.rolling_share, watches.clone().map(StationWatch::rolling_share));
+        fill(&mut out.peak_force, watches.clone().map(|at| at.evidence.peak_force));
     }
 
     /// The level that the warning logic stands at.
@@ -202,7 +205,7 @@ impl WhirlAnalysis {
 
     /// Ends the latch of CRITICAL everywhere.
     pub fn acknowledge(&mut self) {
-        self.places.iter_mut().for_each(|place| place.severity.acknowledge());
+        self.watches.iter_mut().for_each(|watch| watch.severity.acknowledge());
     }
 
     /// Forgets everything but the settings and the inputs' trust; the warnings' sequence goes on, so that listeners see the
@@ -210,10 +213,10 @@ impl WhirlAnalysis {
     pub fn reset(&mut self) {
         let sequence = self.level.sequence;
         self.restart_windows();
-        self.places.iter_mut().for_each(Place::reset);
+        self.watches.iter_mut().for_each(StationWatch::reset);
         self.last_time = None;
         self.rotary_speed = 0.0;
-        (self.next_place, self.due) = (0, 0.0);
+        (self.next_watch, self.due) = (0, 0.0);
         let changed = u64::from(self.level.severity != Severity::Ok);
         self.level = WhirlWarningLevel {
             sequence: sequence + changed,
@@ -221,7 +224,7 @@ impl WhirlAnalysis {
         };
     }
 
-    fn store(&mut self, rotary_speed: f64, samples: &[PlaceSample], part: f64) {
+    fn store(&mut self, rotary_speed: f64, samples: &[StationSample], part: f64) {
         let length = self.drive_angle.len();
         let newest = self.drive_angle[(self.drive_next + length - 1) % length];
         let angle = if self.drive_filled == 0 {
@@ -233,19 +236,19 @@ impl WhirlAnalysis {
         self.drive_next = (self.drive_next + 1) % length;
         self.drive_filled = (self.drive_filled + 1).min(length);
         self.rotary_speed = rotary_speed;
-        for (place, sample) in self.places.iter_mut().zip(samples) {
+        for (watch, sample) in self.watches.iter_mut().zip(samples) {
             if part < 1.0 {
-                let bridged = place.last.between(sample, part);
-                place.window.push(&bridged);
+                let bridged = watch.last.between(sample, part);
+                watch.window.push(&bridged);
             } else {
-                place.window.push(sample);
+                watch.window.push(sample);
             }
         }
     }
 
     fn restart_windows(&mut self) {
         self.drive_filled = 0;
-        self.places.iter_mut().for_each(Place::restart);
+        self.watches.iter_mut().for_each(StationWatch::restart);
     }
 
     /// Mean rotary speed over the newest `window` (s); that of the newest sample when there is no other.
@@ -275,27 +278,29 @@ impl WhirlAnalysis {
     }
 
     fn evaluate(&mut self, index: usize, time: f64) {
-        self.look(index);
-        let place = &mut self.places[index];
-        let elapsed = (time - place.evaluated).clamp(0.0, 2.0 * self.settings.evaluation_interval);
-        place.evaluated = time;
-        place
+        self.judge(index);
+        let watch = &mut self.watches[index];
+        let elapsed = (time - watch.evaluated)
+            .max(0.0)
+            .min(2.0 * self.settings.evaluation_interval);
+        watch.evaluated = time;
+        watch
             .severity
-            .update(time, elapsed, &place.evidence, self.input_trust, &self.settings);
+            .update(time, elapsed, &watch.evidence, self.input_trust, &self.settings);
     }
 
-    fn look(&mut self, index: usize) {
+    fn judge(&mut self, index: usize) {
         let (long_window, interval) = (self.long_window(), self.sample_interval);
         let wanted = (long_window / interval).round() as usize;
-        let place = &self.places[index];
-        let filled = place.window.filled().min(wanted);
+        let watch = &self.watches[index];
+        let filled = watch.window.filled().min(wanted);
         if (filled as f64) < MIN_FILL * wanted as f64 {
             return;
         }
-        let clearance = place.place.clearance;
-        let gates = Gates::new(clearance, place.kind, &self.settings);
-        let touches = place.window.touches(filled);
-        place.window.long_points(filled, interval, &mut self.points);
+        let clearance = watch.station.clearance;
+        let gates = Gates::new(clearance, watch.kind, &self.settings);
+        let touches = watch.window.touches(filled);
+        watch.window.long_points(filled, interval, &mut self.points);
         let mut long = self.view(false, &gates);
         let moves = long.orbit.radius >= gates.radius;
         if moves && !gates.is_directed(&long.lines) {
@@ -309,7 +314,7 @@ impl WhirlAnalysis {
         };
         // A short window almost as long as the long one would say the same again.
         let short = (moves && short_samples < filled * 4 / 5).then(|| {
-            let window = &self.places[index].window;
+            let window = &self.watches[index].window;
             window.short_points(short_samples, interval, &mut self.points);
             self.view(true, &gates)
         });
@@ -334,7 +339,7 @@ impl WhirlAnalysis {
             chaos_time: CHAOS_PART * long_window,
             evaluation_interval: self.evaluation_interval(),
         };
-        self.places[index].accept(&verdict, evidence, &circumstances, &self.settings);
+        self.watches[index].accept(&verdict, evidence, &circumstances, &self.settings);
     }
 
     /// Both estimators' results for the points.

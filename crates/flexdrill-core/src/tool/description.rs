@@ -101,7 +101,7 @@ pub struct Material {
 }
 
 /// A round tube.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tube {
     /// Outer diameter (m).
     pub outer_diameter: f64,
@@ -196,9 +196,25 @@ pub enum Body {
     Guide,
 }
 
-/// A place along the tool.
+impl Body {
+    /// As in sentences: `pipe`, `guide pipe`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pipe => "pipe",
+            Self::Guide => "guide pipe",
+        }
+    }
+}
+
+impl std::fmt::Display for Body {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A location along the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Place {
+pub enum Location {
     /// First station.
     Top,
     /// Last station.
@@ -233,7 +249,7 @@ pub enum Direction {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Support {
     /// Where.
-    pub place: Place,
+    pub location: Location,
     /// On which pipe.
     pub body: Body,
     /// Which directions, in the node's own frame.
@@ -281,7 +297,7 @@ pub enum LoadHistory {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointLoad {
     /// Where; `Joint` loads the end of the link above.
-    pub place: Place,
+    pub location: Location,
     /// On which pipe.
     pub body: Body,
     /// Along which direction (moment for rotations).
@@ -294,7 +310,7 @@ pub struct PointLoad {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PointMass {
     /// Where.
-    pub place: Place,
+    pub location: Location,
     /// On which pipe.
     pub body: Body,
     /// kg.

@@ -2,14 +2,18 @@
 //!
 //! The node, replay, verification and sweeps all drive this one thing.
 
+mod checkpoint;
 mod observe;
+mod readings;
 mod run;
 mod schedule;
 mod settings;
 mod simulation;
 mod snapshot;
+mod validation;
 
-pub use run::{Frame, Model, Run, RunInputs};
+pub use checkpoint::CheckpointError;
+pub use run::{Frame, Run, RunInputs};
 pub use schedule::{Due, Output, Schedule, Timeline};
 pub use settings::SimulationSettings;
 pub use simulation::{BuildError, Simulation};

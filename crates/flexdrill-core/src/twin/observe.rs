@@ -11,7 +11,8 @@ use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Touch, gap};
 use crate::model::Model;
 use crate::motion::{
-    ContactStatistics, PlaceSample, RootMeanSquare, ShockWatch, StickSlip, WatchedPlace, WhirlAnalysis, WhirlSettings,
+    ContactStatistics, RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis,
+    WhirlSettings,
 };
 use crate::tool::description::{Body, Direction, JointKind};
 
@@ -26,8 +27,8 @@ pub(super) struct Observer {
     stick_slip: StickSlip,
     shock: ShockWatch,
     whirl: WhirlAnalysis,
-    places: Vec<(usize, Body)>,
-    samples: Vec<PlaceSample>,
+    watched: Vec<(usize, Body)>,
+    samples: Vec<StationSample>,
     /// Steps between samples of the whirl analysis.
     decimation: u64,
     last_iterations: u32,
@@ -35,24 +36,19 @@ pub(super) struct Observer {
 
 impl Observer {
     pub(super) fn new(model: &Model, settings: &SimulationSettings) -> Self {
-        let places: Vec<(usize, Body)> = if settings.watched.is_empty() {
+        let watched: Vec<(usize, Body)> = if settings.watched.is_empty() {
             model
                 .joint_stations
                 .iter()
                 .flat_map(|&s| [(s, Body::Pipe), (s, Body::Guide)])
                 .collect()
         } else {
-            settings
-                .watched
-                .iter()
-                .copied()
-                .filter(|&(station, _)| station <= model.last())
-                .collect()
+            settings.watched.clone()
         };
-        let decimation = ((settings.whirl_sample_interval / settings.time_step).round() as u64).max(1);
-        let watched = places
+        let decimation = settings.whirl_sample_steps();
+        let described = watched
             .iter()
-            .map(|&(station, body)| watched_place(model, station, body))
+            .map(|&(station, body)| watched_station(model, station, body))
             .collect();
         let stations = model.stations.len();
         Self {
@@ -63,19 +59,17 @@ impl Observer {
             lateral: RootMeanSquare::default(),
             stick_slip: StickSlip::new(settings.stick_slip),
             shock: ShockWatch::new(&settings.shock, stations),
-            whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, watched),
-            samples: vec![PlaceSample::default(); places.len()],
-            places,
+            whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),
+            samples: vec![StationSample::default(); watched.len()],
+            watched,
             decimation,
             last_iterations: 0,
         }
     }
 
-    /// Whether both watch the same places in the same way.
+    /// Whether both watch the same stations.
     pub(super) fn fits(&self, other: &Self) -> bool {
-        self.places == other.places
-            && self.decimation == other.decimation
-            && self.whirl.settings() == other.whirl.settings()
+        self.watched == other.watched && self.decimation == other.decimation
     }
 
     pub(super) fn last_iterations(&self) -> u32 {
@@ -91,7 +85,7 @@ impl Observer {
         self.whirl.set_input_trust(trust);
     }
 
-    /// Takes the place of one that was further: its warnings go on counting from there.
+    /// Follows one whose warnings may have counted further: the sequence goes on from there.
     pub(super) fn follow(&mut self, before: &Self) {
         self.whirl.continue_sequence(before.whirl.level().sequence);
     }
@@ -101,7 +95,7 @@ impl Observer {
         self.stick_slip.reset();
         self.shock.reset();
         self.whirl.reset();
-        self.samples.fill(PlaceSample::default());
+        self.samples.fill(StationSample::default());
         self.last_iterations = 0;
     }
 
@@ -142,7 +136,7 @@ impl Observer {
         self.stick_slip.push(dt, state.v[spin], applied.rotary_speed);
 
         let share = 1.0 / self.decimation as f64;
-        for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.places) {
+        for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
             let touch = match body {
                 Body::Pipe => &forces.inner[station],
                 Body::Guide => &forces.outer[station],
@@ -153,13 +147,13 @@ impl Observer {
             }
         }
         if step.is_multiple_of(self.decimation) {
-            for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.places) {
+            for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
                 let lateral = gap_lateral(model, state, station, body);
                 (sample.y, sample.z) = (lateral.x, lateral.y);
                 sample.contact_share = sample.contact_share.min(1.0);
             }
             self.whirl.push(step as f64 * dt, applied.rotary_speed, &self.samples);
-            self.samples.fill(PlaceSample::default());
+            self.samples.fill(StationSample::default());
         }
     }
 
@@ -258,13 +252,13 @@ impl Observer {
     }
 }
 
-fn watched_place(model: &Model, station: usize, body: Body) -> WatchedPlace {
+fn watched_station(model: &Model, station: usize, body: Body) -> WatchedStation {
     let at = &model.stations[station];
     let (clearance, body_diameter) = match body {
         Body::Pipe => (at.inner_clearance, 2.0 * at.pipe_radius),
         Body::Guide => (model.outer_clearance, 2.0 * model.guide_radii[1]),
     };
-    WatchedPlace {
+    WatchedStation {
         station,
         body,
         measured_depth: at.depth,

@@ -4,9 +4,8 @@
 //! bit; nothing here looks at a clock.
 
 use super::schedule::Due;
-use super::{BuildError, Schedule, Simulation, SimulationSettings, Snapshot};
+use super::{Schedule, Simulation, Snapshot};
 use crate::dynamics::outcome::StepOutcome;
-use crate::dynamics::phases::PhaseTimes;
 use crate::inputs::InputState;
 use crate::inputs::Inputs;
 use crate::motion::WhirlSettings;
@@ -48,89 +47,17 @@ pub struct Frame {
     pub input_quality: u8,
 }
 
-/// What a [`Run`] needs of a model; the [`Simulation`] is the one there is, tests bring scripted ones.
-pub trait Model {
-    /// See [`Simulation::settings`].
-    fn settings(&self) -> &SimulationSettings;
-    /// See [`Simulation::advance`].
-    fn advance(&mut self, inputs: &Inputs) -> StepOutcome;
-    /// See [`Simulation::step`].
-    fn step(&self) -> u64;
-    /// See [`Simulation::new_snapshot`].
-    fn new_snapshot(&self) -> Snapshot;
-    /// See [`Simulation::snapshot`].
-    fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool);
-    /// See [`Simulation::live`].
-    fn live(&self) -> LiveParameters;
-    /// See [`Simulation::set_live`].
-    fn set_live(&mut self, live: LiveParameters);
-    /// See [`Simulation::set_slew`].
-    fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64);
-    /// See [`Simulation::set_whirl`].
-    fn set_whirl(&mut self, whirl: &WhirlSettings);
-    /// See [`Simulation::set_input_trust`].
-    fn set_input_trust(&mut self, trust: f64);
-    /// See [`Simulation::reset`].
-    fn reset(&mut self);
-    /// See [`Simulation::phase_times`].
-    fn phase_times(&self) -> PhaseTimes;
-    /// See [`Simulation::checkpoint`].
-    fn checkpoint(&self) -> Result<Vec<u8>, BuildError>;
-}
-
-impl Model for Simulation {
-    fn settings(&self) -> &SimulationSettings {
-        self.settings()
-    }
-    fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
-        self.advance(inputs)
-    }
-    fn step(&self) -> u64 {
-        self.step()
-    }
-    fn new_snapshot(&self) -> Snapshot {
-        self.new_snapshot()
-    }
-    fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
-        self.snapshot(out, end_interval);
-    }
-    fn live(&self) -> LiveParameters {
-        self.live()
-    }
-    fn set_live(&mut self, live: LiveParameters) {
-        self.set_live(live);
-    }
-    fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) {
-        self.set_slew(rotary_speed, weight_on_bit);
-    }
-    fn set_whirl(&mut self, whirl: &WhirlSettings) {
-        self.set_whirl(whirl);
-    }
-    fn set_input_trust(&mut self, trust: f64) {
-        self.set_input_trust(trust);
-    }
-    fn reset(&mut self) {
-        self.reset();
-    }
-    fn phase_times(&self) -> PhaseTimes {
-        self.phase_times()
-    }
-    fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
-        self.checkpoint()
-    }
-}
-
 /// A simulation with what drives it.
-pub struct Run<M = Simulation> {
-    simulation: M,
+pub struct Run {
+    simulation: Simulation,
     applied: RunInputs,
     /// Steps taken before the last reset.
     before_reset: u64,
 }
 
-impl<M: Model> Run<M> {
+impl Run {
     /// Takes over a simulation at its start.
-    pub fn new(simulation: M, schedule: Schedule) -> Self {
+    pub fn new(simulation: Simulation, schedule: Schedule) -> Self {
         let settings = simulation.settings();
         let applied = RunInputs {
             step: 0,
@@ -159,20 +86,21 @@ impl<M: Model> Run<M> {
         }
     }
 
-    /// Lets `applied` act from the next step on. Its `step` is not looked at: it acts now.
+    /// Lets `applied` act from the next step on. Its `step` is not looked at: it acts now. The values are those of a checked
+    /// configuration and are not checked again; coefficients that are no numbers make the next step fail.
     pub fn apply(&mut self, applied: &RunInputs) {
         if applied.reset {
             self.before_reset += self.simulation.step();
             self.simulation.reset();
         }
         if applied.slew != self.applied.slew || applied.reset {
-            self.simulation.set_slew(applied.slew[0], applied.slew[1]);
+            self.simulation.replace_slew(applied.slew);
         }
         if applied.live != self.applied.live || applied.reset {
-            self.simulation.set_live(applied.live);
+            self.simulation.replace_live(applied.live);
         }
         if applied.whirl != self.applied.whirl {
-            self.simulation.set_whirl(&applied.whirl);
+            self.simulation.replace_whirl(&applied.whirl);
         }
         let trust = &applied.whirl.input_trust;
         self.simulation.set_input_trust(match applied.input_quality {
@@ -225,7 +153,7 @@ impl<M: Model> Run<M> {
     }
 
     /// The simulation.
-    pub fn simulation(&self) -> &M {
+    pub fn simulation(&self) -> &Simulation {
         &self.simulation
     }
 }

@@ -6,6 +6,7 @@ use crate::dynamics::Scheme;
 use crate::inputs::Inputs;
 use crate::motion::{ShockSettings, StickSlipSettings, WhirlSettings};
 use crate::tool::Body;
+use crate::units::{kn_to_n, rpm_to_rad_per_s};
 
 /// How the simulation runs, beside the tool itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,4 +35,32 @@ pub struct SimulationSettings {
     pub watched: Vec<(usize, Body)>,
     /// Time between samples of the whirl analysis (s), rounded to whole steps.
     pub whirl_sample_interval: f64,
+}
+
+impl Default for SimulationSettings {
+    /// Those of `config/default.yaml`, where the reasons stand; a test holds the two together. It starts without speed and without
+    /// weight on bit.
+    fn default() -> Self {
+        Self {
+            time_step: 0.5e-3,
+            scheme: Scheme::generalised_alpha(0.45),
+            max_iterations: 15,
+            max_halvings: 6,
+            initial_inputs: Inputs::default(),
+            rotary_speed_slew: rpm_to_rad_per_s(20.0),
+            weight_on_bit_slew: kn_to_n(10.0),
+            whirl: WhirlSettings::default(),
+            stick_slip: StickSlipSettings::default(),
+            shock: ShockSettings::default(),
+            watched: Vec::new(),
+            whirl_sample_interval: 1.0 / 250.0,
+        }
+    }
+}
+
+impl SimulationSettings {
+    /// Steps between two samples of the whirl analysis.
+    pub(super) fn whirl_sample_steps(&self) -> u64 {
+        ((self.whirl_sample_interval / self.time_step).round() as u64).max(1)
+    }
 }

@@ -2,9 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::checkpoint::{self, CheckpointError, Identity};
 use super::observe::Observer;
 use super::settings::SimulationSettings;
 use super::snapshot::Applied;
+use super::validation::validate_slew;
 use super::{Snapshot, SolverCounters};
 use crate::dynamics::newton::Tolerances;
 use crate::dynamics::outcome::StepOutcome;
@@ -13,26 +15,26 @@ use crate::dynamics::state::State;
 use crate::dynamics::statics::StartError;
 use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperCheckpoint};
 use crate::inputs::Inputs;
-use crate::model::ModelError;
 use crate::motion::WhirlSettings;
 use crate::simd::Instructions;
 use crate::tool::description::{LiveParameters, ToolDescription};
+use crate::validation::ValidationError;
 
 /// Why a simulation could not be built or restored.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
-    /// The description does not make sense.
-    #[error(transparent)]
-    Model(#[from] ModelError),
+    /// The description cannot be computed with.
+    #[error("tool: {0}")]
+    Tool(#[source] ValidationError),
+    /// The settings cannot be computed with.
+    #[error("settings: {0}")]
+    Settings(#[source] ValidationError),
     /// The tool could not be started.
     #[error("start of the run: {0}")]
     Start(#[from] StartError),
-    /// Bytes that are not a checkpoint of this version.
-    #[error("checkpoint: {0}; it was not written by this version of flexdrill")]
-    Checkpoint(#[from] postcard::Error),
-    /// A checkpoint of another tool or of other settings.
-    #[error("checkpoint: it belongs to another tool or other settings than the configuration")]
-    OtherTool,
+    /// A checkpoint could not be made or restored.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
 }
 
 /// The running twin of one tool.
@@ -43,22 +45,25 @@ pub struct Simulation {
     observer: Observer,
     applied: Applied,
     step: u64,
+    identity: Identity,
 }
 
-/// Everything a checkpoint holds.
+/// The state in a checkpoint. A change of it is a new format.
 #[derive(Serialize, Deserialize)]
-struct Checkpoint<S, O> {
+struct Saved<S, O> {
     stepper: S,
     observer: O,
     applied: Applied,
     step: u64,
+    /// Slew limits of rotary speed (rad/s2) and weight on bit (N/s).
+    slew: [f64; 2],
 }
 
 impl Simulation {
-    /// Builds the tool and, if configured, brings it to rest under gravity and the initial weight on bit.
+    /// Builds the tool and, with [`ToolDescription::static_start`], brings it to rest under gravity and the initial weight on bit.
     ///
     /// # Errors
-    /// When the description is inconsistent or the static start does not converge.
+    /// When description or settings cannot be computed with, or the static start does not converge.
     pub fn new(tool: &ToolDescription, settings: &SimulationSettings) -> Result<Self, BuildError> {
         Self::with_solver(tool, settings, SolverKind::default(), Instructions::best())
     }
@@ -77,6 +82,10 @@ impl Simulation {
             max_iterations: settings.max_iterations,
             ..Tolerances::default()
         };
+        tool.validate().map_err(BuildError::Tool)?;
+        settings
+            .validate(tool.links * tool.elements_per_link)
+            .map_err(BuildError::Settings)?;
         let mut stepper = Stepper::new(
             tool,
             settings.scheme,
@@ -84,7 +93,8 @@ impl Simulation {
             settings.max_halvings,
             solver,
             instructions,
-        )?;
+        )
+        .map_err(BuildError::Tool)?;
         let load = settings.initial_inputs.weight_on_bit;
         if tool.static_start {
             stepper.settle(load)?;
@@ -101,6 +111,7 @@ impl Simulation {
             start,
             observer,
             step: 0,
+            identity: Identity::of(tool, settings)?,
         };
         simulation.reset();
         Ok(simulation)
@@ -182,18 +193,44 @@ impl Simulation {
     }
 
     /// Replaces the live parameters from the next step on.
-    pub fn set_live(&mut self, live: LiveParameters) {
+    ///
+    /// # Errors
+    /// When one is not finite or negative; then all stay.
+    pub fn set_live(&mut self, live: LiveParameters) -> Result<(), ValidationError> {
+        live.validate()?;
+        self.replace_live(live);
+        Ok(())
+    }
+
+    pub(super) fn replace_live(&mut self, live: LiveParameters) {
         self.stepper.set_live(live);
     }
 
     /// Replaces the slew limits: rotary speed (rad/s2) and weight on bit (N/s).
-    pub fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) {
-        self.settings.rotary_speed_slew = rotary_speed;
-        self.settings.weight_on_bit_slew = weight_on_bit;
+    ///
+    /// # Errors
+    /// When one is not finite or negative; then both stay.
+    pub fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) -> Result<(), ValidationError> {
+        validate_slew(rotary_speed, weight_on_bit)?;
+        self.replace_slew([rotary_speed, weight_on_bit]);
+        Ok(())
+    }
+
+    pub(super) fn replace_slew(&mut self, slew: [f64; 2]) {
+        [self.settings.rotary_speed_slew, self.settings.weight_on_bit_slew] = slew;
     }
 
     /// Replaces the thresholds of the whirl analysis. They change what is said of the motion, not the motion.
-    pub fn set_whirl(&mut self, whirl: &WhirlSettings) {
+    ///
+    /// # Errors
+    /// When they do not hold, see [`WhirlSettings::validate`]; then the present ones stay.
+    pub fn set_whirl(&mut self, whirl: &WhirlSettings) -> Result<(), ValidationError> {
+        whirl.validate()?;
+        self.replace_whirl(whirl);
+        Ok(())
+    }
+
+    pub(super) fn replace_whirl(&mut self, whirl: &WhirlSettings) {
         self.observer.set_whirl(whirl);
     }
 
@@ -256,34 +293,40 @@ impl Simulation {
     ///
     /// # Errors
     /// When the state cannot be encoded.
-    pub fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
-        let checkpoint = Checkpoint {
+    pub fn checkpoint(&self) -> Result<Vec<u8>, CheckpointError> {
+        let saved = Saved {
             stepper: self.stepper.checkpoint(),
             observer: &self.observer,
             applied: self.applied,
             step: self.step,
+            slew: [self.settings.rotary_speed_slew, self.settings.weight_on_bit_slew],
         };
-        Ok(postcard::to_stdvec(&checkpoint)?)
+        checkpoint::write(&self.identity, &saved)
     }
 
-    /// Takes a checkpoint's state. On an error nothing has changed.
+    /// Goes on from a checkpoint of the same tool and settings: state, live parameters, slew limits and whirl thresholds are then those
+    /// at which it was made. On an error nothing has changed.
     ///
     /// # Errors
-    /// When the bytes are not a checkpoint of this tool and version.
-    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), BuildError> {
-        let checkpoint: Checkpoint<StepperCheckpoint, Observer> = postcard::from_bytes(bytes)?;
-        if !checkpoint.observer.fits(&self.observer) || !self.stepper.restore(&checkpoint.stepper) {
-            return Err(BuildError::OtherTool);
+    /// When the bytes are no checkpoint, of another format, damaged, or of another tool or other settings.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError> {
+        let saved: Saved<StepperCheckpoint, Observer> = checkpoint::read(&self.identity, bytes)?;
+        // Only bytes made on purpose come this far and do not fit.
+        if !saved.observer.fits(&self.observer) || !self.stepper.restore(&saved.stepper) {
+            return Err(CheckpointError::Damaged { length: bytes.len() });
         }
-        let before = std::mem::replace(&mut self.observer, checkpoint.observer);
+        let before = std::mem::replace(&mut self.observer, saved.observer);
         self.observer.follow(&before);
-        self.applied = checkpoint.applied;
-        self.step = checkpoint.step;
+        self.applied = saved.applied;
+        self.step = saved.step;
+        self.replace_slew(saved.slew);
         Ok(())
     }
 }
 
-/// `from` moved towards `target` by at most `most`.
+/// `from` moved towards `target` by at most `most`, and not at all if that is negative or NaN. From a target that is NaN comes NaN, so
+/// that the step reports it.
 fn towards(from: f64, target: f64, most: f64) -> f64 {
+    let most = most.max(0.0);
     from + (target - from).clamp(-most, most)
 }

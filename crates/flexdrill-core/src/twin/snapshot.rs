@@ -24,7 +24,7 @@ pub struct Snapshot {
     pub bit: Bit,
     /// Deflected lines of both pipes in the world frame.
     pub shape: Shape,
-    /// Whirl of every watched place.
+    /// Whirl at every watched station.
     pub whirl: WhirlReport,
     /// The level that the warning logic stands at.
     pub warning: WhirlWarningLevel,
@@ -168,6 +168,6 @@ pub struct SolverCounters {
     pub deepest_halving: u32,
     /// Steps that failed even at the smallest sub-step.
     pub failed_steps: u64,
-    /// Cause and place of the last rejection.
+    /// Why and where a sub-step was last rejected.
     pub last_rejection: Option<StepFailure>,
 }

@@ -2,43 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use flexdrill_core::motion::{PlaceSample, WatchedPlace, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
+use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
 use flexdrill_core::tool::Body;
+
+use crate::support::Random;
 
 /// m: that of the default configuration's pipe in its guide.
 pub const CLEARANCE: f64 = 8.5e-3;
 
 /// s.
 pub const SAMPLE_INTERVAL: f64 = 4e-3;
-
-/// A small deterministic generator (splitmix64), so that the table is the same everywhere.
-#[derive(Debug, Clone)]
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn next_u64(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Evenly in `from..to`.
-    pub fn within(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn sign(&mut self) -> f64 {
-        if self.next_u64() & 1 == 0 { 1.0 } else { -1.0 }
-    }
-
-    /// Standard normal (Box-Muller).
-    pub fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * self.within(1e-12, 1.0).ln()).sqrt();
-        radius * (TAU * self.within(0.0, 1.0)).cos()
-    }
-}
 
 /// One rotating or standing line of the motion: an ellipse traced at a signed rate.
 #[derive(Debug, Clone, Copy)]
@@ -71,7 +44,7 @@ impl Ellipse {
     }
 }
 
-/// An analysis of one place, fed sample by sample.
+/// An analysis of one station, fed sample by sample.
 pub struct Bench {
     pub analysis: WhirlAnalysis,
     pub report: WhirlReport,
@@ -85,7 +58,7 @@ impl Bench {
     }
 
     pub fn with(settings: &WhirlSettings) -> Self {
-        let place = WatchedPlace {
+        let watched = WatchedStation {
             station: 5,
             body: Body::Pipe,
             measured_depth: 0.76,
@@ -94,7 +67,7 @@ impl Bench {
             body_diameter: 63e-3,
         };
         let mut bench = Self {
-            analysis: WhirlAnalysis::new(settings, SAMPLE_INTERVAL, vec![place]),
+            analysis: WhirlAnalysis::new(settings, SAMPLE_INTERVAL, vec![watched]),
             report: WhirlReport::default(),
             time: 0.0,
             step: 0,
@@ -108,7 +81,7 @@ impl Bench {
         self.step += 1;
         self.time = self.step as f64 * SAMPLE_INTERVAL;
         let contact_share = if normal_force > 0.0 { 1.0 } else { 0.0 };
-        let sample = PlaceSample {
+        let sample = StationSample {
             y,
             z,
             normal_force,

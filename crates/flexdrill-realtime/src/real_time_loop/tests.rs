@@ -1,4 +1,4 @@
-//! The solver against a clock that the test moves and a model that fails when told to.
+//! The solver against a clock that the test moves and a small tool that fails when it is driven too fast.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -6,75 +6,16 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::Solver;
 use crate::clock::Clock;
 use crate::link::{Command, Gauges, Phase, PublisherEnd, Report, Targets, link};
-use flexdrill_core::dynamics::outcome::{FailureCause, StepFailure, StepOutcome};
-use flexdrill_core::dynamics::phases::PhaseTimes;
-use flexdrill_core::dynamics::scheme::Scheme;
+use crate::monotonic;
+use flexdrill_core::dynamics::phases::Phase as Phases;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::tool::{Body, LiveParameters};
-use flexdrill_core::twin::{BuildError, Model, Run, RunInputs, Schedule, SimulationSettings, Snapshot};
+use flexdrill_core::tool::{ToolDescription, WellSection};
+use flexdrill_core::twin::{Run, RunInputs, Schedule, Simulation, SimulationSettings};
 
 const MS: u64 = 1_000_000;
 const START: u64 = 1_000_000 * MS;
-/// The scripted model does not converge at speeds above this.
-const TOO_FAST: f64 = 100.0;
-
-struct ScriptedModel {
-    settings: SimulationSettings,
-    live: LiveParameters,
-    step: u64,
-}
-
-impl Model for ScriptedModel {
-    fn settings(&self) -> &SimulationSettings {
-        &self.settings
-    }
-    fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
-        if inputs.rotary_speed > TOO_FAST {
-            return StepOutcome::Failed(StepFailure {
-                cause: FailureCause::NotConverged,
-                time: 0.0,
-                step: 1e-3,
-                station: 7,
-                body: Body::Pipe,
-                value: 1.0,
-            });
-        }
-        self.step += 1;
-        StepOutcome::Advanced {
-            iterations: 2,
-            halvings: 0,
-        }
-    }
-    fn step(&self) -> u64 {
-        self.step
-    }
-    fn new_snapshot(&self) -> Snapshot {
-        Snapshot::default()
-    }
-    fn snapshot(&mut self, out: &mut Snapshot, _end_interval: bool) {
-        out.step = self.step;
-    }
-    fn live(&self) -> LiveParameters {
-        self.live
-    }
-    fn set_live(&mut self, live: LiveParameters) {
-        self.live = live;
-    }
-    fn set_slew(&mut self, rotary_speed: f64, _weight_on_bit: f64) {
-        self.settings.rotary_speed_slew = rotary_speed;
-    }
-    fn set_whirl(&mut self, _whirl: &flexdrill_core::motion::WhirlSettings) {}
-    fn set_input_trust(&mut self, _: f64) {}
-    fn reset(&mut self) {
-        self.step = 0;
-    }
-    fn phase_times(&self) -> PhaseTimes {
-        PhaseTimes::from_nanoseconds(|phase| self.step * (3 + phase as u64))
-    }
-    fn checkpoint(&self) -> Result<Vec<u8>, BuildError> {
-        Ok(vec![self.step as u8])
-    }
-}
+/// rad/s: no step comes through, since the drive's angle is no number that an angle can be.
+const TOO_FAST: f64 = 1e200;
 
 #[derive(Clone)]
 struct ScriptedClock {
@@ -96,9 +37,19 @@ impl Clock for ScriptedClock {
     }
 }
 
+/// Two links of one element in a sixteenth of the paper's arc.
+fn tool() -> ToolDescription {
+    let mut tool = ToolDescription::paper().with_mesh(2, 1);
+    tool.well.sections = vec![WellSection::Arc {
+        radius: 3.2,
+        angle: 0.1,
+    }];
+    tool
+}
+
 /// 1 ms steps, 5 per period, every output due every 10 steps.
 struct Bench {
-    solver: Solver<ScriptedClock, ScriptedModel>,
+    solver: Solver<ScriptedClock>,
     publisher: PublisherEnd,
     commands: rtrb::Producer<Command>,
     targets: Arc<Targets>,
@@ -110,20 +61,13 @@ impl Bench {
     fn new() -> Self {
         let settings = SimulationSettings {
             time_step: 1e-3,
-            scheme: Scheme::newmark(0.6),
-            max_iterations: 30,
-            max_halvings: 4,
             initial_inputs: Inputs {
                 rotary_speed: 1.0,
                 weight_on_bit: 2.0,
             },
-            rotary_speed_slew: 1.0,
-            weight_on_bit_slew: 1.0,
-            whirl: Default::default(),
-            stick_slip: Default::default(),
-            shock: Default::default(),
-            watched: Vec::new(),
-            whirl_sample_interval: 5e-3,
+            // Every speed is reached within a step.
+            rotary_speed_slew: 1e300,
+            ..SimulationSettings::default()
         };
         let targets = Targets::new(settings.initial_inputs);
         let gauges = Arc::new(Gauges::default());
@@ -131,19 +75,9 @@ impl Bench {
         let clock = ScriptedClock {
             now: Arc::new(AtomicU64::new(MS)),
         };
-        let live = LiveParameters {
-            inner_friction: [0.2; 2],
-            outer_friction: [0.3; 2],
-            bit_friction_factor: 0.235,
-        };
-        let run = Run::new(
-            ScriptedModel {
-                settings,
-                live,
-                step: 0,
-            },
-            Schedule::new(1e-3, |_| 100.0),
-        );
+        let mut simulation = Simulation::new(&tool(), &settings).unwrap();
+        simulation.set_clock(monotonic::now);
+        let run = Run::new(simulation, Schedule::new(1e-3, |_| 100.0));
         let solver = Solver::new(run, clock.clone(), end, 5);
         Self {
             solver,
@@ -200,7 +134,7 @@ impl Bench {
                     let reset = if reset { " reset" } else { "" };
                     format!("applied {} at {step} skipped {skipped}{reset}", inputs.rotary_speed)
                 }
-                Report::Failed(failure, ticks) => format!("failed at station {} tick {ticks}", failure.station),
+                Report::Failed(failure, ticks) => format!("{:?} at tick {ticks}", failure.cause),
                 Report::Recovered => "recovered".into(),
             });
         }
@@ -226,11 +160,9 @@ fn in_time_it_shows_what_is_due_and_tells_inputs_once() {
     bench.speed(3.0);
     bench.period(0);
     assert_eq!(bench.reports(), ["applied 3 at 20 skipped 0"]);
-    // As the scripted model has it after 25 steps.
-    assert_eq!(
-        bench.gauges.phase_times(),
-        PhaseTimes::from_nanoseconds(|phase| 25 * (3 + phase as u64))
-    );
+    let times = bench.solver.run.simulation().phase_times();
+    assert_eq!(bench.gauges.phase_times(), times);
+    assert!(Phases::ALL.iter().all(|&phase| times.of(phase) > 0));
     assert_eq!(bench.gauges.phase(), Phase::Running);
     assert_eq!(bench.gauges.steps_skipped.load(Ordering::Relaxed), 0);
 }
@@ -266,11 +198,14 @@ fn a_failed_step_freezes_the_outputs_until_the_inputs_change() {
     let mut bench = Bench::new();
     bench.period(0);
     bench.reports();
-    bench.speed(TOO_FAST + 1.0);
+    bench.speed(TOO_FAST);
     bench.period(0);
     assert_eq!(
         bench.reports(),
-        ["applied 101 at 5 skipped 0", "failed at station 7 tick 5"]
+        [
+            format!("applied {TOO_FAST} at 5 skipped 0"),
+            "NotFinite at tick 5".into()
+        ]
     );
     assert_eq!(bench.gauges.phase(), Phase::Failed);
     for _ in 0..10 {
@@ -280,11 +215,14 @@ fn a_failed_step_freezes_the_outputs_until_the_inputs_change() {
         bench.reports().is_empty(),
         "nothing stale is shown, nothing is tried again"
     );
-    bench.speed(TOO_FAST + 2.0);
+    bench.speed(2.0 * TOO_FAST);
     bench.period(0);
     assert_eq!(
         bench.reports(),
-        ["applied 102 at 5 skipped 55", "failed at station 7 tick 60"]
+        [
+            format!("applied {} at 5 skipped 55", 2.0 * TOO_FAST),
+            "NotFinite at tick 60".into()
+        ]
     );
     bench.speed(2.0);
     bench.period(0);
@@ -318,7 +256,7 @@ fn a_reset_shows_the_start_again_and_keeps_the_clock() {
 #[test]
 fn a_reset_while_failed_moves_on_with_the_present_inputs() {
     let mut bench = Bench::new();
-    bench.speed(TOO_FAST + 1.0);
+    bench.speed(TOO_FAST);
     bench.period(0);
     bench.reports();
     bench.commands.push(Command::Reset).unwrap();
@@ -326,9 +264,9 @@ fn a_reset_while_failed_moves_on_with_the_present_inputs() {
     assert_eq!(
         bench.reports(),
         [
-            "applied 101 at 0 skipped 5 reset",
-            "frame 0 at 5",
-            "failed at station 7 tick 5"
+            format!("applied {TOO_FAST} at 0 skipped 5 reset"),
+            "frame 0 at 5".into(),
+            "NotFinite at tick 5".into()
         ],
         "the cause is still there, so it fails again and says so"
     );

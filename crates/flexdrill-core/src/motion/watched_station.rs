@@ -1,4 +1,4 @@
-//! One watched place: what it is, its samples, and what is held of it between evaluations.
+//! One watched station: where it is, its samples, and what is kept of it between evaluations.
 
 use std::f64::consts::TAU;
 
@@ -7,23 +7,23 @@ use serde::{Deserialize, Serialize};
 use super::classify::Verdict;
 use super::orbit_window::OrbitWindow;
 use super::settings::WhirlSettings;
-use super::severity::{Evidence, PlaceSeverity};
+use super::severity::{Evidence, StationSeverity};
 use super::{Severity, WhirlKind};
 use crate::tool::description::Body;
 
 /// How much faster time that did not look chaotic takes away from time that did.
 const CHAOS_FADES: f64 = 1.5;
 
-/// A place whose orbit is watched.
+/// A station and pipe whose orbit is watched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WatchedPlace {
+pub struct WatchedStation {
     /// Station index from the top.
     pub station: usize,
     /// Which pipe moves: the flexible pipe in the guide, or the guide in the hole.
     pub body: Body,
     /// Along the path from the kick-off (m).
     pub measured_depth: f64,
-    /// rad.
+    /// From straight down (rad).
     pub inclination: f64,
     /// Half the difference of the diameters (m), Eq. 27 or 31.
     pub clearance: f64,
@@ -31,7 +31,7 @@ pub struct WatchedPlace {
     pub body_diameter: f64,
 }
 
-impl WatchedPlace {
+impl WatchedStation {
     /// Whirl rate over rotary speed of rolling without slip, `-d / (D - d)`. The guide is not driven, so its rate is not
     /// tied to the rotary speed.
     pub fn rolling_ratio(&self) -> Option<f64> {
@@ -39,9 +39,9 @@ impl WatchedPlace {
     }
 }
 
-/// One sample of one watched place.
+/// One sample of one watched station.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct PlaceSample {
+pub struct StationSample {
     /// Horizontal displacement of the body from the gap's centre (m).
     pub y: f64,
     /// Displacement towards the low side (m).
@@ -52,7 +52,7 @@ pub struct PlaceSample {
     pub contact_share: f64,
 }
 
-impl PlaceSample {
+impl StationSample {
     /// Where the motion was after that part of the way to `next`.
     pub(super) fn between(&self, next: &Self, part: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * part;
@@ -65,12 +65,12 @@ impl PlaceSample {
     }
 }
 
-/// What is known of a place.
+/// What is known of a watched station.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Place {
-    pub(super) place: WatchedPlace,
+pub(super) struct StationWatch {
+    pub(super) station: WatchedStation,
     pub(super) window: OrbitWindow,
-    pub(super) last: PlaceSample,
+    pub(super) last: StationSample,
     pub(super) kind: WhirlKind,
     candidate: WhirlKind,
     agreeing: u32,
@@ -81,7 +81,7 @@ pub(super) struct Place {
     pub(super) orbit_radius: f64,
     pub(super) used_window: f64,
     pub(super) evidence: Evidence,
-    pub(super) severity: PlaceSeverity,
+    pub(super) severity: StationSeverity,
     /// Model time of the newest evaluation (s).
     pub(super) evaluated: f64,
 }
@@ -99,12 +99,12 @@ pub(super) struct Circumstances {
     pub(super) evaluation_interval: f64,
 }
 
-impl Place {
-    pub(super) fn new(place: WatchedPlace, window: OrbitWindow) -> Self {
+impl StationWatch {
+    pub(super) fn new(station: WatchedStation, window: OrbitWindow) -> Self {
         Self {
-            place,
+            station,
             window,
-            last: PlaceSample::default(),
+            last: StationSample::default(),
             kind: WhirlKind::None,
             candidate: WhirlKind::None,
             agreeing: 0,
@@ -114,7 +114,7 @@ impl Place {
             orbit_radius: 0.0,
             used_window: 0.0,
             evidence: Evidence::default(),
-            severity: PlaceSeverity::default(),
+            severity: StationSeverity::default(),
             evaluated: 0.0,
         }
     }
@@ -135,7 +135,7 @@ impl Place {
     /// Forgets the level too.
     pub(super) fn reset(&mut self) {
         self.restart();
-        self.severity = PlaceSeverity::default();
+        self.severity = StationSeverity::default();
         self.used_window = 0.0;
         self.evaluated = 0.0;
     }
@@ -193,7 +193,7 @@ impl Place {
 
     /// The kind that the level stands for: while it is held or latched, the one that led to it.
     pub(super) fn level_kind(&self) -> WhirlKind {
-        match (self.severity.level, self.kind) {
+        match (self.severity.level(), self.kind) {
             (Severity::Ok, _) => WhirlKind::None,
             (_, WhirlKind::None) => self.severity.kind,
             (_, kind) => kind,
@@ -203,7 +203,7 @@ impl Place {
     /// Whirl rate over that of rolling without slip, for backward whirl of the driven pipe: 1 rolls, less slides, 0 is
     /// no such whirl. The sliding speed at the contact is spin x radius x (1 - this).
     pub(super) fn rolling_share(&self) -> f64 {
-        match self.place.rolling_ratio() {
+        match self.station.rolling_ratio() {
             Some(rolling) if self.kind == WhirlKind::Backward => self.whirl_ratio / rolling,
             _ => 0.0,
         }

@@ -1,0 +1,139 @@
+//! Hysteresis of every level: it rises at once and falls late.
+
+use serde::{Deserialize, Serialize};
+
+use super::Severity;
+
+/// A level between the conditions that raise it and the weaker ones that hold it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Hysteresis {
+    pub(super) level: Severity,
+    /// How long the conditions that hold the level have not been met (s).
+    unmet_for: f64,
+}
+
+/// What an update did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Change {
+    /// The level rose.
+    Rose,
+    /// What holds the level is there.
+    Stands,
+    /// It is not: the level falls once that has lasted for the hold-off.
+    Fades,
+}
+
+impl Hysteresis {
+    /// Over `elapsed` (s), conditions have been met that raise the level to `raised` and hold it at `held`. It falls, to `held`, after
+    /// `hold_off` (s) without them, unless it is `latched`.
+    pub(super) fn update(
+        &mut self,
+        elapsed: f64,
+        raised: Severity,
+        held: Severity,
+        hold_off: f64,
+        latched: bool,
+    ) -> Change {
+        if raised > self.level {
+            *self = Self {
+                level: raised,
+                unmet_for: 0.0,
+            };
+            return Change::Rose;
+        }
+        if held >= self.level {
+            self.unmet_for = 0.0;
+            return Change::Stands;
+        }
+        self.unmet_for += elapsed;
+        if self.unmet_for >= hold_off && !latched {
+            *self = Self {
+                level: held,
+                unmet_for: 0.0,
+            };
+        }
+        Change::Fades
+    }
+}
+
+/// Values from which the levels WATCH, WARNING and CRITICAL are reached, and how they are left.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct AlarmThresholds {
+    /// WATCH, WARNING, CRITICAL; in the unit of what is judged.
+    pub levels: [f64; 3],
+    /// Part of a threshold by which the value must fall below it, 0 to 1.
+    pub hysteresis: f64,
+    /// Time for which it must stay there before the level falls (s).
+    pub hold_off: f64,
+}
+
+/// An alarm on one value.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Alarm {
+    hysteresis: Hysteresis,
+}
+
+impl Alarm {
+    /// Takes a value that stood for `elapsed` (s); says whether the level rose or stands above OK for this value.
+    pub fn update(&mut self, elapsed: f64, value: f64, thresholds: &AlarmThresholds) -> bool {
+        let reached = |factor: f64| {
+            Severity::RAISED
+                .into_iter()
+                .zip(thresholds.levels)
+                .filter(|(_, threshold)| value >= threshold * factor)
+                .map(|(level, _)| level)
+                .next_back()
+                .unwrap_or_default()
+        };
+        let (raised, held) = (reached(1.0), reached(1.0 - thresholds.hysteresis));
+        match self
+            .hysteresis
+            .update(elapsed, raised, held, thresholds.hold_off, false)
+        {
+            Change::Rose => true,
+            Change::Stands => self.severity() > Severity::Ok,
+            Change::Fades => false,
+        }
+    }
+
+    /// Where it stands.
+    pub fn severity(&self) -> Severity {
+        self.hysteresis.level
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const THRESHOLDS: AlarmThresholds = AlarmThresholds {
+        levels: [1.0, 2.0, 4.0],
+        hysteresis: 0.1,
+        hold_off: 1.0,
+    };
+
+    #[test]
+    fn rises_at_once_and_falls_after_the_hold_off() {
+        let mut level = Alarm::default();
+        assert!(!level.update(0.1, 0.99, &THRESHOLDS));
+        assert!(level.update(0.1, 5.0, &THRESHOLDS));
+        assert_eq!(level.severity(), Severity::Critical);
+        for _ in 0..9 {
+            assert!(!level.update(0.1, 2.5, &THRESHOLDS));
+            assert_eq!(level.severity(), Severity::Critical);
+        }
+        level.update(0.11, 2.5, &THRESHOLDS);
+        assert_eq!(level.severity(), Severity::Warning);
+    }
+
+    #[test]
+    fn does_not_flap_around_a_threshold() {
+        let mut level = Alarm::default();
+        level.update(0.1, 2.0, &THRESHOLDS);
+        for step in 0..1000 {
+            let value = 2.0 + 0.15 * f64::from(step).sin();
+            level.update(0.1, value, &THRESHOLDS);
+            assert_eq!(level.severity(), Severity::Warning);
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! The paper's case: Lin, Luo, Wang, Xiu, Li, "Research on the dynamic behavior of flexible drilling tools in ultrashort-radius radial
+//! horizontal wells", Scientific Reports 2024.
+//!
+//! The paper prints the well (R = 3.2 m, 0 to 90 degrees), five elements per link, eta = 0.235 and the bit's 118 mm. All else is
+//! assumed; the reasons stand beside the same numbers in `config/default.yaml`, and a test holds the two together.
+
+use super::description::{
+    BitDescription, Body, Direction, GapDescription, HingeAngle, JointDescription, JointKind, Location, Material,
+    Rayleigh, Support, ToolDescription, Tube, WellDescription, WellSection, WobPath,
+};
+use crate::units::deg_to_rad;
+
+/// Standard gravity as the paper's kind of calculation takes it (m/s2), times 1 - 1100 / 7850: water-based mud.
+const GRAVITY_IN_MUD: f64 = 9.81 * 0.86;
+
+impl ToolDescription {
+    /// The paper's tool in the paper's well, with plausible values for what the paper leaves open; equal to what
+    /// `config/default.yaml` describes. Take it and change what differs:
+    ///
+    /// ```
+    /// use flexdrill_core::tool::ToolDescription;
+    ///
+    /// let softer = ToolDescription {
+    ///     guide_bending_factor: 0.05,
+    ///     ..ToolDescription::paper()
+    /// };
+    /// assert_eq!(softer.links, 33);
+    /// ```
+    pub fn paper() -> Self {
+        let pipe = Tube {
+            outer_diameter: 0.063,
+            inner_diameter: 0.032,
+        };
+        let elements_per_link = 5;
+        Self {
+            well: WellDescription {
+                start_inclination: 0.0,
+                sections: vec![WellSection::Arc {
+                    radius: 3.2,
+                    angle: deg_to_rad(90.0),
+                }],
+            },
+            links: 33,
+            elements_per_link,
+            material: Material::STEEL,
+            pipe_sections: vec![pipe; elements_per_link],
+            pipe_contact_diameters: vec![pipe.outer_diameter; elements_per_link + 1],
+            guide_section: Tube {
+                outer_diameter: 0.102,
+                inner_diameter: 0.080,
+            },
+            guide_bending_factor: 1.0,
+            guide_fixed: false,
+            hole_diameter: 0.118,
+            joint: JointDescription {
+                kind: JointKind::Universal,
+                limit: deg_to_rad(6.0),
+                stop_stiffness: 2e5,
+                stop_damping: 0.5,
+                cross_phase: 0.0,
+                cross_phase_step: deg_to_rad(90.0),
+                hinge_angle: HingeAngle::Straight,
+            },
+            rayleigh: Rayleigh { alpha: 2.0, beta: 1e-4 },
+            inner: GapDescription {
+                stiffness: 1e7,
+                damping: 0.5,
+                friction_tangential: 0.2,
+                friction_axial: 0.2,
+            },
+            outer: GapDescription {
+                stiffness: 2e7,
+                damping: 0.5,
+                friction_tangential: 0.3,
+                friction_axial: 0.3,
+            },
+            slip_speed: 0.01,
+            bit: BitDescription {
+                diameter: 0.118,
+                friction_factor: 0.235,
+                slip_rate: 0.1,
+            },
+            gravity: GRAVITY_IN_MUD,
+            supports: table_1(),
+            drive_top: true,
+            wob_path: WobPath::Guide,
+            loads: Vec::new(),
+            masses: Vec::new(),
+            initial_pipe_velocity: [0.0; 3],
+            initial_pipe_displacement: [0.0; 3],
+            initial_spin_rate: 0.0,
+            static_start: true,
+        }
+    }
+
+    /// The same tool of `links` links with `elements_per_link` elements each, all elements with the section of the first and all
+    /// stations with the contact diameter of the first: the lists per element and per station get the lengths they need.
+    #[must_use]
+    pub fn with_mesh(mut self, links: usize, elements_per_link: usize) -> Self {
+        let pipe = self.pipe_sections.first().copied().unwrap_or_default();
+        let contact = self.pipe_contact_diameters.first().copied().unwrap_or_default();
+        self.links = links;
+        self.elements_per_link = elements_per_link;
+        self.pipe_sections = vec![pipe; elements_per_link];
+        self.pipe_contact_diameters = vec![contact; elements_per_link + 1];
+        self
+    }
+
+    /// The same tool with another pipe, alike over the whole link, that meets the guide with its outer diameter.
+    #[must_use]
+    pub fn with_pipe(mut self, pipe: Tube) -> Self {
+        self.pipe_sections.fill(pipe);
+        self.pipe_contact_diameters.fill(pipe.outer_diameter);
+        self
+    }
+}
+
+impl Material {
+    /// Structural steel.
+    pub const STEEL: Self = Self {
+        youngs_modulus: 206e9,
+        poisson_ratio: 0.3,
+        density: 7850.0,
+    };
+}
+
+/// Table 1 of the paper: u, v, w of both pipes held at the top, v, w of both at the bottom, where the text lets the end move axially.
+fn table_1() -> Vec<Support> {
+    use Direction::{U, V, W};
+    let mut supports = Vec::new();
+    for (location, directions) in [(Location::Top, vec![U, V, W]), (Location::Bottom, vec![V, W])] {
+        for body in [Body::Pipe, Body::Guide] {
+            supports.push(Support {
+                location,
+                body,
+                directions: directions.clone(),
+            });
+        }
+    }
+    supports
+}

@@ -1,0 +1,286 @@
+//! What a description must satisfy before a model can be built from it.
+
+use super::description::{
+    BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, LiveParameters, LoadHistory,
+    Location, Material, ToolDescription, Tube, WellDescription, WellSection,
+};
+use crate::validation::{Bound, ValidationError, count, length, require};
+
+/// Most stations: a hundred times the paper's case; more is a slip of the pen, and its memory could not be had.
+const MOST_STATIONS: usize = 20_000;
+
+type Checked = Result<(), ValidationError>;
+
+impl ToolDescription {
+    /// Checks every field: finite, of the right sign, lists as long as the mesh needs, locations on the tool, nothing that
+    /// contradicts something else. [`crate::twin::Simulation::new`] does it too.
+    ///
+    /// # Errors
+    /// The first field that does not hold, with its value, bound and unit.
+    pub fn validate(&self) -> Checked {
+        self.validate_mesh()?;
+        self.well.validate()?;
+        self.material.validate()?;
+        self.validate_sections()?;
+        self.joint.validate()?;
+        Bound::NotNegative.check("rayleigh.alpha", self.rayleigh.alpha, "1/s")?;
+        Bound::NotNegative.check("rayleigh.beta", self.rayleigh.beta, "s")?;
+        self.inner.validate("inner")?;
+        self.outer.validate("outer")?;
+        Bound::Positive.check("slip_speed", self.slip_speed, "m/s")?;
+        self.bit.validate()?;
+        Bound::NotNegative.check("gravity", self.gravity, "m/s2")?;
+        self.validate_supports()?;
+        self.validate_loads()?;
+        self.validate_start()
+    }
+
+    fn validate_mesh(&self) -> Checked {
+        count("links", self.links, 1, MOST_STATIONS)?;
+        count("elements_per_link", self.elements_per_link, 1, MOST_STATIONS)?;
+        let stations = self.links.saturating_mul(self.elements_per_link);
+        count("links x elements_per_link", stations, 1, MOST_STATIONS)?;
+        let per_element = "one per element of a link (elements_per_link)";
+        length(
+            "pipe_sections",
+            self.pipe_sections.len(),
+            self.elements_per_link,
+            per_element,
+        )?;
+        let per_station = "one per station of a link (elements_per_link + 1)";
+        let contacts = self.pipe_contact_diameters.len();
+        length(
+            "pipe_contact_diameters",
+            contacts,
+            self.elements_per_link + 1,
+            per_station,
+        )
+    }
+
+    fn validate_sections(&self) -> Checked {
+        for (index, tube) in self.pipe_sections.iter().enumerate() {
+            tube.validate(&format!("pipe_sections[{index}]"))?;
+        }
+        self.guide_section.validate("guide_section")?;
+        for (index, &diameter) in self.pipe_contact_diameters.iter().enumerate() {
+            Bound::Positive.check(&format!("pipe_contact_diameters[{index}]"), diameter, "m")?;
+        }
+        // The pipe turns in the guide, the guide lies in the hole, both with clearance.
+        let widest = self.pipe_contact_diameters.iter().copied().fold(0.0, f64::max);
+        Bound::Over(widest).check("guide_section.inner_diameter", self.guide_section.inner_diameter, "m")?;
+        Bound::Over(self.guide_section.outer_diameter).check("hole_diameter", self.hole_diameter, "m")?;
+        Bound::Positive.check("guide_bending_factor", self.guide_bending_factor, "")
+    }
+
+    fn validate_location(&self, field: String, location: Location) -> Checked {
+        let (last_station, joints) = (self.links * self.elements_per_link, self.links - 1);
+        let on_tool = match location {
+            Location::Top | Location::Bottom | Location::All => true,
+            Location::Station(station) => station <= last_station,
+            Location::Joint(joint) => joint < joints,
+        };
+        if on_tool {
+            Ok(())
+        } else {
+            Err(ValidationError::Location {
+                field,
+                location,
+                last_station,
+                joints,
+            })
+        }
+    }
+
+    fn validate_supports(&self) -> Checked {
+        for (index, support) in self.supports.iter().enumerate() {
+            let field = |name: &str| format!("supports[{index}].{name}");
+            self.validate_location(field("location"), support.location)?;
+            require(
+                !support.directions.is_empty(),
+                &field("directions"),
+                "a support that holds no direction; name one or leave the support out",
+            )?;
+            let at_drive = matches!(support.location, Location::Top | Location::All | Location::Station(0));
+            require(
+                !(self.drive_top
+                    && at_drive
+                    && support.body == Body::Pipe
+                    && support.directions.contains(&Direction::Psi)),
+                &field("directions"),
+                "psi of the driven node is held; leave psi out or set drive_top to false",
+            )?;
+        }
+        Ok(())
+    }
+
+    fn validate_loads(&self) -> Checked {
+        for (index, load) in self.loads.iter().enumerate() {
+            self.validate_location(format!("loads[{index}].location"), load.location)?;
+            let unit = match load.direction {
+                Direction::U | Direction::V | Direction::W => "N",
+                Direction::Psi | Direction::PhiY | Direction::PhiZ => "N m",
+            };
+            load.history.validate(&format!("loads[{index}].history"), unit)?;
+        }
+        for (index, mass) in self.masses.iter().enumerate() {
+            self.validate_location(format!("masses[{index}].location"), mass.location)?;
+            Bound::NotNegative.check(&format!("masses[{index}].mass"), mass.mass, "kg")?;
+        }
+        Ok(())
+    }
+
+    fn validate_start(&self) -> Checked {
+        for k in 0..3 {
+            let (velocity, displacement) = (self.initial_pipe_velocity[k], self.initial_pipe_displacement[k]);
+            Bound::Finite.check(&format!("initial_pipe_velocity[{k}]"), velocity, "m/s")?;
+            Bound::Finite.check(&format!("initial_pipe_displacement[{k}]"), displacement, "m")?;
+        }
+        Bound::Finite.check("initial_spin_rate", self.initial_spin_rate, "rad/s")?;
+        let moves = self.initial_pipe_velocity != [0.0; 3]
+            || self.initial_pipe_displacement != [0.0; 3]
+            || self.initial_spin_rate != 0.0;
+        require(
+            !(self.static_start && moves),
+            "static_start",
+            "a start from rest with an initial motion; set static_start to false or the initial values to 0",
+        )
+    }
+}
+
+impl WellDescription {
+    /// Checks every section.
+    ///
+    /// # Errors
+    /// As [`ToolDescription::validate`].
+    pub fn validate(&self) -> Checked {
+        Bound::Finite.check("well.start_inclination", self.start_inclination, "rad")?;
+        if self.sections.is_empty() {
+            return Err(ValidationError::Length {
+                field: "well.sections".to_owned(),
+                got: 0,
+                expected: "at least 1".to_owned(),
+            });
+        }
+        for (index, section) in self.sections.iter().enumerate() {
+            let field = |name: &str| format!("well.sections[{index}].{name}");
+            match *section {
+                WellSection::Straight { length } => Bound::Positive.check(&field("length"), length, "m")?,
+                WellSection::Arc { radius, angle } => {
+                    Bound::Positive.check(&field("radius"), radius, "m")?;
+                    Bound::Positive.check(&field("angle"), angle, "rad")?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Material {
+    fn validate(&self) -> Checked {
+        Bound::Positive.check("material.youngs_modulus", self.youngs_modulus, "Pa")?;
+        Bound::Above(-1.0, 0.5).check("material.poisson_ratio", self.poisson_ratio, "")?;
+        Bound::Positive.check("material.density", self.density, "kg/m3")
+    }
+}
+
+impl Tube {
+    fn validate(&self, under: &str) -> Checked {
+        Bound::NotNegative.check(&format!("{under}.inner_diameter"), self.inner_diameter, "m")?;
+        Bound::Over(self.inner_diameter).check(&format!("{under}.outer_diameter"), self.outer_diameter, "m")
+    }
+}
+
+impl JointDescription {
+    fn validate(&self) -> Checked {
+        // A hinge has no stop.
+        let limit = match self.kind {
+            JointKind::Universal | JointKind::BallCage => Bound::Positive,
+            JointKind::Revolute => Bound::NotNegative,
+        };
+        limit.check("joint.limit", self.limit, "rad")?;
+        Bound::NotNegative.check("joint.stop_stiffness", self.stop_stiffness, "N m/rad")?;
+        Bound::NotNegative.check("joint.stop_damping", self.stop_damping, "s/rad")?;
+        let phases = [
+            ("cross_phase", self.cross_phase),
+            ("cross_phase_step", self.cross_phase_step),
+        ];
+        Bound::Finite.check_all("joint", &phases, "rad")
+    }
+}
+
+impl GapDescription {
+    fn validate(&self, under: &str) -> Checked {
+        Bound::NotNegative.check(&format!("{under}.stiffness"), self.stiffness, "N/m")?;
+        Bound::NotNegative.check(&format!("{under}.damping"), self.damping, "s/m")?;
+        let frictions = [
+            ("friction_tangential", self.friction_tangential),
+            ("friction_axial", self.friction_axial),
+        ];
+        Bound::NotNegative.check_all(under, &frictions, "")
+    }
+}
+
+impl BitDescription {
+    fn validate(&self) -> Checked {
+        Bound::Positive.check("bit.diameter", self.diameter, "m")?;
+        Bound::NotNegative.check("bit.friction_factor", self.friction_factor, "")?;
+        Bound::Positive.check("bit.slip_rate", self.slip_rate, "rad/s")
+    }
+}
+
+impl LiveParameters {
+    /// Checks every coefficient: finite and not negative.
+    ///
+    /// # Errors
+    /// As [`ToolDescription::validate`].
+    pub fn validate(&self) -> Checked {
+        let coefficients = [
+            ("inner_friction[0]", self.inner_friction[0]),
+            ("inner_friction[1]", self.inner_friction[1]),
+            ("outer_friction[0]", self.outer_friction[0]),
+            ("outer_friction[1]", self.outer_friction[1]),
+            ("bit_friction_factor", self.bit_friction_factor),
+        ];
+        Bound::NotNegative.check_all("live", &coefficients, "")
+    }
+}
+
+impl LoadHistory {
+    fn validate(&self, under: &str, unit: &'static str) -> Checked {
+        let field = |name: &str| format!("{under}.{name}");
+        match self {
+            Self::Constant(value) => Bound::Finite.check(under, *value, unit),
+            Self::Ramp { rate, start, end } => {
+                Bound::Finite.check(&field("rate"), *rate, if unit == "N" { "N/s" } else { "N m/s" })?;
+                Bound::Finite.check(&field("start"), *start, "s")?;
+                Bound::Over(*start).check(&field("end"), *end, "s")
+            }
+            Self::Sine {
+                amplitude,
+                frequency,
+                phase,
+            } => {
+                Bound::Finite.check(&field("amplitude"), *amplitude, unit)?;
+                Bound::NotNegative.check(&field("frequency"), *frequency, "Hz")?;
+                Bound::Finite.check(&field("phase"), *phase, "rad")
+            }
+            Self::Table(points) => {
+                if points.is_empty() {
+                    return Err(ValidationError::Length {
+                        field: under.to_owned(),
+                        got: 0,
+                        expected: "at least 1 point".to_owned(),
+                    });
+                }
+                let mut before: Option<f64> = None;
+                for (index, &(time, value)) in points.iter().enumerate() {
+                    let later = before.map_or(Bound::Finite, Bound::Over);
+                    later.check(&field(&format!("[{index}].time")), time, "s")?;
+                    Bound::Finite.check(&field(&format!("[{index}].value")), value, unit)?;
+                    before = Some(time);
+                }
+                Ok(())
+            }
+        }
+    }
+}

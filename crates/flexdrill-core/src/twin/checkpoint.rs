@@ -1,0 +1,130 @@
+//! The bytes of a checkpoint: what they belong to, the state, and a checksum over both.
+//!
+//! ```text
+//! magic "flexdrCP" | format, u32 | identity, 32 bytes | state, postcard | SHA-256 of all before, 32 bytes
+//! ```
+//!
+//! Integers are little-endian. The identity is the SHA-256 of the tool description and the settings as given to
+//! [`super::Simulation::new`], bit by bit: all that determines the motion from a state on. Left out are the limits on iterations and
+//! halvings, which say when a step is given up, so that a run that failed can go on with others. What may change while running (live
+//! parameters, slew limits, whirl thresholds) is part of the state and is restored.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use sha2::{Digest, Sha256};
+
+use super::settings::SimulationSettings;
+use crate::tool::ToolDescription;
+
+const MAGIC: [u8; 8] = *b"flexdrCP";
+
+/// Changes with every change of what a state consists of.
+pub(super) const FORMAT: u32 = 1;
+
+const HASH: usize = 32;
+const HEADER: usize = MAGIC.len() + size_of::<u32>() + HASH;
+
+/// Why bytes could not be restored. Nothing has changed then.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    /// Other bytes, or a checkpoint from before there were format numbers.
+    #[error(
+        "checkpoint: these bytes are no checkpoint of flexdrill, or one older than format 1; start without it and save a new one"
+    )]
+    NotACheckpoint,
+    /// Of another format.
+    #[error(
+        "checkpoint: format {found}, this build reads format {FORMAT}; restore it with the build that wrote it, or start without it"
+    )]
+    Format {
+        /// Format number found.
+        found: u32,
+    },
+    /// Cut off or changed since it was written.
+    #[error(
+        "checkpoint: damaged, its checksum does not fit its {length} bytes; take another copy, or start without it"
+    )]
+    Damaged {
+        /// Bytes found.
+        length: usize,
+    },
+    /// Of another tool, or of the same with other settings.
+    #[error(
+        "checkpoint: saved with another tool or other settings ({found} instead of {expected}); restore it with the configuration it was \
+         saved with, or start without it"
+    )]
+    OtherTool {
+        /// First digits of the identity found.
+        found: String,
+        /// First digits of this simulation's.
+        expected: String,
+    },
+    /// The state cannot be encoded, or is not one although the checksum fits.
+    #[error("checkpoint: {0}; please report it as a bug")]
+    Encoding(#[from] postcard::Error),
+}
+
+/// What a checkpoint belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Identity([u8; HASH]);
+
+impl Identity {
+    pub(super) fn of(tool: &ToolDescription, settings: &SimulationSettings) -> Result<Self, CheckpointError> {
+        let anywhere = SimulationSettings {
+            max_iterations: 0,
+            max_halvings: 0,
+            ..settings.clone()
+        };
+        let described = postcard::to_stdvec(&(tool, anywhere))?;
+        Ok(Self(Sha256::digest(described).into()))
+    }
+
+    fn short(bytes: &[u8]) -> String {
+        bytes.iter().take(4).map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+/// The bytes of `state`.
+pub(super) fn write(identity: &Identity, state: &impl Serialize) -> Result<Vec<u8>, CheckpointError> {
+    let mut bytes = Vec::new();
+    bytes.extend(MAGIC);
+    bytes.extend(FORMAT.to_le_bytes());
+    bytes.extend(identity.0);
+    let mut bytes = postcard::to_extend(state, bytes)?;
+    let checksum = Sha256::digest(&bytes);
+    bytes.extend(checksum);
+    Ok(bytes)
+}
+
+/// The state in `bytes`, if they are whole and of `identity`.
+pub(super) fn read<S: DeserializeOwned>(identity: &Identity, bytes: &[u8]) -> Result<S, CheckpointError> {
+    let Some((magic, rest)) = bytes.split_first_chunk() else {
+        return Err(CheckpointError::NotACheckpoint);
+    };
+    if *magic != MAGIC {
+        return Err(CheckpointError::NotACheckpoint);
+    }
+    let damaged = CheckpointError::Damaged { length: bytes.len() };
+    let Some((format, _)) = rest.split_first_chunk() else {
+        return Err(damaged);
+    };
+    let found = u32::from_le_bytes(*format);
+    if found != FORMAT {
+        return Err(CheckpointError::Format { found });
+    }
+    let Some((content, checksum)) = bytes.split_last_chunk::<HASH>() else {
+        return Err(damaged);
+    };
+    if content.len() < HEADER || Sha256::digest(content).as_slice() != checksum {
+        return Err(damaged);
+    }
+    let (header, state) = content.split_at(HEADER);
+    let of = &header[HEADER - HASH..];
+    if of != identity.0 {
+        return Err(CheckpointError::OtherTool {
+            found: Identity::short(of),
+            expected: Identity::short(&identity.0),
+        });
+    }
+    Ok(postcard::from_bytes(state)?)
+}

@@ -1,0 +1,173 @@
+//! What the settings of a simulation must satisfy.
+
+use super::settings::SimulationSettings;
+use crate::dynamics::Scheme;
+use crate::motion::settings::{LevelThresholds, WhirlSettings};
+use crate::motion::{AlarmThresholds, ShockSettings, StickSlipSettings};
+use crate::validation::{Bound, ValidationError, count, require};
+
+/// Shortest and longest step (s): below, the mass over its square drowns the stiffness; contacts last milliseconds.
+const STEP: Bound = Bound::Within(1e-9, 1.0);
+/// Most halvings: each level keeps its own condensed system.
+const MOST_HALVINGS: usize = 20;
+/// Most samples of a whirl window: an hour at the default rate, some 30 MB per watched station.
+const MOST_SAMPLES: f64 = 1e6;
+/// Longest window, hold-off or latch (s): some thirty years.
+const LONGEST: f64 = 1e9;
+
+type Checked = Result<(), ValidationError>;
+
+impl SimulationSettings {
+    /// Checks every field; `last_station` is that of the tool to be simulated. [`super::Simulation::new`] does it too.
+    ///
+    /// # Errors
+    /// The first field that does not hold, with its value, bound and unit.
+    pub fn validate(&self, last_station: usize) -> Checked {
+        STEP.check("time_step", self.time_step, "s")?;
+        self.scheme.validate()?;
+        count("max_iterations", self.max_iterations as usize, 1, 1000)?;
+        count("max_halvings", self.max_halvings as usize, 0, MOST_HALVINGS)?;
+        Bound::Finite.check("initial_inputs.rotary_speed", self.initial_inputs.rotary_speed, "rad/s")?;
+        Bound::NotNegative.check("initial_inputs.weight_on_bit", self.initial_inputs.weight_on_bit, "N")?;
+        validate_slew(self.rotary_speed_slew, self.weight_on_bit_slew)?;
+        self.whirl.validate()?;
+        self.stick_slip.validate()?;
+        self.shock.validate()?;
+        for (index, &(station, _)) in self.watched.iter().enumerate() {
+            count(&format!("watched[{index}].station"), station, 0, last_station)?;
+        }
+        Bound::Positive.check("whirl_sample_interval", self.whirl_sample_interval, "s")?;
+        let longest = MOST_SAMPLES * self.whirl_sample_steps() as f64 * self.time_step;
+        Bound::Above(0.0, longest).check("whirl.max_window", self.whirl.max_window, "s")
+    }
+}
+
+/// Slew limits of rotary speed (rad/s2) and weight on bit (N/s).
+pub(super) fn validate_slew(rotary_speed: f64, weight_on_bit: f64) -> Checked {
+    Bound::NotNegative.check("rotary_speed_slew", rotary_speed, "rad/s2")?;
+    Bound::NotNegative.check("weight_on_bit_slew", weight_on_bit, "N/s")
+}
+
+impl Scheme {
+    /// Checks that the scheme is stable for linear motion: gamma >= 1/2 with the alphas' lag, beta > 0, alphas below 1.
+    ///
+    /// # Errors
+    /// As [`SimulationSettings::validate`].
+    pub fn validate(&self) -> Checked {
+        // Chung and Hulbert 1993: alpha_m <= alpha_f <= 1/2, with gamma and beta at their bounds or above.
+        Bound::Within(-1.0, 0.5).check("scheme.alpha_f", self.alpha_f, "")?;
+        Bound::Within(-1.0, self.alpha_f).check("scheme.alpha_m", self.alpha_m, "")?;
+        // One rounding below the bound is on it.
+        let least_gamma = 0.5 - self.alpha_m + self.alpha_f - 1e-12;
+        Bound::Within(least_gamma, 2.0).check("scheme.gamma", self.gamma, "")?;
+        Bound::Within(0.5 * self.gamma - 1e-12, 4.0).check("scheme.beta", self.beta, "")
+    }
+}
+
+impl WhirlSettings {
+    /// Checks every threshold.
+    ///
+    /// # Errors
+    /// As [`SimulationSettings::validate`].
+    pub fn validate(&self) -> Checked {
+        let turns = [
+            ("window_turns", self.window_turns),
+            ("short_window_turns", self.short_window_turns),
+        ];
+        Bound::Positive.check_all("whirl", &turns, "turns")?;
+        Bound::NotNegative.check("whirl.confirmation_turns", self.confirmation_turns, "turns")?;
+        let times = [
+            ("min_window", self.min_window),
+            ("max_window", self.max_window),
+            ("evaluation_interval", self.evaluation_interval),
+        ];
+        Bound::Above(0.0, LONGEST).check_all("whirl", &times, "s")?;
+        let times = [
+            ("max_bridged_gap", self.max_bridged_gap),
+            ("hold_off", self.hold_off),
+            ("latch", self.latch),
+        ];
+        Bound::Within(0.0, LONGEST).check_all("whirl", &times, "s")?;
+        Bound::NotNegative.check("whirl.min_rotary_speed", self.min_rotary_speed, "rad/s")?;
+        let shares = [
+            ("min_orbit_ratio", self.min_orbit_ratio),
+            ("min_axis_ratio", self.min_axis_ratio),
+            ("steady_direction", self.steady_direction),
+            ("min_repetition", self.min_repetition),
+            ("min_confidence", self.min_confidence),
+            ("rolling_tolerance", self.rolling_tolerance),
+            ("input_trust.slow", self.input_trust.slow),
+            ("input_trust.rejected", self.input_trust.rejected),
+            ("input_trust.stale", self.input_trust.stale),
+            ("input_trust.not_received", self.input_trust.not_received),
+        ];
+        Bound::Within(0.0, 1.0).check_all("whirl", &shares, "")?;
+        // At 1 a level would never be left.
+        Bound::Within(0.0, 0.99).check("whirl.hysteresis", self.hysteresis, "")?;
+        let levels = [
+            ("watch", &self.watch),
+            ("warning", &self.warning),
+            ("critical", &self.critical),
+        ];
+        for (name, level) in levels {
+            level.validate(&format!("whirl.{name}"))?;
+        }
+        for pair in levels.windows(2) {
+            let (low, (name, high)) = (pair[0].1, pair[1]);
+            require(
+                low.clearance_ratio <= high.clearance_ratio
+                    && low.contact_duty <= high.contact_duty
+                    && low.force <= high.force,
+                &format!("whirl.{name}"),
+                "a level with a threshold below that of the level before; thresholds must rise",
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl LevelThresholds {
+    fn validate(&self, under: &str) -> Checked {
+        let ratios = [
+            ("clearance_ratio", self.clearance_ratio),
+            ("contact_duty", self.contact_duty),
+        ];
+        Bound::NotNegative.check_all(under, &ratios, "")?;
+        Bound::NotNegative.check(&format!("{under}.force"), self.force, "N")?;
+        Bound::Within(0.0, LONGEST).check(&format!("{under}.duration"), self.duration, "s")
+    }
+}
+
+impl StickSlipSettings {
+    fn validate(&self) -> Checked {
+        Bound::Above(0.0, LONGEST).check("stick_slip.window", self.window, "s")?;
+        Bound::NotNegative.check("stick_slip.gate_speed", self.gate_speed, "rad/s")?;
+        self.thresholds.validate("stick_slip.thresholds", "")
+    }
+}
+
+impl ShockSettings {
+    fn validate(&self) -> Checked {
+        let times = [("interval", self.interval), ("mean_time", self.mean_time)];
+        Bound::Above(0.0, LONGEST).check_all("shock", &times, "s")?;
+        self.thresholds.validate("shock.thresholds", "N s")
+    }
+}
+
+impl AlarmThresholds {
+    fn validate(&self, under: &str, unit: &'static str) -> Checked {
+        let mut before = 0.0;
+        for (index, &level) in self.levels.iter().enumerate() {
+            let field = format!("{under}.levels[{index}]");
+            Bound::Positive.check(&field, level, unit)?;
+            require(
+                level >= before,
+                &field,
+                "a level below the one before; thresholds must rise",
+            )?;
+            before = level;
+        }
+        Bound::Within(0.0, 0.99).check(&format!("{under}.hysteresis"), self.hysteresis, "")?;
+        Bound::Within(0.0, LONGEST).check(&format!("{under}.hold_off"), self.hold_off, "s")
+    }
+}

@@ -1,0 +1,168 @@
+//! What the core asks of its input: one error type and the few kinds of bounds, for [`crate::tool`] and [`crate::twin`].
+//!
+//! These bounds are those without which the mechanics cannot compute: a mass above zero, a step above zero, lists of the right length.
+//! What is sensible in practice is narrower and stands with the YAML schema.
+
+use crate::tool::description::Location;
+
+/// A description, settings or parameters that cannot be computed with.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ValidationError {
+    /// A number out of its bounds, NaN and infinity included.
+    #[error("{field} = {value}{}{unit}: must be {bound}", if unit.is_empty() { "" } else { " " })]
+    Value {
+        /// Path of the field, such as `guide_section.outer_diameter`.
+        field: String,
+        /// The value found.
+        value: f64,
+        /// Its SI unit; empty if dimensionless.
+        unit: &'static str,
+        /// What it must be, in the same unit.
+        bound: String,
+    },
+    /// A list that does not fit the mesh, or is empty.
+    #[error("{field}: {got} entries, must be {expected}")]
+    Length {
+        /// Path of the list.
+        field: String,
+        /// Entries found.
+        got: usize,
+        /// Entries needed.
+        expected: String,
+    },
+    /// A location outside the tool.
+    #[error(
+        "{field} = {location:?}: not on the tool, which has stations 0 to {last_station} and {joints} joints, counted from 0"
+    )]
+    Location {
+        /// Path of the field.
+        field: String,
+        /// The location found.
+        location: Location,
+        /// Last station.
+        last_station: usize,
+        /// Number of joints.
+        joints: usize,
+    },
+    /// Two values that exclude each other.
+    #[error("{field}: {conflict}")]
+    Contradiction {
+        /// Path of the field to change.
+        field: String,
+        /// What contradicts what, and what to do.
+        conflict: &'static str,
+    },
+}
+
+/// Bounds of a number; all of them exclude NaN and infinity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Bound {
+    /// Any finite number.
+    Finite,
+    /// Above 0.
+    Positive,
+    /// 0 or more.
+    NotNegative,
+    /// Between two numbers, both allowed.
+    Within(f64, f64),
+    /// Between two numbers, the first not allowed.
+    Above(f64, f64),
+    /// Above another value.
+    Over(f64),
+}
+
+impl Bound {
+    fn holds(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Finite => true,
+                Self::Positive => value > 0.0,
+                Self::NotNegative => value >= 0.0,
+                Self::Within(low, high) => (low..=high).contains(&value),
+                Self::Above(low, high) => value > low && value <= high,
+                Self::Over(low) => value > low,
+            }
+    }
+
+    fn words(self) -> String {
+        match self {
+            Self::Finite => "finite".to_owned(),
+            Self::Positive => "finite and above 0".to_owned(),
+            Self::NotNegative => "finite and at least 0".to_owned(),
+            Self::Within(low, high) => format!("{low} to {high}"),
+            Self::Above(low, high) => format!("above {low}, at most {high}"),
+            Self::Over(low) => format!("finite and above {low}"),
+        }
+    }
+
+    /// Holds the value of `field` against the bound.
+    ///
+    /// # Errors
+    /// [`ValidationError::Value`].
+    pub(crate) fn check(self, field: &str, value: f64, unit: &'static str) -> Result<(), ValidationError> {
+        if self.holds(value) {
+            Ok(())
+        } else {
+            Err(ValidationError::Value {
+                field: field.to_owned(),
+                value,
+                unit,
+                bound: self.words(),
+            })
+        }
+    }
+
+    /// The same for several fields `under.name` of one unit.
+    ///
+    /// # Errors
+    /// As [`Bound::check`].
+    pub(crate) fn check_all(
+        self,
+        under: &str,
+        fields: &[(&str, f64)],
+        unit: &'static str,
+    ) -> Result<(), ValidationError> {
+        fields
+            .iter()
+            .try_for_each(|(name, value)| self.check(&format!("{under}.{name}"), *value, unit))
+    }
+}
+
+/// Holds a count against its limits, both allowed.
+///
+/// # Errors
+/// [`ValidationError::Value`].
+pub(crate) fn count(field: &str, value: usize, least: usize, most: usize) -> Result<(), ValidationError> {
+    Bound::Within(least as f64, most as f64).check(field, value as f64, "")
+}
+
+/// Holds the length of a list against that needed.
+///
+/// # Errors
+/// [`ValidationError::Length`].
+pub(crate) fn length(field: &str, got: usize, expected: usize, why: &str) -> Result<(), ValidationError> {
+    if got == expected {
+        Ok(())
+    } else {
+        Err(ValidationError::Length {
+            field: field.to_owned(),
+            got,
+            expected: format!("{expected}, {why}"),
+        })
+    }
+}
+
+/// Refuses what excludes each other.
+///
+/// # Errors
+/// [`ValidationError::Contradiction`].
+pub(crate) fn require(holds: bool, field: &str, conflict: &'static str) -> Result<(), ValidationError> {
+    if holds {
+        Ok(())
+    } else {
+        Err(ValidationError::Contradiction {
+            field: field.to_owned(),
+            conflict,
+        })
+    }
+}

@@ -1,0 +1,163 @@
+//! A checkpoint goes back only to the tool and settings that it was made with, and only whole. Each of these was restored silently
+//! before checkpoints carried an identity and a checksum.
+
+mod support;
+
+use flexdrill_core::dynamics::Scheme;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::tool::ToolDescription;
+use flexdrill_core::twin::{CheckpointError, Simulation, SimulationSettings};
+use support::tiny;
+
+const INPUTS: Inputs = Inputs {
+    rotary_speed: 4.0,
+    weight_on_bit: 1e3,
+};
+
+fn simulation(tool: &ToolDescription, settings: &SimulationSettings) -> Simulation {
+    let mut simulation = Simulation::new(tool, settings).unwrap();
+    for _ in 0..50 {
+        simulation.advance(&INPUTS);
+    }
+    simulation
+}
+
+fn error_of(simulation: &mut Simulation, bytes: &[u8]) -> CheckpointError {
+    let before = simulation.checkpoint().unwrap();
+    let error = simulation.restore(bytes).unwrap_err();
+    assert_eq!(
+        simulation.checkpoint().unwrap(),
+        before,
+        "a refused checkpoint changed something"
+    );
+    error
+}
+
+#[test]
+fn another_tool_or_other_settings_are_refused() {
+    let (tool, settings) = (tiny(), SimulationSettings::default());
+    let mut own = simulation(&tool, &settings);
+    let mut others: Vec<(&str, ToolDescription, SimulationSettings)> = Vec::new();
+    let mut with_tool = |name, change: fn(&mut ToolDescription)| {
+        let mut changed = tool.clone();
+        change(&mut changed);
+        others.push((name, changed, settings.clone()));
+    };
+    with_tool("stiffness", |tool| tool.inner.stiffness = 2e7);
+    with_tool("friction", |tool| tool.outer.friction_axial = 0.31);
+    with_tool("a single bit", |tool| {
+        tool.gravity = f64::from_bits(tool.gravity.to_bits() + 1);
+    });
+    with_tool("mesh", |tool| *tool = tool.clone().with_mesh(2, 2));
+    let mut with_settings = |name, change: fn(&mut SimulationSettings)| {
+        let mut changed = settings.clone();
+        change(&mut changed);
+        others.push((name, tool.clone(), changed));
+    };
+    with_settings("rho_infinity", |settings| {
+        settings.scheme = Scheme::generalised_alpha(0.46)
+    });
+    with_settings("time step", |settings| settings.time_step = 0.25e-3);
+    with_settings("whirl threshold", |settings| settings.whirl.min_confidence = 0.4);
+    for (name, tool, settings) in others {
+        let foreign = simulation(&tool, &settings).checkpoint().unwrap();
+        let error = error_of(&mut own, &foreign);
+        assert!(matches!(error, CheckpointError::OtherTool { .. }), "{name}: {error}");
+        assert!(
+            error.to_string().contains("with the configuration it was saved with"),
+            "{error}"
+        );
+    }
+}
+
+/// A run that failed is continued with other limits.
+#[test]
+fn other_limits_on_iterations_and_halvings_are_taken() {
+    let saved = simulation(&tiny(), &SimulationSettings::default())
+        .checkpoint()
+        .unwrap();
+    let settings = SimulationSettings {
+        max_iterations: 30,
+        max_halvings: 8,
+        ..SimulationSettings::default()
+    };
+    simulation(&tiny(), &settings).restore(&saved).unwrap();
+}
+
+#[test]
+fn every_changed_byte_is_found() {
+    let mut own = simulation(&tiny(), &SimulationSettings::default());
+    let good = own.checkpoint().unwrap();
+    for at in 0..good.len() {
+        let mut bytes = good.clone();
+        bytes[at] ^= 1 << (at % 8);
+        let error = own.restore(&bytes).unwrap_err();
+        let expected = match at {
+            0..8 => matches!(error, CheckpointError::NotACheckpoint),
+            8..12 => matches!(error, CheckpointError::Format { .. }),
+            _ => matches!(error, CheckpointError::Damaged { .. }),
+        };
+        assert!(expected, "byte {at}: {error}");
+    }
+    assert_eq!(own.checkpoint().unwrap(), good);
+}
+
+#[test]
+fn every_shorter_or_longer_one_is_refused() {
+    let mut own = simulation(&tiny(), &SimulationSettings::default());
+    let good = own.checkpoint().unwrap();
+    for length in (0..200).chain(good.len() - 200..good.len()) {
+        let error = error_of(&mut own, &good[..length]);
+        let expected = match length {
+            0..8 => matches!(error, CheckpointError::NotACheckpoint),
+            _ => matches!(error, CheckpointError::Damaged { .. }),
+        };
+        assert!(expected, "{length} bytes: {error}");
+    }
+    let longer = [good.as_slice(), &[0]].concat();
+    assert!(matches!(error_of(&mut own, &longer), CheckpointError::Damaged { .. }));
+}
+
+#[test]
+fn other_formats_say_so() {
+    let mut own = simulation(&tiny(), &SimulationSettings::default());
+    let mut bytes = own.checkpoint().unwrap();
+    for format in [0_u32, 2, 77] {
+        bytes[8..12].copy_from_slice(&format.to_le_bytes());
+        let error = error_of(&mut own, &bytes);
+        assert!(
+            matches!(error, CheckpointError::Format { found } if found == format),
+            "{error}"
+        );
+        assert!(
+            error
+                .to_string()
+                .contains(&format!("format {format}, this build reads format 1")),
+            "{error}"
+        );
+    }
+    // Those from before there were format numbers began with the state.
+    let older = &bytes[44..];
+    assert!(matches!(error_of(&mut own, older), CheckpointError::NotACheckpoint));
+}
+
+#[test]
+fn what_may_change_while_running_is_restored() {
+    let (tool, settings) = (tiny(), SimulationSettings::default());
+    let mut changed = simulation(&tool, &settings);
+    let mut live = changed.live();
+    live.inner_friction = [0.1, 0.15];
+    changed.set_live(live).unwrap();
+    changed.set_slew(1.0, 2e3).unwrap();
+    let mut whirl = settings.whirl;
+    whirl.min_confidence = 0.7;
+    changed.set_whirl(&whirl).unwrap();
+    let mut fresh = Simulation::new(&tool, &settings).unwrap();
+    fresh.restore(&changed.checkpoint().unwrap()).unwrap();
+    assert_eq!(fresh.live(), live);
+    for _ in 0..200 {
+        changed.advance(&INPUTS);
+        fresh.advance(&INPUTS);
+    }
+    assert_eq!(fresh.checkpoint().unwrap(), changed.checkpoint().unwrap());
+}

@@ -1,0 +1,142 @@
+//! Every way in which a step or a start can fail, provoked from outside, is reported with its cause and changes nothing.
+
+mod support;
+
+use flexdrill_core::dynamics::{FailureCause, StartError, StepFailure, StepOutcome};
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::tool::{
+    Body, Direction, LoadHistory, Location, PointLoad, Support, ToolDescription, WellDescription, WellSection,
+};
+use flexdrill_core::twin::{BuildError, Simulation, SimulationSettings};
+use support::{coarse, hard_settings, tiny};
+
+const INPUTS: Inputs = Inputs {
+    rotary_speed: 4.0,
+    weight_on_bit: 10e3,
+};
+
+/// The first failure within `steps` steps; afterwards everything is as before that step.
+fn failure(mut simulation: Simulation, inputs: &Inputs, steps: u32) -> StepFailure {
+    for _ in 0..steps {
+        let before = simulation.new_snapshot();
+        if let StepOutcome::Failed(failure) = simulation.advance(inputs) {
+            let after = simulation.new_snapshot();
+            assert_eq!(after.solver.failed_steps, 1);
+            assert_eq!(after.solver.last_rejection.map(|last| last.cause), Some(failure.cause));
+            assert_eq!((after.time, after.applied), (before.time, before.applied));
+            assert_eq!((after.shape, after.energy), (before.shape, before.energy));
+            return failure;
+        }
+    }
+    panic!("no step failed");
+}
+
+fn start_error(tool: &ToolDescription) -> StartError {
+    match Simulation::new(tool, &SimulationSettings::default()) {
+        Err(BuildError::Start(error)) => error,
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("it started"),
+    }
+}
+
+fn load(location: Location, body: Body, direction: Direction, value: f64) -> PointLoad {
+    PointLoad {
+        location,
+        body,
+        direction,
+        history: LoadHistory::Constant(value),
+    }
+}
+
+#[test]
+fn not_converged() {
+    // Two iterations and no halving: the first collision cannot be solved.
+    let simulation = Simulation::new(&coarse(), &hard_settings(2, 0)).unwrap();
+    let failure = failure(simulation, &INPUTS, 4000);
+    assert_eq!(failure.cause, FailureCause::NotConverged);
+    let words = failure.to_string();
+    assert!(
+        words.starts_with("Newton's iterations did not converge (station "),
+        "{words}"
+    );
+    assert!(words.ends_with("sub-step 2.000e-3 s)"), "{words}");
+}
+
+#[test]
+fn not_finite() {
+    for rotary_speed in [f64::NAN, f64::INFINITY] {
+        let simulation = Simulation::new(
+            &tiny(),
+            &SimulationSettings {
+                rotary_speed_slew: f64::MAX,
+                ..SimulationSettings::default()
+            },
+        );
+        let inputs = Inputs { rotary_speed, ..INPUTS };
+        let failure = failure(simulation.unwrap(), &inputs, 1);
+        assert_eq!(failure.cause, FailureCause::NotFinite, "{failure}");
+    }
+}
+
+#[test]
+fn singular() {
+    // Damping so large that the tangent overflows; the start, which sees the mass only, does not.
+    let mut tool = tiny();
+    tool.static_start = false;
+    tool.rayleigh.beta = 1e300;
+    let simulation = Simulation::new(&tool, &SimulationSettings::default()).unwrap();
+    assert_eq!(failure(simulation, &INPUTS, 10).cause, FailureCause::Singular);
+}
+
+#[test]
+fn out_of_range() {
+    // A single link without stiff neighbours is pulled out of the well.
+    let mut tool = tiny().with_mesh(1, 2);
+    tool.static_start = false;
+    tool.loads = vec![load(Location::Bottom, Body::Pipe, Direction::U, 1e12)];
+    let simulation = Simulation::new(&tool, &SimulationSettings::default()).unwrap();
+    let failure = failure(simulation, &INPUTS, 1000);
+    assert_eq!(failure.cause, FailureCause::OutOfRange);
+    assert!(failure.value.abs() > 1.0, "{failure}");
+}
+
+#[test]
+fn a_start_that_overflows() {
+    let mut tool = tiny();
+    tool.loads = vec![load(Location::Bottom, Body::Pipe, Direction::U, 1e300)];
+    let error = start_error(&tool);
+    assert!(matches!(error, StartError::Step(_)), "{error}");
+    assert!(
+        error.to_string().starts_with("the tool did not come to rest: "),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_start_with_a_joint_held_on_both_sides() {
+    let mut tool = tiny();
+    tool.supports.push(Support {
+        location: Location::Joint(0),
+        body: Body::Pipe,
+        directions: vec![Direction::U, Direction::V, Direction::W],
+    });
+    let error = start_error(&tool);
+    assert!(matches!(error, StartError::Singular(_)), "{error}");
+    assert!(error.to_string().starts_with("station 1: "), "{error}");
+}
+
+#[test]
+fn a_start_that_keeps_moving() {
+    // Nothing keeps the guide from turning in a straight well.
+    let mut tool = tiny();
+    tool.well = WellDescription {
+        start_inclination: 0.0,
+        sections: vec![WellSection::Straight { length: 0.32 }],
+    };
+    tool.loads = vec![load(Location::Bottom, Body::Guide, Direction::Psi, 1e-3)];
+    let error = start_error(&tool);
+    assert!(
+        matches!(error, StartError::Moving { speed, .. } if speed > 1e-6),
+        "{error}"
+    );
+}
