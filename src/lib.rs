@@ -16,5 +16,6 @@
 pub mod bag;
 pub mod cli;
 pub mod field_log;
+pub mod health;
 pub mod messages;
 pub mod ros;

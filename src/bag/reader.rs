@@ -1,13 +1,13 @@
 //! Reading bags of any kind, all their files merged in time order.
 
-use std::cmp::Ordering;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::location::METADATA;
-use super::mcap_file::{MAGIC, McapStream};
+use super::mcap_file::McapStream;
+use super::raw::RawMessage;
 use super::sqlite::SqliteStream;
 use super::{BagError, Topic, metadata};
 use crate::messages::{Message, from_cdr};
@@ -62,29 +62,6 @@ pub struct Cut {
     pub reason: String,
 }
 
-/// A message within one file; `topic` counts in that file.
-#[derive(Debug, PartialEq, Eq)]
-pub(super) struct RawMessage {
-    pub log_time: i64,
-    /// Settles which of equal times comes first.
-    pub order: u64,
-    pub publish_time: i64,
-    pub topic: usize,
-    pub data: Vec<u8>,
-}
-
-impl Ord for RawMessage {
-    fn cmp(&self, other: &Self) -> Ordering {
-        (self.log_time, self.order).cmp(&(other.log_time, other.order))
-    }
-}
-
-impl PartialOrd for RawMessage {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
 enum Stream {
     Mcap(Box<McapStream>),
     Sqlite(Box<SqliteStream>),
@@ -96,7 +73,7 @@ impl Stream {
         File::open(path)
             .and_then(|file| file.take(16).read_to_end(&mut magic))
             .map_err(BagError::io("open", path))?;
-        if magic.starts_with(&MAGIC) {
+        if magic.starts_with(mcap::MAGIC) {
             Ok(Self::Mcap(Box::new(McapStream::open(path)?)))
         } else if magic == SQLITE_MAGIC {
             Ok(Self::Sqlite(Box::new(SqliteStream::open(path)?)))

@@ -5,7 +5,7 @@ mod feed;
 mod plain;
 mod profile;
 mod screen;
-mod words;
+mod texts;
 
 use std::io::IsTerminal;
 use std::sync::Arc;

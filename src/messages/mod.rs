@@ -1,5 +1,5 @@
-//! ROS 2 message types: generated from `msg/*.msg` and `external/`, their bytes, and how they are filled from a
-//! snapshot of the twin.
+//! ROS 2 message types: generated from `msg/*.msg` and `external/`, their bytes, how they are filled from a snapshot of
+//! the twin, and their codes in words.
 
 mod cdr;
 pub mod fill;
@@ -8,6 +8,7 @@ mod message;
 pub mod outputs;
 mod time;
 pub mod topics;
+pub mod words;
 
 #[rustfmt::skip]
 pub mod generated;

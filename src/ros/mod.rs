@@ -1,7 +1,6 @@
 //! The ROS 2 node.
 
 pub mod args;
-pub mod health;
 pub mod logging;
 pub mod network;
 pub mod node;

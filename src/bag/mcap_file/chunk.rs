@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::fields::ChunkHead;
+use super::records::ChunkHead;
 
 /// Largest chunk that is unpacked (bytes): far more than any writer makes, far less than memory.
 const LARGEST: u64 = 1 << 30;

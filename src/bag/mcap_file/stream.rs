@@ -6,10 +6,12 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::fields::{Message, records};
-use super::op;
-use super::scan::{self, Channels, Kind, Segment};
-use crate::bag::reader::RawMessage;
+use mcap::records::op;
+
+use super::channels::Channels;
+use super::records::{MESSAGE_HEAD, message_header, records};
+use super::scan::{self, Kind, Segment};
+use crate::bag::raw::RawMessage;
 use crate::bag::{BagError, Cut, Topic};
 
 /// An open MCAP file. Chunks are unpacked when their time comes; messages wait until no chunk can bring an earlier one.
@@ -136,7 +138,7 @@ impl McapStream {
     }
 
     fn queue(&mut self, body: &[u8]) -> Result<(), String> {
-        let message = Message::parse(body).ok_or("a message record is damaged")?;
+        let message = message_header(body).ok_or("a message record is damaged")?;
         let topic = self
             .channels
             .topic(message.channel_id)
@@ -147,7 +149,7 @@ impl McapStream {
                 order: self.order,
                 publish_time: i64::try_from(message.publish_time).unwrap_or(i64::MAX),
                 topic,
-                data: message.data.to_vec(),
+                data: body[MESSAGE_HEAD..].to_vec(),
             }));
             self.order += 1;
         }

@@ -18,7 +18,7 @@ use clap::{Args, ValueEnum};
 use self::document::Table;
 use self::measure::{Load, Measured, percentiles};
 use super::WrongUse;
-use crate::ros::health::diagnostics::describe;
+use crate::messages::words;
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
@@ -223,7 +223,7 @@ fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
             anyhow::bail!(
                 "a step failed at model time {:.4} s: {}",
                 failure.time,
-                describe(&failure)
+                words::step_failure(&failure)
             );
         }
     }

@@ -13,15 +13,14 @@ use ratatui::widgets::{Axis, Block, Borders, Cell, Chart, Dataset, GraphType, Pa
 
 use super::board::{Board, HISTORY};
 use super::profile::binned;
-use super::words;
-use crate::messages::{TwinStatus, WhirlState, WhirlWarning};
+use super::texts;
+use crate::messages::{TwinStatus, WhirlState, WhirlWarning, words};
 use flexdrill_core::units::{rad_per_s_to_rpm, rad_to_deg};
+use flexdrill_realtime::KEEPS_UP;
 
 const GOOD: Color = Color::Green;
 const DOUBTFUL: Color = Color::Yellow;
 const BAD: Color = Color::Red;
-/// Below this real-time factor the twin falls behind.
-const KEEPS_UP: f64 = 0.98;
 
 /// Waits up to `patience` for a key and says whether it means to quit. A resize is an event too: the next picture has
 /// the new size by itself.
@@ -60,7 +59,7 @@ pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
 }
 
 fn title_line(board: &Board, now: Instant) -> Line<'static> {
-    if let Some(text) = words::heartbeat(board, now) {
+    if let Some(text) = texts::heartbeat(board, now) {
         let style = Style::new().fg(Color::White).bg(BAD).add_modifier(Modifier::BOLD);
         return Line::styled(format!(" {text}   q quits "), style);
     }
@@ -79,7 +78,7 @@ fn title_line(board: &Board, now: Instant) -> Line<'static> {
     };
     Line::from(vec![
         Span::styled(" flexdrill ", Modifier::BOLD),
-        Span::styled(words::state(status.state), color),
+        Span::styled(texts::state(status.state), color),
         Span::raw(format!("  model time {:.1} s", status.model_time)),
         recording,
         Span::raw("   q quits"),
@@ -87,7 +86,7 @@ fn title_line(board: &Board, now: Instant) -> Line<'static> {
 }
 
 fn warning_lines(warning: Option<&WhirlWarning>) -> Paragraph<'static> {
-    Paragraph::new(words::warning(warning))
+    Paragraph::new(texts::warning(warning))
         .style(severity_style(
             warning.map_or(WhirlWarning::OK, |warning| warning.severity),
         ))
@@ -106,8 +105,8 @@ fn severity_style(severity: u8) -> Style {
 /// The levels beside whirl's.
 fn levels_line(board: &Board) -> Line<'static> {
     let levels = [
-        ("stick-slip ", board.bit().map(words::stick_slip)),
-        ("   shock ", board.contacts().map(words::shock)),
+        ("stick-slip ", board.bit().map(texts::stick_slip)),
+        ("   shock ", board.contacts().map(texts::shock)),
     ];
     let spans = levels.into_iter().filter_map(|(name, level)| {
         let (text, severity) = level?;
@@ -119,7 +118,7 @@ fn levels_line(board: &Board) -> Line<'static> {
 fn inputs(board: &Board) -> Paragraph<'static> {
     let mut lines = Vec::new();
     if let Some(status) = board.status() {
-        for (text, state) in words::inputs(status) {
+        for (text, state) in texts::inputs(status) {
             let color = match state {
                 TwinStatus::INPUT_OK => GOOD,
                 TwinStatus::INPUT_STALE | TwinStatus::INPUT_REJECTED => BAD,
@@ -128,7 +127,7 @@ fn inputs(board: &Board) -> Paragraph<'static> {
             lines.push(Line::styled(text, color));
         }
     }
-    lines.push(Line::raw(words::joints(board)));
+    lines.push(Line::raw(texts::joints(board)));
     if board.unreadable() > 0 {
         lines.push(Line::styled(
             format!("{} unreadable messages: other version?", board.unreadable()),
@@ -146,7 +145,7 @@ fn pace(board: &Board) -> Paragraph<'static> {
         let color = if status.real_time_factor >= KEEPS_UP { GOOD } else { BAD };
         lines.push(Line::from(vec![
             Span::styled(format!("x{:.3} real time", status.real_time_factor), color),
-            Span::raw(format!(", late {}", words::short_time(status.lateness))),
+            Span::raw(format!(", late {}", texts::short_time(status.lateness))),
         ]));
         lines.push(Line::raw(format!(
             "missed {} skipped {} steps",
@@ -154,9 +153,9 @@ fn pace(board: &Board) -> Paragraph<'static> {
         )));
         lines.push(Line::raw(format!(
             "step {} p99 {} max {}",
-            words::short_time(status.step_time_p50),
-            words::short_time(status.step_time_p99),
-            words::short_time(status.step_time_max)
+            texts::short_time(status.step_time_p50),
+            texts::short_time(status.step_time_p99),
+            texts::short_time(status.step_time_max)
         )));
         lines.push(Line::raw(format!(
             "newton {:.1} halved {} energy {:.2} %",
@@ -241,11 +240,11 @@ fn axis_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 fn draw_whirl(frame: &mut Frame, board: &Board, area: Rect) {
     let title = board.whirl().map_or_else(
         || " whirl ".to_owned(),
-        |whirl| format!(" {} ", words::whirl_counts(whirl)),
+        |whirl| format!(" {} ", texts::whirl_counts(whirl)),
     );
     let rows = board
         .whirl()
-        .map(words::whirl_rows)
+        .map(texts::whirl_rows)
         .unwrap_or_default()
         .into_iter()
         .map(|row| {
@@ -299,11 +298,8 @@ fn draw_forces(frame: &mut Frame, board: &Board, area: Rect) {
         .contacts()
         .map(|contacts| contacts.measured_depth.as_slice())
         .unwrap_or_default();
-    for (layer, (name, color)) in [("pipe-guide", Color::Cyan), ("guide-wall", Color::Magenta)]
-        .into_iter()
-        .enumerate()
-    {
-        let text = format!("{name}: largest {}", words::largest(board, layer));
+    for (layer, color) in [Color::Cyan, Color::Magenta].into_iter().enumerate() {
+        let text = format!("{}: largest {}", words::layer(layer), texts::largest(board, layer));
         frame.render_widget(Line::styled(text, color), rows[2 * layer]);
         let bars = binned(depth, board.peaks()[layer].forces(), usize::from(inner.width));
         let largest = bars.iter().copied().fold(1.0, f64::max);

@@ -1,13 +1,12 @@
 //! The node: what runs where, and how it begins and ends.
 //!
 //! - the solver's thread: [`flexdrill_realtime`];
-//! - the publisher's thread: `publish`; the recorder's thread: `recording`;
+//! - the publisher's thread: `publish`; the recorder's thread: [`RecordingThread`];
 //! - tokio tasks: inputs and clock (`rig`), services and parameters (`control`).
 
 pub mod control;
 pub mod publish;
 pub mod publishers;
-pub mod recording;
 pub mod rig;
 
 use std::future::Future;
@@ -23,26 +22,23 @@ use tokio::task::JoinSet;
 use self::control::Control;
 use self::publish::{Publisher, PublisherParts};
 use self::publishers::Publishers;
-use self::recording::RecordingThread;
 use self::rig::{Gate, Now};
 use super::args::{NodeIdentity, Remapping};
 use super::network::Network;
 use super::parameters::{self, Parameters, configured};
 use super::service::ServiceMapping;
 use super::{DEFAULT_NODE_NAME, NodeError, logging};
-use crate::bag::Recording;
+use crate::bag::{Recording, RecordingThread};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Door, InputKind};
 use flexdrill_core::twin::{BuildError, Run, Simulation};
-use flexdrill_realtime::Solver;
 use flexdrill_realtime::clock::{SimulatedClock, WallClock};
 use flexdrill_realtime::link::{Gauges, Targets, link};
 use flexdrill_realtime::monotonic;
+use flexdrill_realtime::{INPUT_PERIOD, Solver};
 
-/// Length of a period of the solver (s): inputs take effect this fast.
-const PERIOD: f64 = 5e-3;
 /// Samples that may wait for the recording.
 const RECEIVED: usize = 1024;
 /// Longest wait for the solver to end: a step that is split to its limit takes this long on a slow machine.
@@ -211,7 +207,7 @@ async fn run_in(
     let publisher_thread = spawn("publisher", move || publisher.run())?;
 
     let (built_sender, built) = tokio::sync::oneshot::channel::<Result<(), BuildError>>();
-    let steps_per_period = (PERIOD / settings.time_step).round().max(1.0) as u64;
+    let steps_per_period = (INPUT_PERIOD / settings.time_step).round().max(1.0) as u64;
     let checkpoint = read_checkpoint(&setup)?;
     let clock_cell = setup.use_sim_time.then_some(simulated);
     let solver_thread = spawn("solver", move || {

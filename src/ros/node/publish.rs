@@ -8,21 +8,21 @@ use std::time::Duration;
 
 use super::control::Change;
 use super::publishers::Publishers;
-use super::recording::RecordingThread;
 use super::rig::{Now, Received};
+use crate::bag::RecordingThread;
+use crate::health::diagnostics::{Diagnostics, Evidence};
+use crate::health::motion::MotionEvidence;
+use crate::health::status::{OutputCount, Sources, StatusKeeper};
 use crate::messages::diagnostic_msgs::DiagnosticArray;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
-use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
-use crate::ros::health::diagnostics::{Diagnostics, Evidence, describe};
-use crate::ros::health::motion::MotionEvidence;
-use crate::ros::health::status::{Sources, StatusKeeper};
+use crate::messages::{CdrError, Message, TwinStatus, to_cdr, words};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Door, InputKind};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_realtime::link::{Gauges, PublisherEnd, Report};
-use flexdrill_realtime::monotonic;
+use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
 
 /// How often the rings are looked at: the delay that publishing adds.
 const LOOK: Duration = Duration::from_millis(1);
@@ -154,7 +154,7 @@ impl Publisher {
     fn report(&mut self, report: Report) -> Result<(), CdrError> {
         match report {
             Report::Frame(frame) => {
-                self.status.take(&frame.snapshot);
+                self.status.observe(&frame.snapshot);
                 self.evidence.motion = MotionEvidence::of(&frame.snapshot);
                 let parts = &self.parts;
                 let began = monotonic::now();
@@ -176,7 +176,7 @@ impl Publisher {
                 tracing::error!(
                     "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
                     failure.time,
-                    describe(&failure)
+                    words::step_failure(&failure)
                 );
                 self.status.fail(failure);
                 self.evidence.failure = Some(failure);
@@ -229,12 +229,13 @@ impl Publisher {
         let header = self.header();
         let parts = &self.parts;
         let door = parts.door.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let outputs: Vec<OutputCount<'_>> = parts.publishers.counts().collect();
         let sources = Sources {
             gauges: &parts.gauges,
             door: &door,
             now: (parts.now)(),
             wall: monotonic::now(),
-            publishers: &parts.publishers,
+            outputs: &outputs,
             recording: parts.recording.as_ref(),
         };
         let status = self.status.status(header, &sources);
@@ -245,13 +246,14 @@ impl Publisher {
 
     /// One line when the model falls out of real time, one when it is back.
     fn tell_late(&mut self, status: &TwinStatus) {
-        let skipping = status.state == TwinStatus::RUNNING && status.real_time_factor < 0.9 && status.steps_skipped > 0;
+        let skipping =
+            status.state == TwinStatus::RUNNING && status.real_time_factor < FAR_BEHIND && status.steps_skipped > 0;
         if skipping && !self.told_late {
             tracing::warn!(
                 "not in real time: the model gains {:.2} s per second and skips the rest; take a coarser mesh or a faster machine",
                 status.real_time_factor
             );
-        } else if self.told_late && status.real_time_factor > 0.98 {
+        } else if self.told_late && status.real_time_factor >= KEEPS_UP {
             tracing::info!("in real time again");
         } else {
             return;

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::bag::{BagError, Recorder, Recording, Topic};
+use super::{BagError, Recorder, Recording, Topic};
 use crate::messages::topics::{self, TopicInfo};
 
 /// Messages that may wait for the disk: at 300 per second, over 20 s.
