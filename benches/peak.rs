@@ -3,6 +3,11 @@
 //!
 //! A loop of independent fused multiply-adds in registers, for every vector width that the processor has. Two operations each.
 
+#![expect(
+    unsafe_code,
+    reason = "vector instructions, behind a check that the processor has them"
+)]
+
 use std::time::{Duration, Instant};
 
 /// Rounds of a loop between two looks at the clock.

@@ -3,6 +3,12 @@
 //! The state is one of a tool in motion, with contacts and stops at work. Times are processor time of the thread, so that neighbours on the
 //! machine disturb them little.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::hint::black_box;
 
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};

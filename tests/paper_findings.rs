@@ -1,5 +1,11 @@
 //! The findings of synthetic records with known answers, and that a report says "no" where it must.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::f64::consts::TAU;
 
 use flexdrill_paper::{

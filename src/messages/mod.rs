@@ -10,10 +10,14 @@ mod time;
 pub mod topics;
 pub mod words;
 
+#[expect(
+    missing_docs,
+    reason = "fields are documented where their .msg file documents them; those of other packages often do not"
+)]
 #[rustfmt::skip]
 pub mod generated;
 
-pub use cdr::{CdrError, from_cdr, to_cdr, to_cdr_into};
+pub use cdr::{CdrError, MOST_PADDING, from_cdr, from_cdr_body, to_cdr, to_cdr_body, to_cdr_into};
 pub use generated::flexdrill::*;
 pub use generated::{
     builtin_interfaces, diagnostic_msgs, geometry_msgs, rcl_interfaces, rosgraph_msgs, sensor_msgs, std_msgs, std_srvs,

@@ -35,6 +35,7 @@ use std::ops::Deref;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 pub use boundary::{BottomAxial, Boundary, Drive, Held, Preset};
@@ -198,35 +199,52 @@ impl Config {
     ///
     /// # Errors
     /// When the key does not exist, or the value is of the wrong type or out of bounds.
-    pub fn with_value(&self, key: &str, value: impl Into<serde_json::Value>) -> Result<Self, ConfigError> {
-        self.with_values([(key, value)])
+    pub fn with_value(&self, key: &str, value: impl Into<Value>) -> Result<Self, ConfigError> {
+        self.with_values("parameter", [(key, value)])
     }
 
-    /// The same with several values, for keys that only make sense together.
+    /// The same with several values, for keys that only make sense together; `origin` stands for the file in errors.
     ///
     /// # Errors
     /// As [`Config::with_value`].
-    pub fn with_values<'a, V: Into<serde_json::Value>>(
+    pub fn with_values<K: AsRef<str>, V: Into<Value>>(
         &self,
-        values: impl IntoIterator<Item = (&'a str, V)>,
+        origin: &str,
+        values: impl IntoIterator<Item = (K, V)>,
     ) -> Result<Self, ConfigError> {
-        let wrong_type = |key: &str, value: &serde_json::Value, message: String| ConfigError::WrongType {
-            key: key.to_string(),
-            value: value.to_string(),
-            message,
-        };
+        let mut tree = self.to_tree();
         let mut schema = self.schema.clone();
         for (key, value) in values {
-            let value = value.into();
-            let mut tree = serde_json::to_value(&schema).map_err(|error| wrong_type(key, &value, error.to_string()))?;
-            let pointer = format!("/{}", key.replace('.', "/"));
-            let Some(place) = tree.pointer_mut(&pointer) else {
-                return Err(ConfigError::UnknownKey { key: key.to_string() });
-            };
+            let (key, value) = (key.as_ref(), value.into());
+            let place = tree
+                .pointer_mut(&pointer(key))
+                .ok_or_else(|| ConfigError::UnknownKey { key: key.to_string() })?;
+            let wanted = kind(place);
+            let mistyped = wanted != kind(&value);
             *place = value.clone();
-            schema = serde_json::from_value(tree).map_err(|error| wrong_type(key, &value, error.to_string()))?;
+            // One by one, so that the error names the key: the types do not tell by themselves.
+            schema = Schema::deserialize(&tree).map_err(|error| ConfigError::WrongType {
+                key: key.to_string(),
+                value: value.to_string(),
+                message: if mistyped {
+                    format!("must be {wanted}")
+                } else {
+                    error.to_string()
+                },
+            })?;
         }
-        Self::from_schema("parameter", schema)
+        Self::from_schema(origin, schema)
+    }
+
+    /// Whether there is a key of this dotted path.
+    pub fn has(&self, key: &str) -> bool {
+        self.to_tree().pointer(&pointer(key)).is_some()
+    }
+
+    /// All values by their keys.
+    pub fn to_tree(&self) -> Value {
+        // Plain numbers, text and lists: this does not fail, and an empty tree would only mean that no key is known.
+        serde_json::to_value(&self.schema).unwrap_or(Value::Null)
     }
 
     /// Every numeric key with value, limits, unit and the reason of the limits.
@@ -383,5 +401,22 @@ impl Schema {
         c.below("stick_slip", |c| self.stick_slip.check(c));
         c.below("shock", |c| self.shock.check(c));
         c.below("outputs", |c| self.outputs.check(c));
+    }
+}
+
+/// The JSON pointer of a dotted key.
+fn pointer(key: &str) -> String {
+    format!("/{}", key.replace('.', "/"))
+}
+
+/// What a value is, as an error says it.
+fn kind(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "left out",
+        Value::Bool(_) => "true or false",
+        Value::Number(_) => "a number",
+        Value::String(_) => "text",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "a mapping",
     }
 }

@@ -1,6 +1,12 @@
 //! The whole tool of `config/default.yaml`: its step is converged, its energy adds up. `flexdrill bench --cases step-error` tells the
 //! same of the hard cases.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_verify::step_error::{Calm, Figure, Motion, Record, Statistics, refined};

@@ -14,6 +14,15 @@ use super::scan::{self, Kind, Segment};
 use crate::bag::raw::RawMessage;
 use crate::bag::{BagError, Cut, Topic};
 
+/// What is wrong with a record of a message.
+#[derive(Debug, thiserror::Error)]
+enum RecordProblem {
+    #[error("a message record is damaged")]
+    Message,
+    #[error("a message is on channel {0}, which is not described")]
+    UnknownChannel(u16),
+}
+
 /// An open MCAP file. Chunks are unpacked when their time comes; messages wait until no chunk can bring an earlier one.
 pub(in crate::bag) struct McapStream {
     path: PathBuf,
@@ -123,7 +132,7 @@ impl McapStream {
                 }
                 op::MESSAGE => {
                     if let Err(wrong) = self.queue(body) {
-                        problem.get_or_insert(wrong);
+                        problem.get_or_insert_with(|| wrong.to_string());
                     }
                 }
                 _ => {}
@@ -137,12 +146,12 @@ impl McapStream {
         Ok(())
     }
 
-    fn queue(&mut self, body: &[u8]) -> Result<(), String> {
-        let message = message_header(body).ok_or("a message record is damaged")?;
+    fn queue(&mut self, body: &[u8]) -> Result<(), RecordProblem> {
+        let message = message_header(body).ok_or(RecordProblem::Message)?;
         let topic = self
             .channels
             .topic(message.channel_id)
-            .ok_or_else(|| format!("a message is on channel {}, which is not described", message.channel_id))?;
+            .ok_or(RecordProblem::UnknownChannel(message.channel_id))?;
         if self.wanted.get(topic) == Some(&true) {
             self.waiting.push(Reverse(RawMessage {
                 log_time: i64::try_from(message.log_time).unwrap_or(i64::MAX),

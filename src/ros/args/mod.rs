@@ -9,7 +9,7 @@ pub mod value;
 
 use std::path::PathBuf;
 
-pub use names::{NodeIdentity, Remapping};
+pub use names::{NameProblem, NodeIdentity, Remapping};
 pub use params::{Override, Overrides};
 
 /// What is wrong with the ROS 2 arguments.
@@ -32,14 +32,14 @@ pub enum ArgsError {
         why: String,
     },
     /// A name that ROS 2 does not allow.
-    #[error("{what} '{name}': {why}")]
+    #[error("{what} '{name}': {problem}")]
     Name {
         /// Which kind of name.
         what: &'static str,
         /// As given.
         name: String,
         /// What is wrong.
-        why: String,
+        problem: NameProblem,
     },
     /// A parameter override that cannot be read.
     #[error("parameter '{parameter}': {why}")]

@@ -25,7 +25,7 @@ use self::publishers::Publishers;
 use self::rig::{Gate, Now};
 use super::args::{NodeIdentity, Remapping};
 use super::network::Network;
-use super::parameters::{self, Parameters, configured};
+use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
 use super::{DEFAULT_NODE_NAME, NodeError, logging};
 use crate::bag::{Recording, RecordingThread};
@@ -150,7 +150,7 @@ async fn run_in(
         gate.clone(),
         Arc::clone(&gauges),
     );
-    let store = configured::declare(&config, &setup.config_file, setup.use_sim_time);
+    let store = parameters::declare(&config, &setup.config_file, setup.use_sim_time);
     let (checking, applying) = (Arc::clone(&control), Arc::clone(&control));
     let parameters = Parameters::new(
         &mut node,

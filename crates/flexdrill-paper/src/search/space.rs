@@ -328,7 +328,7 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
         .map(|(key, value)| (key, json!(value)))
         .chain(words.into_iter().map(|(key, value)| (key, json!(value))))
         .chain([("tool.links", json!(number("links") as u64))]);
-    let mut case = Case::new(base.with_values(values)?);
+    let mut case = Case::new(base.with_values("parameter", values)?);
     case.weight_on_bit_kn = number("wob_kn");
     case.settling_turns = 1.0;
     case.impatient = true;
