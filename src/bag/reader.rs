@@ -24,7 +24,7 @@ pub struct BagMessage {
     pub topic_index: usize,
     /// When it was recorded (ns since the clock's epoch).
     pub log_time: i64,
-    /// When it was published (ns since the clock's epoch); SQLite bags do not tell, there it is the log time.
+    /// When it was published (ns since the clock's epoch); SQLite bags do not say it, there it is the log time.
     pub publish_time: i64,
     /// CDR with its header.
     pub data: Vec<u8>,
@@ -235,12 +235,12 @@ impl Bag {
         }
     }
 
-    /// Number of messages of all topics, where every file tells it; for progress bars.
+    /// Number of messages of all topics, where every file says it; for progress bars.
     pub fn message_count(&self) -> Option<u64> {
         self.sources.iter().map(|source| source.stream.messages()).sum()
     }
 
-    /// First and last log time (ns), as the files tell.
+    /// First and last log time (ns), as the files say.
     pub fn bounds(&self) -> Option<(i64, i64)> {
         self.sources
             .iter()

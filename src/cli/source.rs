@@ -62,7 +62,7 @@ impl SourceArgs {
         self.mapping.is_some() || self.from.is_some() || self.to.is_some()
     }
 
-    /// The samples in the order of their times. What is wrong in a field log is told on standard error.
+    /// The samples in the order of their times. What is wrong in a field log is reported on standard error.
     ///
     /// # Errors
     /// When the source cannot be read or holds none.

@@ -19,7 +19,7 @@ use crate::ros::network::Network;
 use board::Board;
 use feed::Feed;
 
-/// Time between two looks at the network and the keyboard.
+/// How often the network and the keyboard are polled.
 const POLL: Duration = Duration::from_millis(50);
 /// Time between two pictures.
 const FRAME: Duration = Duration::from_millis(100);

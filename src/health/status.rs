@@ -11,7 +11,7 @@ use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::inputs::{Door, InputKind};
 use flexdrill_core::twin::{Snapshot, SolverCounters};
 use flexdrill_realtime::RealTimeFactor;
-use flexdrill_realtime::link::{Gauges, Phase};
+use flexdrill_realtime::link::{Gauges, RunState};
 
 /// Span of the real-time factor (s).
 const FACTOR_SPAN: f64 = 1.0;
@@ -55,8 +55,8 @@ pub struct Sources<'a> {
     /// Of the solver's thread.
     pub gauges: &'a Gauges,
     /// Inputs.
-    pub door: &'a Door,
-    /// Present time as the door counts it (s).
+    pub conditioner: &'a Door,
+    /// Present time as the conditioner counts it (s).
     pub now: f64,
     /// Present time of the monotonic clock (ns).
     pub wall: u64,
@@ -142,11 +142,11 @@ impl StatusKeeper {
         let mut status = TwinStatus {
             header,
             sequence: self.sequence,
-            state: match gauges.phase() {
-                Phase::Starting => TwinStatus::STARTING,
-                Phase::Running => TwinStatus::RUNNING,
-                Phase::Paused => TwinStatus::PAUSED,
-                Phase::Failed => TwinStatus::FAILED,
+            state: match gauges.run_state() {
+                RunState::Starting => TwinStatus::STARTING,
+                RunState::Running => TwinStatus::RUNNING,
+                RunState::Paused => TwinStatus::PAUSED,
+                RunState::Failed => TwinStatus::FAILED,
             },
             model_time: step_count as f64 * self.time_step,
             step_count,
@@ -198,15 +198,17 @@ impl StatusKeeper {
 
     fn fill_inputs(&self, status: &mut TwinStatus, sources: &Sources<'_>) {
         for kind in InputKind::ALL {
-            let door = sources.door;
+            let conditioner = sources.conditioner;
             status.input_name.push(kind.name().to_owned());
-            status.input_state.push(door.state(kind, sources.now) as u8);
-            status.input_age.push(door.age(kind, sources.now).unwrap_or(f64::NAN));
+            status.input_state.push(conditioner.state(kind, sources.now) as u8);
+            status
+                .input_age
+                .push(conditioner.age(kind, sources.now).unwrap_or(f64::NAN));
             status
                 .input_received
-                .push(door.last_good(kind).map_or(f64::NAN, |value| kind.to_si(value)));
+                .push(conditioner.last_good(kind).map_or(f64::NAN, |value| kind.to_si(value)));
             status.input_applied.push(self.applied[kind.index()]);
-            status.input_rejected.push(door.counts(kind).rejected_total());
+            status.input_rejected.push(conditioner.counts(kind).rejected_total());
         }
     }
 }

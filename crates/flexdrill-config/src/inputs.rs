@@ -195,7 +195,7 @@ fn check_ages(c: &mut Checker, slow_age: f64, max_age: f64, hold_before_safe: f6
 }
 
 impl InputsConfig {
-    /// For the door.
+    /// For the input conditioning.
     pub fn rules(&self) -> InputRules {
         let (speed, weight) = (&self.rotary_speed, &self.weight_on_bit);
         [

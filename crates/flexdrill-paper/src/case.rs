@@ -58,7 +58,7 @@ impl Case {
     }
 }
 
-/// Runs a case; `progress` is told the model time (s) now and then.
+/// Runs a case; `progress` gets the model time (s) now and then.
 ///
 /// # Errors
 /// When the configuration is refused, a step fails, or the energy audit does.

@@ -9,7 +9,7 @@
 //!     // advance the model by one step
 //!     let paced = pacer.step_done(monotonic::now());
 //!     if paced.skipped > 0 {
-//!         // tell it: the model stands still for so many periods
+//!         // report it: the model stands still for so many periods
 //!     }
 //! }
 //! ```
@@ -26,4 +26,4 @@ pub const INPUT_PERIOD: f64 = 5e-3;
 
 pub use pacer::{Paced, Pacer, whole_periods};
 pub use real_time_factor::{FAR_BEHIND, KEEPS_UP, RealTimeFactor};
-pub use real_time_loop::Solver;
+pub use real_time_loop::RealTimeLoop;

@@ -206,7 +206,7 @@ fn walk_chunks(path: &Path, file: &File, scan: &mut Scan) -> Result<(), BagError
                 _ => {}
             }
         }
-        // An open chunk's head does not yet tell its times.
+        // An open chunk's head does not yet have its times.
         if let Some((start, end)) = bounds {
             (segment.start, segment.end) = (start, end);
         }

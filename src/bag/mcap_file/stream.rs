@@ -85,7 +85,7 @@ impl McapStream {
         self.cut.as_ref()
     }
 
-    /// First and last log time; chunks without messages tell zero for both and do not count.
+    /// First and last log time; chunks without messages have zero for both and do not count.
     pub fn bounds(&self) -> Option<(u64, u64)> {
         let filled = || self.segments.iter().filter(|segment| segment.end != 0);
         let start = filled().map(|segment| segment.start).min()?;

@@ -16,7 +16,7 @@ use flexdrill_realtime::monotonic;
 
 /// Model time in one published frame (s).
 const FRAME: f64 = 0.02;
-/// Longest time told apart (ns): a minute.
+/// Longest time resolved (ns): a minute.
 const LONGEST: u64 = 60_000_000_000;
 
 /// What is run.
@@ -93,7 +93,7 @@ pub(super) fn percentiles(times: &Histogram<u64>) -> [f64; 4] {
     [at(0.5), at(0.99), at(0.999), times.max() as f64 * 1e-6]
 }
 
-/// Runs `config` for `duration` (s) of model time after the static start; `every_frame` is told the model time.
+/// Runs `config` for `duration` (s) of model time after the static start; `every_frame` gets the model time.
 ///
 /// # Errors
 /// When the tool cannot be built. A step that fails ends the run and is part of the result.

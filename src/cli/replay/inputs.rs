@@ -1,4 +1,4 @@
-//! Inputs with times, from a field log or anybody's bag, through the same door as live samples.
+//! Inputs with times, from a field log or anybody's bag, through the same conditioner as live samples.
 
 use std::path::Path;
 
@@ -29,7 +29,7 @@ pub(super) fn replay(
     let span = duration.map_or(span, |duration| duration.min(span));
     let steps = (span / time_step).round() as u64;
     let per_period = ((INPUT_PERIOD / time_step).round() as u64).max(1);
-    let mut door = Door::new(config.inputs.rules());
+    let mut conditioner = Door::new(config.inputs.rules());
     let mut player = Player::new(config, first.time, out, |topic: &TopicInfo| {
         if topic.name.starts_with('/') {
             topic.name.to_owned()
@@ -46,7 +46,7 @@ pub(super) fn replay(
         let due = |sample: &&Sample| sample.since(first) <= now;
         while let Some(sample) = waiting.next_if(due) {
             let at = sample.since(first);
-            if let Err(rejection) = door.offer(sample.kind, sample.value, at) {
+            if let Err(rejection) = conditioner.offer(sample.kind, sample.value, at) {
                 refused += 1;
                 if refused <= 10 {
                     eprintln!("at {at:.2} s: {rejection}");
@@ -54,8 +54,8 @@ pub(super) fn replay(
             }
         }
         let inputs = RunInputs {
-            inputs: door.targets(now),
-            input_quality: door.quality(now) as u8,
+            inputs: conditioner.targets(now),
+            input_quality: conditioner.quality(now) as u8,
             ..player.inputs()
         };
         let same = applied.is_some_and(|applied| {

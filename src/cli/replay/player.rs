@@ -15,7 +15,7 @@ use flexdrill_core::dynamics::outcome::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Run, RunInputs, Simulation};
 use flexdrill_realtime::monotonic;
 
-/// Topics that a replay can give: those that do not tell of wall-clock time.
+/// Topics that a replay can give: those that do not speak of wall-clock time.
 fn replayed() -> impl Iterator<Item = &'static TopicInfo> {
     topics::ALL
         .iter()

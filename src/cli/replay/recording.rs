@@ -185,7 +185,7 @@ fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]
         .map(|inputs| inputs.step)
         .sum();
     let since = ticks.saturating_sub(before_resets + last.skipped_steps);
-    // An output older than the last change of inputs tells nothing of the steps after it.
+    // An output older than the last change of inputs says nothing of the steps after it.
     if since >= last.step || last.reset {
         since
     } else {

@@ -104,7 +104,7 @@ mod tests {
     fn values_carry_their_units() {
         let now = Instant::now();
         let mut board = Board::new(now);
-        board.take_status(
+        board.update_status(
             TwinStatus {
                 state: TwinStatus::RUNNING,
                 real_time_factor: 1.0,
@@ -119,14 +119,14 @@ mod tests {
             },
             now,
         );
-        board.take_bit(BitState {
+        board.update_bit(BitState {
             rotary_speed: 4.18879,
             torque: 92.4,
             stick_slip_index: 0.85,
             stick_slip_severity: BitState::WARNING,
             ..BitState::default()
         });
-        board.take_contacts(ContactForces {
+        board.update_contacts(ContactForces {
             measured_depth: vec![0.0, 2.5],
             inclination: vec![0.0, 0.785],
             shock_severity: ContactForces::SHOCK_WATCH,

@@ -323,7 +323,7 @@ mod tests {
 
     fn full_board(now: Instant) -> Board {
         let mut board = Board::new(now);
-        board.take_status(
+        board.update_status(
             TwinStatus {
                 state: TwinStatus::RUNNING,
                 model_time: 12.5,
@@ -338,17 +338,17 @@ mod tests {
             },
             now,
         );
-        board.take_bit(BitState {
+        board.update_bit(BitState {
             rotary_speed: 4.2,
             torque: 92.0,
             stick_slip_index: 0.2,
             ..BitState::default()
         });
-        board.take_joints(JointDeflections {
+        board.update_joints(JointDeflections {
             joints_at_limit: 3,
             ..JointDeflections::default()
         });
-        board.take_contacts(ContactForces {
+        board.update_contacts(ContactForces {
             measured_depth: vec![0.0, 2.5, 5.0],
             inclination: vec![0.0, 0.785, 1.571],
             pipe_guide_normal_peak: vec![0.0, 1500.0, 10.0],
@@ -359,7 +359,7 @@ mod tests {
             shock_layer: ContactForces::INNER,
             ..ContactForces::default()
         });
-        board.take_whirl(WhirlState {
+        board.update_whirl(WhirlState {
             measured_depth: vec![2.5, 5.0],
             inclination: vec![0.785, 1.571],
             body: vec![WhirlState::PIPE, WhirlState::GUIDE],
@@ -373,7 +373,7 @@ mod tests {
             rolling_share: vec![0.6, 0.0],
             ..WhirlState::default()
         });
-        board.take_warning(WhirlWarning {
+        board.update_warning(WhirlWarning {
             severity: WhirlWarning::WARNING,
             message: "Warning: backward whirl at 45 deg".into(),
             ..WhirlWarning::default()

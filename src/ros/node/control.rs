@@ -9,7 +9,7 @@ use std::time::Duration;
 use ros2_client::{Node, Parameter, ParameterValue};
 use rustdds::DomainParticipant;
 
-use super::rig::Gate;
+use super::rig::RigInputs;
 use crate::messages::outputs::{self, ParameterChange};
 use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use crate::ros::NodeError;
@@ -17,7 +17,7 @@ use crate::ros::parameters::{ParameterStore, Task, reconfigured, refresh_ranges}
 use crate::ros::service::{ServiceMapping, ServiceServer, at_once, shared};
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::twin::BuildError;
-use flexdrill_realtime::link::{Command, Gauges, Phase};
+use flexdrill_realtime::link::{Command, Gauges, RunState};
 
 /// Longest wait for the solver to hand out its state.
 const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
@@ -71,7 +71,7 @@ pub struct Control {
     commands: Mutex<Commands>,
     config: Mutex<Arc<Config>>,
     changes: Sender<Change>,
-    gate: Gate,
+    rig_inputs: RigInputs,
     gauges: Arc<Gauges>,
 }
 
@@ -81,14 +81,14 @@ impl Control {
         sender: rtrb::Producer<Command>,
         config: Arc<Config>,
         changes: Sender<Change>,
-        gate: Gate,
+        rig_inputs: RigInputs,
         gauges: Arc<Gauges>,
     ) -> Arc<Self> {
         Arc::new(Self {
             commands: Mutex::new(Commands { sender, sent: 0 }),
             config: Mutex::new(config),
             changes,
-            gate,
+            rig_inputs,
             gauges,
         })
     }
@@ -123,8 +123,8 @@ impl Control {
         let config = Arc::new(config);
         *self.config.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&config);
         refresh_ranges(store, &config);
-        self.gate
-            .door
+        self.rig_inputs
+            .conditioner
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .set_rules(config.inputs.rules());
@@ -170,7 +170,7 @@ impl Control {
     }
 
     async fn save_checkpoint(self: Arc<Self>) -> TriggerResponse {
-        if self.gauges.phase() == Phase::Starting {
+        if self.gauges.run_state() == RunState::Starting {
             return answer(Err(ControlError::Starting));
         }
         let saved = tokio::task::spawn_blocking(move || {

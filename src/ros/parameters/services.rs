@@ -76,9 +76,9 @@ impl Parameters {
         Ok(Arc::new(parameters))
     }
 
-    /// Looks at the values.
-    pub fn with<T>(&self, look: impl FnOnce(&ParameterStore) -> T) -> T {
-        look(&self.store.lock().unwrap_or_else(PoisonError::into_inner))
+    /// Reads the values.
+    pub fn with<T>(&self, read: impl FnOnce(&ParameterStore) -> T) -> T {
+        read(&self.store.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Sets all of `changes` or none, lets them act, publishes the event.

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::Solver;
+use super::RealTimeLoop;
 use crate::clock::Clock;
-use crate::link::{Command, Gauges, Phase, PublisherEnd, Report, Targets, link};
+use crate::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Targets, link};
 use flexdrill_core::dynamics::outcome::{FailureCause, StepFailure, StepOutcome};
 use flexdrill_core::dynamics::phases::PhaseTimes;
 use flexdrill_core::dynamics::scheme::Scheme;
@@ -98,7 +98,7 @@ impl Clock for ScriptedClock {
 
 /// 1 ms steps, 5 per period, every output due every 10 steps.
 struct Bench {
-    solver: Solver<ScriptedClock, ScriptedModel>,
+    solver: RealTimeLoop<ScriptedClock, ScriptedModel>,
     publisher: PublisherEnd,
     commands: rtrb::Producer<Command>,
     targets: Arc<Targets>,
@@ -144,7 +144,7 @@ impl Bench {
             },
             Schedule::new(1e-3, |_| 100.0),
         );
-        let solver = Solver::new(run, clock.clone(), end, 5);
+        let solver = RealTimeLoop::new(run, clock.clone(), end, 5);
         Self {
             solver,
             publisher,
@@ -161,7 +161,7 @@ impl Bench {
             .now
             .fetch_max(self.solver.pacer.deadline(), Ordering::Relaxed);
         self.clock.now.fetch_add(time, Ordering::Relaxed);
-        self.solver.turn();
+        self.solver.run_period();
     }
 
     fn speed(&self, rotary_speed: f64) {
@@ -177,14 +177,14 @@ impl Bench {
     /// What was reported since the last call, in short; frames are given back.
     fn reports(&mut self) -> Vec<String> {
         let mut told = Vec::new();
-        while let Ok(report) = self.publisher.reports.pop() {
+        while let Ok(report) = self.publisher.events.pop() {
             told.push(match report {
-                Report::Frame(frame) => {
+                LoopEvent::Frame(frame) => {
                     let text = format!("frame {} at {}", frame.snapshot.step, frame.ticks);
                     self.publisher.empty.push(frame).unwrap();
                     text
                 }
-                Report::Applied {
+                LoopEvent::Applied {
                     inputs:
                         RunInputs {
                             step,
@@ -200,8 +200,8 @@ impl Bench {
                     let reset = if reset { " reset" } else { "" };
                     format!("applied {} at {step} skipped {skipped}{reset}", inputs.rotary_speed)
                 }
-                Report::Failed(failure, ticks) => format!("failed at station {} tick {ticks}", failure.station),
-                Report::Recovered => "recovered".into(),
+                LoopEvent::Failed(failure, ticks) => format!("failed at station {} tick {ticks}", failure.station),
+                LoopEvent::Recovered => "recovered".into(),
             });
         }
         told
@@ -231,7 +231,7 @@ fn in_time_it_shows_what_is_due_and_tells_inputs_once() {
         bench.gauges.phase_times(),
         PhaseTimes::from_nanoseconds(|phase| 25 * (3 + phase as u64))
     );
-    assert_eq!(bench.gauges.phase(), Phase::Running);
+    assert_eq!(bench.gauges.run_state(), RunState::Running);
     assert_eq!(bench.gauges.steps_skipped.load(Ordering::Relaxed), 0);
 }
 
@@ -272,7 +272,7 @@ fn a_failed_step_freezes_the_outputs_until_the_inputs_change() {
         bench.reports(),
         ["applied 101 at 5 skipped 0", "failed at station 7 tick 5"]
     );
-    assert_eq!(bench.gauges.phase(), Phase::Failed);
+    assert_eq!(bench.gauges.run_state(), RunState::Failed);
     for _ in 0..10 {
         bench.period(0);
     }
@@ -292,7 +292,7 @@ fn a_failed_step_freezes_the_outputs_until_the_inputs_change() {
         bench.reports(),
         ["applied 2 at 5 skipped 60", "recovered", "frame 10 at 70"]
     );
-    assert_eq!(bench.gauges.phase(), Phase::Running);
+    assert_eq!(bench.gauges.run_state(), RunState::Running);
     assert_eq!(
         bench.gauges.steps_late.load(Ordering::Relaxed),
         0,
@@ -344,7 +344,7 @@ fn a_pause_stands_still_and_counts_as_skipped() {
     bench.speed(9.0);
     bench.period(0);
     assert!(bench.reports().is_empty());
-    assert_eq!(bench.gauges.phase(), Phase::Paused);
+    assert_eq!(bench.gauges.run_state(), RunState::Paused);
     bench.commands.push(Command::Pause(false)).unwrap();
     bench.period(0);
     assert_eq!(bench.reports(), ["applied 9 at 5 skipped 10", "frame 10 at 20"]);
@@ -385,8 +385,8 @@ fn the_loop_ends_when_told_and_follows_the_deadlines() {
     let thread = std::thread::spawn(move || solver.run());
     let mut frames = 0;
     while frames < 100 {
-        match publisher.reports.pop() {
-            Ok(Report::Frame(frame)) => {
+        match publisher.events.pop() {
+            Ok(LoopEvent::Frame(frame)) => {
                 frames += 1;
                 publisher.empty.push(frame).unwrap();
             }
