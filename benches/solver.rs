@@ -1,7 +1,8 @@
-//! One step and its parts, per size of the tool: `cargo bench --bench solver`. Figures and what they mean: `docs/solver.md`.
+//! One step and its parts, per size of the tool: `cargo bench --bench solver`. Figures and what they mean:
+//! `docs/solver.md`.
 //!
-//! The state is one of a tool in motion, with contacts and stops at work. Times are processor time of the thread, so that neighbours on the
-//! machine disturb them little.
+//! The state is one of a tool in motion, with contacts and stops at work. Times are processor time of the thread, so
+//! that neighbours on the machine disturb them little.
 
 #![allow(
     clippy::unwrap_used,

@@ -24,7 +24,8 @@
 //! ```
 //!
 //! # Layout
-//! - `recorder`: writing; `recording_thread`: the same behind a queue. `location`: where the files of a recording go. `metadata`: rosbag2's `metadata.yaml`.
+//! - `recorder`: writing; `recording_thread`: the same behind a queue. `location`: where the files of a recording go.
+//!   `metadata`: rosbag2's `metadata.yaml`.
 //! - `reader`: [`open`], all sources merged in time order. `mcap_file`, `sqlite`: one source each.
 //! - `recover`: reading and writing again.
 

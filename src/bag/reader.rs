@@ -130,8 +130,8 @@ struct Source {
 
 /// An open bag: an iterator over its messages in time order.
 ///
-/// A damaged part gives an error in its place, and the parts behind it follow. A file that was cut short gives everything
-/// up to the cut; [`Bag::cuts`] says so.
+/// A damaged part gives an error in its place, and the parts behind it follow. A file that was cut short gives
+/// everything up to the cut; [`Bag::cuts`] says so.
 pub struct Bag {
     sources: Vec<Source>,
     topics: Vec<Arc<Topic>>,

@@ -18,8 +18,8 @@ use crate::bag;
 
 /// Run a bag or a field log through the model as fast as it goes, into a bag.
 ///
-/// One of our recordings is replayed with its own configuration and applied inputs: the outputs are the same to the bit.
-/// From other bags and from field logs the inputs are taken.
+/// One of our recordings is replayed with its own configuration and applied inputs: the outputs are the same to the
+/// bit. From other bags and from field logs the inputs are taken.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
     /// Bag (MCAP, SQLite or their folder) or field log (CSV).

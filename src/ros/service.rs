@@ -29,8 +29,8 @@ const DEPTH: usize = 64;
 /// Longest wait for a new client's reply reader to be discovered.
 const CLIENT_WAIT: Duration = Duration::from_millis(500);
 
-/// Discovery knows a reader some time before our writer is matched with it, on another thread; nothing tells when. Paid once
-/// per client.
+/// Discovery knows a reader some time before our writer is matched with it, on another thread; nothing tells when. Paid
+/// once per client.
 const MATCH_WAIT: Duration = Duration::from_millis(100);
 
 /// Which form of services is served.

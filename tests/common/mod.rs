@@ -1,5 +1,5 @@
-//! Helpers of the tests that need more than this process: a network of their own, programs in it that end with the test,
-//! Python, and a DDS program of another vendor that does what it is asked.
+//! Helpers of the tests that need more than this process: a network of their own, programs in it that end with the
+//! test, Python, and a DDS program of another vendor that does what it is asked.
 
 #![allow(dead_code, reason = "each test file uses some of it")]
 #![allow(unused_imports, reason = "each test file uses some of it")]

@@ -58,7 +58,8 @@ impl Peer {
         answer["messages"].as_array().unwrap().clone()
     }
 
-    /// Receives on these topics for some seconds; per topic `[stamp, written, received]` of each message (ns since 1970).
+    /// Receives on these topics for some seconds; per topic `[stamp, written, received]` of each message (ns since
+    /// 1970).
     pub fn listen(&mut self, topics: &[&str], seconds: f64) -> Vec<Vec<[i64; 3]>> {
         let answer = self.command(json!({"do": "listen", "topics": topics, "seconds": seconds}));
         topics

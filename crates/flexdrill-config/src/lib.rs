@@ -22,6 +22,7 @@ mod pipe;
 mod place;
 pub mod reading;
 mod run;
+mod section;
 mod sized;
 mod solver;
 mod start;
@@ -373,7 +374,7 @@ impl Schema {
             "the guide lies in the hole",
         );
         c.below("contact", |c| self.contact.check(c));
-        c.below("environment", |c| self.environment.check(c));
+        c.below("environment", |c| self.environment.check_numbers(c));
         c.below("boundary", |c| self.boundary.check(c, &mesh));
         let guide_may_spin = self.well.is_straight() && !self.tool.guide.fixed && !self.boundary.holds_guide_spin();
         c.require(
@@ -396,7 +397,7 @@ impl Schema {
         });
         c.below("initial", |c| self.initial.check(c, self.start));
         c.below("solver", |c| self.solver.check(c));
-        c.below("inputs", |c| self.inputs.check(c));
+        c.below("inputs", |c| self.inputs.check_numbers(c));
         c.below("whirl", |c| self.whirl.check(c, &mesh));
         c.below("stick_slip", |c| self.stick_slip.check(c));
         c.below("shock", |c| self.shock.check(c));

@@ -170,7 +170,8 @@ impl Pipe {
             .collect()
     }
 
-    /// Contact diameter (m) at each of a link's stations: `contact_diameter`, or the thicker of the pieces that meet there.
+    /// Contact diameter (m) at each of a link's stations: `contact_diameter`, or the thicker of the pieces that meet
+    /// there.
     pub fn contact_diameters(&self, elements: usize) -> Vec<f64> {
         (0..=elements)
             .map(|station| {

@@ -3,8 +3,8 @@
 use super::error::ConfigError;
 use super::lines::Lines;
 
-/// Words the error of reading `text`, the content of the file `name`. `required` are the keys without a default, to name
-/// the one that is missing.
+/// Words the error of reading `text`, the content of the file `name`. `required` are the keys without a default, to
+/// name the one that is missing.
 pub fn syntax_error(
     name: &str,
     text: &str,

@@ -8,8 +8,8 @@ use flexdrill_core::dynamics::outcome::StepFailure;
 use flexdrill_core::twin::BuildError;
 use flexdrill_verify::VerifyError;
 
-/// Largest error of the energy audit, relative to the drive's work, with which figures are drawn. Healthy runs stay below 0.1 %; a
-/// chain that the integration feeds is far above 1 %.
+/// Largest error of the energy audit, relative to the drive's work, with which figures are drawn. Healthy runs stay
+/// below 0.1 %; a chain that the integration feeds is far above 1 %.
 pub const ENERGY_LIMIT: f64 = 0.01;
 
 /// Newton iterations per step from which a run of the search is given up: healthy ones take two to four.

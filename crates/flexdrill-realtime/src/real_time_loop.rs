@@ -1,5 +1,5 @@
-//! The solver's thread: steps the run in periods with absolute deadlines, takes inputs and commands between periods, and
-//! hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
+//! The solver's thread: steps the run in periods with absolute deadlines, takes inputs and commands between periods,
+//! and hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
 //!
 //! A period is a whole number of model steps. A little lateness is caught up; when the solver is late by more, whole
 //! periods are skipped and counted: model and clock stay together, and the model is never integrated with another step

@@ -1,5 +1,5 @@
-//! The closed-form verification cases of `flexdrill verify` and the tests: configurations in `config/verify/`, run by the
-//! same code as the node and compared with the closed forms. Also the [error of the time step](step_error).
+//! The closed-form verification cases of `flexdrill verify` and the tests: configurations in `config/verify/`, run by
+//! the same code as the node and compared with the closed forms. Also the [error of the time step](step_error).
 
 mod bench;
 mod contacts;

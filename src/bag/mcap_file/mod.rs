@@ -3,8 +3,8 @@
 //! The file is walked here rather than by the `mcap` crate, which parses single records only, because a cut or damaged
 //! file must give everything that is whole, in time order, with the place of what is not, and must never panic.
 //!
-//! [`records`] splits bytes into records; [`channels`] holds the topics; [`scan`] finds the chunks, topics and the end of what can be read; [`chunk`] unpacks one chunk; [`stream`] gives the
-//! messages in time order.
+//! [`records`] splits bytes into records; [`channels`] holds the topics; [`scan`] finds the chunks, topics and the end
+//! of what can be read; [`chunk`] unpacks one chunk; [`stream`] gives the messages in time order.
 
 mod channels;
 mod chunk;

@@ -10,7 +10,8 @@ pub(super) struct Case {
     pub(super) changes: fn(&Config) -> Result<Config, ConfigError>,
 }
 
-/// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the wall.
+/// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the
+/// wall.
 pub(super) const CASES: &[Case] = &[
     Case {
         name: "as it is, 10 kN",

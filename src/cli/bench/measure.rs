@@ -81,7 +81,8 @@ impl Measured {
         1e6 * self.processor / self.steps.max(1) as f64
     }
 
-    /// Mean per step of one phase (us): its share of the wall time, of the processor time. So neighbours on the machine do not count.
+    /// Mean per step of one phase (us): its share of the wall time, of the processor time. So neighbours on the machine
+    /// do not count.
     pub(super) fn phase(&self, phase: Phase) -> f64 {
         self.step_time() * self.phases.of(phase) as f64 / self.phases.total().max(1) as f64
     }

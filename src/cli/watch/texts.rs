@@ -151,7 +151,8 @@ pub(super) fn whirl_counts(whirl: &WhirlState) -> String {
     )
 }
 
-/// Difference to the rate of rolling without slip up to which backward whirl is shown as rolling, as by default in the twin.
+/// Difference to the rate of rolling without slip up to which backward whirl is shown as rolling, as by default in the
+/// twin.
 const ROLLS: f64 = 0.15;
 
 /// One row of the whirl table.

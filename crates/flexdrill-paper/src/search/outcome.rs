@@ -74,8 +74,8 @@ impl Outcome {
         }
     }
 
-    /// Mean closeness, as written in the table so that a search taken up goes on as it would have, and number of agreements; nothing
-    /// for a failed run.
+    /// Mean closeness, as written in the table so that a search taken up goes on as it would have, and number of
+    /// agreements; nothing for a failed run.
     pub fn score(&self) -> (f64, usize) {
         match self {
             Self::Ran { findings, .. } => {
