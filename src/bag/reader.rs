@@ -54,7 +54,7 @@ impl BagMessage {
 /// A file that ends before its own end mark.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cut {
-    /// Which.
+    /// File or folder that it is about.
     pub path: PathBuf,
     /// Where what can be read in whole records ends (bytes).
     pub offset: u64,

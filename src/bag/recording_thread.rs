@@ -46,7 +46,7 @@ impl RecordingHealth {
         self.failed.load(Ordering::Acquire)
     }
 
-    /// Why.
+    /// Why writing failed, for a person.
     pub fn error(&self) -> Option<String> {
         self.error.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

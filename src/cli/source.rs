@@ -17,7 +17,7 @@ use flexdrill_core::inputs::InputKind;
 pub(super) struct Sample {
     /// ns since 1970; of a field log, since its first row.
     pub(super) time: i64,
-    /// Which input.
+    /// The input that it belongs to.
     pub(super) kind: InputKind,
     /// In the unit of the input's topic: r/min or kN.
     pub(super) value: f64,

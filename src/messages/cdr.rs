@@ -51,7 +51,7 @@ pub enum CdrError {
     Encode {
         /// Type of the message.
         ros_type: &'static str,
-        /// Why.
+        /// The error behind it.
         source: cdr_encoding::Error,
     },
 }

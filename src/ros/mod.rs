@@ -69,7 +69,7 @@ pub enum NodeError {
     /// A checkpoint that cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]
     Checkpoint {
-        /// The file.
+        /// File or folder that it is about.
         path: std::path::PathBuf,
         /// What is wrong.
         why: String,

@@ -156,12 +156,8 @@ impl Config {
     /// # Errors
     /// When the file cannot be read, is not YAML of this schema, or does not make sense.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigError> {
-        let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Read {
-            path: path.to_path_buf(),
-            reason,
-        })?;
-        Self::from_text(&path.display().to_string(), &text)
+        let (name, text) = reading::read(path.as_ref())?;
+        Self::from_text(&name, &text)
     }
 
     /// Reads and checks a text; `name` stands for the file in errors.
@@ -169,10 +165,8 @@ impl Config {
     /// # Errors
     /// When the text is not YAML of this schema, or does not make sense.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
-        let lines = Lines::of(text);
-        let schema = serde_saphyr::from_str(text)
-            .map_err(|error| reading::syntax_error(name, text, &lines, REQUIRED, &error))?;
-        Self::checked(name, &lines, schema)
+        let schema = reading::checked(name, text, REQUIRED, Schema::check)?;
+        Ok(Self { schema })
     }
 
     /// Checks a schema built in code; `name` stands for the file in errors.
@@ -180,19 +174,10 @@ impl Config {
     /// # Errors
     /// When it does not make sense.
     pub fn from_schema(name: &str, schema: Schema) -> Result<Self, ConfigError> {
-        Self::checked(name, &Lines::default(), schema)
-    }
-
-    fn checked(name: &str, lines: &Lines, schema: Schema) -> Result<Self, ConfigError> {
-        let mut checker = Checker::new(name, lines);
+        let lines = Lines::default();
+        let mut checker = Checker::new(name, &lines);
         schema.check(&mut checker);
-        if checker.problems.is_empty() {
-            Ok(Self { schema })
-        } else {
-            Err(ConfigError::Invalid {
-                problems: checker.problems,
-            })
-        }
+        checker.finish().map(|()| Self { schema })
     }
 
     /// A copy with one value changed, checked as a whole. `key` is a dotted path (`contact.inner.friction_axial`) of a
@@ -373,7 +358,7 @@ impl Schema {
             format!("above the guide's outer diameter, {guide} m"),
             "the guide lies in the hole",
         );
-        c.below("contact", |c| self.contact.check(c));
+        c.below("contact", |c| self.contact.check_numbers(c));
         c.below("environment", |c| self.environment.check_numbers(c));
         c.below("boundary", |c| self.boundary.check(c, &mesh));
         let guide_may_spin = self.well.is_straight() && !self.tool.guide.fixed && !self.boundary.holds_guide_spin();

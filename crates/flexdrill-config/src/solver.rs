@@ -9,7 +9,7 @@ use flexdrill_core::dynamics::scheme::Scheme;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Given")]
 pub struct Solver {
-    /// s. Default 0.0005.
+    /// Time step (s). Default 0.0005.
     pub time_step: f64,
     /// Default `generalised_alpha`.
     pub scheme: TimeScheme,

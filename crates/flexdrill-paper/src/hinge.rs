@@ -9,7 +9,7 @@ use flexdrill_verify::{Bench, HingedBeam};
 pub struct Hinge {
     /// The beam.
     pub beam: HingedBeam,
-    /// s.
+    /// Time (s).
     pub time: Vec<f64>,
     /// Load (N): 1000 N/s, as the paper's.
     pub load: Vec<f64>,

@@ -51,7 +51,7 @@ impl Series {
 pub struct Stations {
     /// Measured depth (m).
     pub depth: Vec<f64>,
-    /// rad.
+    /// Inclination (rad).
     pub inclination: Vec<f64>,
     /// Whether a joint is here.
     pub joint: Vec<bool>,

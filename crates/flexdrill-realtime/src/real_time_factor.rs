@@ -11,7 +11,7 @@ const MARKS: usize = 64;
 /// Model time gained per wall time over a sliding window.
 #[derive(Debug, Clone)]
 pub struct RealTimeFactor {
-    /// ns.
+    /// Window (ns).
     window: u64,
     /// (wall ns, model s), a ring.
     marks: [(u64, f64); MARKS],

@@ -30,7 +30,7 @@ pub struct RealTimeLoop<C: Clock, M: Model = Simulation> {
     /// Stands in when no frame is free, so that the statistics end where they should.
     spare: Box<Frame>,
     pacer: Pacer,
-    /// ns.
+    /// Period (ns).
     period: u64,
     steps_per_period: u64,
     steps_taken: u64,

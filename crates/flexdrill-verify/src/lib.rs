@@ -104,15 +104,15 @@ pub enum VerifyError {
     /// Its tool cannot be built or started.
     #[error("verification case {case}: {source}")]
     Build {
-        /// Case.
+        /// Name of the verification case.
         case: &'static str,
-        /// Why.
+        /// The error behind it.
         source: BuildError,
     },
     /// A step failed.
     #[error("verification case {case}: step failed: {failure:?}")]
     Step {
-        /// Case.
+        /// Name of the verification case.
         case: &'static str,
         /// Why and where.
         failure: StepFailure,
@@ -120,9 +120,9 @@ pub enum VerifyError {
     /// Something that must happen in the case did not, so that there is nothing to compare.
     #[error("verification case {case}: {what} did not happen")]
     Missing {
-        /// Case.
+        /// Name of the verification case.
         case: &'static str,
-        /// What.
+        /// What is missing.
         what: &'static str,
     },
 }

@@ -5,7 +5,7 @@ use flexdrill_config::{Config, ConfigError};
 /// A tool and a load that the twin must keep pace with.
 pub(super) struct Case {
     pub(super) name: &'static str,
-    /// kN.
+    /// Weight on bit (kN).
     pub(super) wob: f64,
     pub(super) changes: fn(&Config) -> Result<Config, ConfigError>,
 }

@@ -22,9 +22,9 @@ const LONGEST: u64 = 60_000_000_000;
 /// What is run.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Load {
-    /// r/min.
+    /// Rotary speed (r/min).
     pub rpm: f64,
-    /// kN, on from the static start.
+    /// Weight on bit (kN), on from the static start.
     pub wob: f64,
     /// Vector instructions to use.
     pub instructions: Instructions,
@@ -35,7 +35,7 @@ pub(super) struct Measured {
     /// Of the static start (s).
     pub start: f64,
     pub unknowns: usize,
-    /// s.
+    /// Time step (s).
     pub time_step: f64,
     /// Steps asked for and taken.
     pub steps: u64,

@@ -26,7 +26,7 @@ pub enum ArgsError {
     /// A remapping rule that cannot be read.
     #[error("remapping rule '{rule}': {why}")]
     Rule {
-        /// As given.
+        /// Rule, as it was given.
         rule: String,
         /// What is wrong and what to do.
         why: String,
@@ -36,7 +36,7 @@ pub enum ArgsError {
     Name {
         /// Which kind of name.
         what: &'static str,
-        /// As given.
+        /// Name, as it was given.
         name: String,
         /// What is wrong.
         problem: NameProblem,
@@ -44,7 +44,7 @@ pub enum ArgsError {
     /// A parameter override that cannot be read.
     #[error("parameter '{parameter}': {why}")]
     Parameter {
-        /// As given.
+        /// Parameter and value, as they were given.
         parameter: String,
         /// What is wrong.
         why: String,
@@ -52,7 +52,7 @@ pub enum ArgsError {
     /// A parameter file that cannot be used.
     #[error("parameter file {path}: {why}", path = path.display())]
     File {
-        /// The file.
+        /// File or folder that it is about.
         path: PathBuf,
         /// What is wrong.
         why: String,

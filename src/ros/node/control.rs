@@ -56,7 +56,7 @@ pub enum ControlError {
     /// The file could not be written.
     #[error("{}: {source}", path.display())]
     Write {
-        /// Where.
+        /// File or folder that it is about.
         path: PathBuf,
         /// Why not.
         source: std::io::Error,

@@ -32,7 +32,7 @@ pub type Now = Arc<dyn Fn() -> f64 + Send + Sync>;
 /// A sample as received, for the recording.
 #[derive(Debug, Clone, Copy)]
 pub struct Received {
-    /// Which input.
+    /// The input that it belongs to.
     pub kind: InputKind,
     /// In the unit of the topic.
     pub value: f64,

@@ -16,7 +16,7 @@ pub enum OverrideError {
         "{origin}: there is no parameter '{name}'; the parameters are the keys of the configuration (`flexdrill check CONFIG --full`) and use_sim_time"
     )]
     Unknown {
-        /// Parameter.
+        /// Dotted name of the parameter.
         name: String,
         /// Where it was given.
         origin: String,
@@ -24,9 +24,9 @@ pub enum OverrideError {
     /// Wrong type.
     #[error("{origin}: '{name}' = {value}: {why}")]
     Value {
-        /// Parameter.
+        /// Dotted name of the parameter.
         name: String,
-        /// As given.
+        /// Value, as it was given.
         value: String,
         /// Where it was given.
         origin: String,

@@ -9,7 +9,7 @@ pub enum Refusal {
     /// No such parameter.
     #[error("there is no parameter '{name}'; {hint}")]
     Unknown {
-        /// As asked.
+        /// Name, as it was given.
         name: String,
         /// Names that are like it.
         hint: String,
@@ -17,7 +17,7 @@ pub enum Refusal {
     /// It only counts at the start.
     #[error("'{name}' cannot change while the twin runs: {why}")]
     ReadOnly {
-        /// Parameter.
+        /// Dotted name of the parameter.
         name: String,
         /// Why not, and how else.
         why: String,
@@ -25,21 +25,21 @@ pub enum Refusal {
     /// A value of another type than the parameter's.
     #[error("'{name}' is a {own:?}, not a {given:?} ({value})")]
     WrongType {
-        /// Parameter.
+        /// Dotted name of the parameter.
         name: String,
         /// Its type.
         own: ParameterType,
         /// Type of the value.
         given: ParameterType,
-        /// As given.
+        /// Value, as it was given.
         value: String,
     },
     /// NaN or infinite.
     #[error("'{name}' must be a finite number, not {value}")]
     NotFinite {
-        /// Parameter.
+        /// Dotted name of the parameter.
         name: String,
-        /// As given.
+        /// Value, as it was given.
         value: String,
     },
     /// The configuration does not make sense with it.

@@ -41,7 +41,7 @@ impl Motion {
 /// guide-wall.
 #[derive(Debug, Clone, Default)]
 pub struct Record {
-    /// rad/s.
+    /// Bit speed (rad/s).
     pub bit_speed: Vec<f64>,
     /// Both lateral coordinates of every joint (m).
     pub positions: Vec<Vec<f64>>,
