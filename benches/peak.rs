@@ -1,7 +1,13 @@
 //! The most floating-point operations that one core does per second, to hold the solver's figures against:
 //! `cargo bench --bench peak`.
 //!
-//! A loop of independent fused multiply-adds in registers, for every vector width that the processor has. Two operations each.
+//! A loop of independent fused multiply-adds in registers, for every vector width that the processor has. Two
+//! operations each.
+
+#![expect(
+    unsafe_code,
+    reason = "vector instructions, behind a check that the processor has them"
+)]
 
 use std::time::{Duration, Instant};
 

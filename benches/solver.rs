@@ -1,17 +1,21 @@
-//! One step and its parts, per size of the tool: `cargo bench --bench solver`. Figures and what they mean: `docs/solver.md`.
+//! One step and its phases, per size of the tool: `cargo bench --bench solver`. Figures and what they mean:
+//! `docs/solver.md`.
 //!
-//! The state is one of a tool in motion, with contacts and stops at work. Times are processor time of the thread, so that neighbours on the
-//! machine disturb them little.
+//! The state is one of a tool in motion, with contacts and stops at work. Times are processor time of the thread, so
+//! that neighbours on the machine disturb them little.
 
-use std::hint::black_box;
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
 
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
-use criterion::{BatchSize, Bencher, BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use flexdrill_config::Config;
-use flexdrill_core::dynamics::assembly::Assembler;
 use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::phases::Phase;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::linear::{BlockLu, CondensedElimination, CondensedSystem, LinearSolver};
 use flexdrill_core::twin::Simulation;
 use flexdrill_realtime::monotonic;
 
@@ -81,58 +85,22 @@ fn steps(c: &mut Criterion<ProcessorTime>) {
     }
 }
 
+/// The phases of a step, on the clock of the whole.
 fn parts(c: &mut Criterion<ProcessorTime>) {
     for links in LINKS {
-        let simulation = moving(links);
-        let stepper = simulation.stepper();
-        let (model, state) = (stepper.model(), stepper.state());
-        let conditions = stepper.conditions(simulation.time(), INPUTS.weight_on_bit);
-        let settings = simulation.settings();
-        let factors = settings.scheme.factors(settings.time_step);
-        let mut assembler = Assembler::new(model);
-        let mut bench = |part: &str, routine: &mut dyn FnMut(&mut Bencher<'_, ProcessorTime>)| {
-            c.bench_with_input(BenchmarkId::new(part, links), &(), |b, ()| routine(b));
-        };
-        bench("residual", &mut |b| {
-            b.iter(|| assembler.residual(model, black_box(state), &conditions));
-        });
-        bench("tangent", &mut |b| {
-            b.iter(|| assembler.tangent(model, black_box(state), &conditions, factors));
-        });
-        // What an iteration on condensed links needs of it.
-        bench("linearise", &mut |b| {
-            b.iter(|| assembler.linearise(model, black_box(state), factors));
-        });
-        // Once per step size.
-        let lasting = assembler.lasting(model, &conditions, factors);
-        bench("condense", &mut |b| {
-            b.iter_batched(
-                || lasting.clone(),
-                |lasting| CondensedSystem::of(lasting, &model.joint_stations),
-                BatchSize::SmallInput,
-            );
-        });
-        assembler.residual(model, state, &conditions);
-        assembler.drop_reactions(model);
-        assembler.tangent(model, state, &conditions, factors);
-        let rhs = assembler.residual.clone();
-        let mut stations = StationElimination::new(&model.layout);
-        bench("factor and solve, stations", &mut |b| {
-            b.iter_batched_ref(
-                || rhs.clone(),
-                |x| stations.solve(black_box(&assembler.system), x),
-                BatchSize::SmallInput,
-            );
-        });
-        let operator = CondensedSystem::of(lasting, &model.joint_stations).expect("joints that can be condensed");
-        let mut condensed = CondensedElimination::new(&model.layout, &model.joint_stations);
-        bench("factor and solve, condensed", &mut |b| {
-            b.iter_batched_ref(
-                || rhs.clone(),
-                |x| condensed.solve(black_box(&operator), &assembler.increment, x),
-                BatchSize::SmallInput,
-            );
-        });
+        let mut simulation = moving(links);
+        simulation.set_clock(monotonic::processor_time);
+        for phase in Phase::ALL {
+            c.bench_with_input(BenchmarkId::new(phase.name(), links), &phase, |b, &phase| {
+                b.iter_custom(|steps| {
+                    let before = simulation.phase_times();
+                    for _ in 0..steps {
+                        advance(&mut simulation);
+                    }
+                    simulation.phase_times().since(&before).of(phase)
+                });
+            });
+        }
     }
 }
 

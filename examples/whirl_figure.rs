@@ -1,4 +1,5 @@
-//! Draws the figure of `docs/whirl.md`: three orbits of the mechanics, each called by the analysis, and their full spectra.
+//! Draws the figure of `docs/whirl.md`: three orbits of the mechanics, each called by the analysis, and their full
+//! spectra.
 //!
 //!     cargo run --release --example whirl_figure -- docs/images/whirl.svg
 
@@ -11,6 +12,7 @@ use flexdrill_core::inputs::Inputs;
 use flexdrill_core::motion::WhirlKind;
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{Simulation, Snapshot};
+use flexdrill_core::units::{kn_to_n, rad_to_deg, rpm_to_rad_per_s};
 use flexdrill_paper::figures::{Figure, Line, Panel, svg};
 
 /// Time between two samples (s), as the analysis has by default.
@@ -111,8 +113,8 @@ fn run(case: &Case) -> anyhow::Result<Orbit> {
     let step = config.solver.time_step;
     let every = (SPACING / step).round() as usize;
     let inputs = Inputs {
-        rotary_speed: case.rpm * TAU / 60.0,
-        weight_on_bit: 1e3 * case.wob,
+        rotary_speed: rpm_to_rad_per_s(case.rpm),
+        weight_on_bit: kn_to_n(case.wob),
     };
     let mut snapshot = simulation.new_snapshot();
     let mut history: Vec<Vec<[f64; 2]>> = Vec::new();
@@ -139,7 +141,7 @@ fn run(case: &Case) -> anyhow::Result<Orbit> {
         .with_context(|| format!("no place is {:?} at the end of the run", case.kind))?;
     let station = whirl.station[entry];
     Ok(Orbit {
-        inclination: whirl.inclination[entry].to_degrees(),
+        inclination: rad_to_deg(whirl.inclination[entry]),
         ratio: whirl.whirl_ratio[entry],
         confidence: whirl.confidence[entry],
         clearance: simulation.stepper().model().stations[station].inner_clearance,
@@ -176,12 +178,13 @@ fn orbit_panel(case: &Case, orbit: &Orbit) -> Panel {
         .down()
 }
 
-/// Amplitude of the complex signal y + i z at forward (positive) and backward (negative) multiples of the rotary speed, with a Hann window.
+/// Amplitude of the complex signal y + i z at forward (positive) and backward (negative) multiples of the rotary speed,
+/// with a Hann window.
 fn spectrum_panel(case: &Case, orbit: &Orbit) -> Panel {
     let count = orbit.position.len();
     let mean = |axis: usize| orbit.position.iter().map(|p| p[axis]).sum::<f64>() / count as f64;
     let centre = [mean(0), mean(1)];
-    let speed = case.rpm * TAU / 60.0;
+    let speed = rpm_to_rad_per_s(case.rpm);
     let amplitude = |order: f64| {
         let (mut real, mut imaginary, mut weights) = (0.0, 0.0, 0.0);
         for (k, p) in orbit.position.iter().enumerate() {

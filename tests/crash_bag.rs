@@ -1,5 +1,11 @@
 //! A recording that was cut: by a lost tail, a killed process, a full disk. What was flushed can be read and recovered.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod bag_support;
 
 use std::io::{BufRead, BufReader};
@@ -124,6 +130,7 @@ fn child_whose_disk_is_full() {
         rlim_cur: 100_000,
         rlim_max: 100_000,
     };
+    #[expect(unsafe_code, reason = "the limit of a file's size stands for a full disk")]
     // SAFETY: plain system calls on this process alone, which ends with this test.
     unsafe {
         libc::signal(libc::SIGXFSZ, libc::SIG_IGN);

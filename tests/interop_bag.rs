@@ -1,7 +1,7 @@
 //! Our bags read by foreign programs, and theirs by us: the Python packages rosbags and mcap-ros2-support.
 
 mod bag_support;
-mod python_support;
+mod common;
 
 use bag_support::{PERIOD, START, recording};
 use flexdrill::bag;
@@ -13,7 +13,7 @@ fn interop_foreign_programs_read_our_recording() {
     let folder = tempfile::tempdir().unwrap();
     recording(folder.path(), "run", 1500);
     let bag = folder.path().join("run");
-    if let Some(printed) = python_support::run("bags.py", &["check", bag.to_str().unwrap()], "") {
+    if let Some(printed) = common::python::run("bags.py", &["check", bag.to_str().unwrap()], "") {
         assert_eq!(printed.trim(), "messages 1500");
     }
 }
@@ -26,7 +26,7 @@ fn interop_foreign_programs_read_what_we_recover() {
     std::fs::write(&path, &whole[..whole.len() * 2 / 3]).unwrap();
     let output = folder.path().join("recovered");
     let recovered = bag::recover(&path, &output).unwrap();
-    if let Some(printed) = python_support::run("bags.py", &["check", output.to_str().unwrap()], "") {
+    if let Some(printed) = common::python::run("bags.py", &["check", output.to_str().unwrap()], "") {
         assert_eq!(printed.trim(), format!("messages {}", recovered.recording.messages));
     }
 }
@@ -34,7 +34,7 @@ fn interop_foreign_programs_read_what_we_recover() {
 #[test]
 fn interop_we_read_foreign_recordings() {
     let folder = tempfile::tempdir().unwrap();
-    let Some(printed) = python_support::run("bags.py", &["write", folder.path().to_str().unwrap()], "") else {
+    let Some(printed) = common::python::run("bags.py", &["write", folder.path().to_str().unwrap()], "") else {
         return;
     };
     assert_eq!(printed.trim(), format!("hash {}", BitState::RIHS01));

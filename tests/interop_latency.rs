@@ -1,5 +1,5 @@
-//! How long a snapshot takes to a DDS program of another vendor (Cyclone DDS, Python). The figures depend on the machine:
-//! they are printed, not judged.
+//! How long a snapshot takes to a DDS program of another vendor (Cyclone DDS, Python). The figures depend on the
+//! machine: they are printed, not judged.
 //!
 //! `cargo test --release --test interop_latency -- --nocapture`
 
@@ -16,8 +16,8 @@ const TOPICS: [(&str, &str); 2] = [
 ];
 const SECONDS: f64 = 10.0;
 
-/// The node computes a period of its solver when the period begins, and what it publishes bears the instant of the period's
-/// end (ns): stamps are ahead of the clock by up to this.
+/// The node computes a period of its solver when the period begins, and what it publishes bears the instant of the
+/// period's end (ns): stamps are ahead of the clock by up to this.
 const PERIOD: i64 = 5_000_000;
 
 /// "p50, p99, max" of durations in ns, as ms.

@@ -1,6 +1,12 @@
 //! Hashes and bytes of all messages held against the Python package rosbags.
 
-mod python_support;
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+mod common;
 
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
@@ -140,7 +146,7 @@ fn interop_rosbags_agrees_on_hashes_and_bytes() {
             ..rcl_interfaces::ParameterEvent::default()
         }),
     ];
-    let Some(printed) = python_support::run("messages.py", &[], &lines.concat()) else {
+    let Some(printed) = common::python::run("messages.py", &[], &lines.concat()) else {
         return;
     };
     let answers: Vec<&str> = printed.lines().collect();

@@ -1,5 +1,11 @@
 //! The checked-in message types are what the definitions say, by our own account and by an independent one.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,11 @@
 //! The command line of `run`, `rig` and `replay`: exit codes and what is said.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod common;
 
 use std::process::{Command, Output};

@@ -1,7 +1,12 @@
 //! A live recording is finished on SIGTERM, foreign programs read it, and its replay gives the same bytes.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod common;
-mod python_support;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -35,7 +40,7 @@ fn messages(path: &Path) -> BTreeMap<String, Vec<Vec<u8>>> {
 /// rosbags and mcap-ros2-support read all of it, with the hashes of our types, and find the same values.
 fn foreign_programs_read(recording: &Path) {
     let folder = recording.parent().unwrap();
-    if let Some(printed) = python_support::run("bags.py", &["live", folder.to_str().unwrap()], "") {
+    if let Some(printed) = common::python::run("bags.py", &["live", folder.to_str().unwrap()], "") {
         let found: BTreeMap<String, usize> =
             bag::open(recording)
                 .unwrap()

@@ -1,5 +1,11 @@
-//! `flexdrill paper` on a small tool: every file is there and reads back, the same inputs give the same bytes, and what a short tool
-//! cannot agree with is said.
+//! `flexdrill paper` on a small tool: every file is there and reads back, the same inputs give the same bytes, and what
+//! a short tool cannot agree with is said.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
 
 use std::path::Path;
 use std::process::Command;
@@ -113,7 +119,8 @@ fn a_run_writes_all_figures_twice_alike() {
 fn a_run_that_feeds_itself_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    // A bit without torque takes nothing, so the drive's work is small, and a coarse step on stiff contacts is wrong by more than that.
+    // A bit without torque takes nothing, so the drive's work is small, and a coarse step on stiff contacts is wrong by
+    // more than that.
     let output = paper(
         &out,
         &[

@@ -1,5 +1,11 @@
 //! The findings of synthetic records with known answers, and that a report says "no" where it must.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::f64::consts::TAU;
 
 use flexdrill_paper::{
@@ -74,7 +80,8 @@ fn record(motion: &Motion) -> Record {
             acceleration_square: acceleration([1.0, 40.0, 30.0]),
         },
         guide: Axis {
-            // A smooth shape that whirls as the pipe does, and stands where the whirl turns over, or it would have a kink there.
+            // A smooth shape that whirls as the pipe does, and stands where the whirl turns over, or it would have a
+            // kink there.
             y: series(&|s, t| 1e-3 * (degrees(s).to_radians() * 4.0).sin() * phase(s, t).cos()),
             z: series(&|s, t| 1e-3 * (degrees(s).to_radians() * 4.0).sin() * phase(s, t).sin()),
             // Between -0.74 and 0.97 r/min once per turn.
@@ -105,7 +112,8 @@ fn pulse(station: usize, turns: f64, place: f64, part: f64, height: f64) -> f64 
 }
 
 fn zigzag(station: usize) -> f64 {
-    // Kinks at joints only: a broken line that moves most at 30 and at 75 degrees, and stands where the whirl turns over.
+    // Kinks at joints only: a broken line that moves most at 30 and at 75 degrees, and stands where the whirl turns
+    // over.
     let points = [1e-3, 3e-3, 6e-3, 0.0, 4e-3, 8e-3, 0.5e-3];
     let (link, part) = (station / 5, (station % 5) as f64 / 5.0);
     let next = points[(link + 1).min(points.len() - 1)];

@@ -1,5 +1,11 @@
 //! Whatever the bytes are, reading a bag ends in messages and errors, never in a panic.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod bag_support;
 
 use std::path::Path;

@@ -1,5 +1,11 @@
-//! The analysis on the real mechanics: a rotor that rolls in its clearance by physics, one that slides, and what doubtful
-//! inputs do to what is said of them.
+//! The analysis on the real mechanics: a rotor that rolls in its clearance by physics, one that slides, and what
+//! doubtful inputs do to what is said of them.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
 
 use flexdrill::messages::WhirlWarning;
 use flexdrill::messages::fill;
@@ -283,7 +289,8 @@ fn the_tool_whirls_forward_with_little_friction_and_backward_with_much() {
         ratios(&steady)
     );
     assert!(steady.len() >= 3, "{}", steady.len());
-    // It rolls, at -3.7 times its speed, and is thrown off the wall for parts of a turn, in which it does not go round its centre.
+    // It rolls, at -3.7 times its speed, and is thrown off the wall for parts of a turn, in which it does not go round
+    // its centre.
     assert!(
         steady
             .iter()

@@ -13,7 +13,7 @@ pub enum BagError {
     Io {
         /// What was tried, such as `write`.
         action: &'static str,
-        /// Where.
+        /// File or folder that it is about.
         path: PathBuf,
         /// Why not.
         source: io::Error,
@@ -21,7 +21,7 @@ pub enum BagError {
     /// A recording would overwrite a file.
     #[error("{path} exists already: recordings never overwrite; choose another name or remove it", path = path.display())]
     Exists {
-        /// Which.
+        /// File or folder that it is about.
         path: PathBuf,
     },
     /// Another recording in the same folder has its metadata.yaml there.
@@ -37,15 +37,15 @@ pub enum BagError {
     /// The recording stopped on an earlier error.
     #[error("the recording {path} has stopped on an earlier error; what was written before is kept", path = path.display())]
     Stopped {
-        /// Which.
+        /// File or folder that it is about.
         path: PathBuf,
     },
     /// The MCAP writer refused.
     #[error("cannot write {path}: {source}", path = path.display())]
     Write {
-        /// Which.
+        /// File or folder that it is about.
         path: PathBuf,
-        /// Why.
+        /// The error behind it.
         source: mcap::McapError,
     },
     /// A topic index that was not given when the recording was created.
@@ -61,7 +61,7 @@ pub enum BagError {
     /// Neither MCAP nor SQLite nor a folder with either.
     #[error("{path} is not a bag: {problem}", path = path.display())]
     NotABag {
-        /// Which.
+        /// File or folder that it is about.
         path: PathBuf,
         /// What it is instead.
         problem: String,
@@ -69,7 +69,7 @@ pub enum BagError {
     /// rosbag2's own compression of whole files or messages, and chunk compressions that we do not know.
     #[error("{path} is compressed as {compression:?}, which is not supported: {remedy}", path = path.display())]
     Compression {
-        /// Which.
+        /// File or folder that it is about.
         path: PathBuf,
         /// How.
         compression: String,
@@ -79,7 +79,7 @@ pub enum BagError {
     /// A metadata.yaml is not understood.
     #[error("{path}: {problem}", path = path.display())]
     Metadata {
-        /// Which.
+        /// File or folder that it is about.
         path: PathBuf,
         /// What is wrong.
         problem: String,
@@ -87,7 +87,7 @@ pub enum BagError {
     /// Part of a file is damaged; what follows may be whole.
     #[error("{path}, byte {offset}: {problem}", path = path.display())]
     Damaged {
-        /// Which.
+        /// File or folder that it is about.
         path: PathBuf,
         /// Where the damaged part begins.
         offset: u64,
@@ -97,9 +97,9 @@ pub enum BagError {
     /// SQLite refused.
     #[error("cannot read {path}: {source}", path = path.display())]
     Sqlite {
-        /// Which.
+        /// File or folder that it is about.
         path: PathBuf,
-        /// Why.
+        /// The error behind it.
         source: rusqlite::Error,
     },
     /// The bag has no such topic.
@@ -121,7 +121,7 @@ pub enum BagError {
     /// A message is of another type than expected.
     #[error("{topic} carries {found}, expected {expected}")]
     WrongType {
-        /// Name.
+        /// Absolute name of the topic.
         topic: String,
         /// Type in the bag.
         found: String,
@@ -131,11 +131,11 @@ pub enum BagError {
     /// A message's bytes do not fit its type.
     #[error("{topic} at {log_time} ns: {source}")]
     Decode {
-        /// Name.
+        /// Absolute name of the topic.
         topic: String,
         /// Log time of the message.
         log_time: i64,
-        /// Why.
+        /// The error behind it.
         source: CdrError,
     },
 }

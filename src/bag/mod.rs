@@ -24,7 +24,8 @@
 //! ```
 //!
 //! # Layout
-//! - `recorder`: writing. `location`: where the files of a recording go. `metadata`: rosbag2's `metadata.yaml`.
+//! - `recorder`: writing; `recording_thread`: the same behind a queue. `location`: where the files of a recording go.
+//!   `metadata`: rosbag2's `metadata.yaml`.
 //! - `reader`: [`open`], all sources merged in time order. `mcap_file`, `sqlite`: one source each.
 //! - `recover`: reading and writing again.
 
@@ -33,8 +34,10 @@ mod location;
 mod mcap_file;
 mod metadata;
 mod qos;
+mod raw;
 mod reader;
 mod recorder;
+mod recording_thread;
 mod recover;
 mod sqlite;
 mod topic;
@@ -42,5 +45,6 @@ mod topic;
 pub use error::BagError;
 pub use reader::{Bag, BagMessage, Cut, open};
 pub use recorder::{Recorder, Recording};
+pub use recording_thread::{RecordingHealth, RecordingThread};
 pub use recover::{Recovered, recover, recover_with};
 pub use topic::Topic;

@@ -1,13 +1,13 @@
 //! Reading bags of any kind, all their files merged in time order.
 
-use std::cmp::Ordering;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::location::METADATA;
-use super::mcap_file::{MAGIC, McapStream};
+use super::mcap_file::McapStream;
+use super::raw::RawMessage;
 use super::sqlite::SqliteStream;
 use super::{BagError, Topic, metadata};
 use crate::messages::{Message, from_cdr};
@@ -24,7 +24,7 @@ pub struct BagMessage {
     pub topic_index: usize,
     /// When it was recorded (ns since the clock's epoch).
     pub log_time: i64,
-    /// When it was published (ns since the clock's epoch); SQLite bags do not tell, there it is the log time.
+    /// When it was published (ns since the clock's epoch); SQLite bags do not say it, there it is the log time.
     pub publish_time: i64,
     /// CDR with its header.
     pub data: Vec<u8>,
@@ -54,35 +54,12 @@ impl BagMessage {
 /// A file that ends before its own end mark.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cut {
-    /// Which.
+    /// File or folder that it is about.
     pub path: PathBuf,
     /// Where what can be read in whole records ends (bytes).
     pub offset: u64,
     /// Why, for a person.
     pub reason: String,
-}
-
-/// A message within one file; `topic` counts in that file.
-#[derive(Debug, PartialEq, Eq)]
-pub(super) struct RawMessage {
-    pub log_time: i64,
-    /// Settles which of equal times comes first.
-    pub order: u64,
-    pub publish_time: i64,
-    pub topic: usize,
-    pub data: Vec<u8>,
-}
-
-impl Ord for RawMessage {
-    fn cmp(&self, other: &Self) -> Ordering {
-        (self.log_time, self.order).cmp(&(other.log_time, other.order))
-    }
-}
-
-impl PartialOrd for RawMessage {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
 }
 
 enum Stream {
@@ -96,7 +73,7 @@ impl Stream {
         File::open(path)
             .and_then(|file| file.take(16).read_to_end(&mut magic))
             .map_err(BagError::io("open", path))?;
-        if magic.starts_with(&MAGIC) {
+        if magic.starts_with(mcap::MAGIC) {
             Ok(Self::Mcap(Box::new(McapStream::open(path)?)))
         } else if magic == SQLITE_MAGIC {
             Ok(Self::Sqlite(Box::new(SqliteStream::open(path)?)))
@@ -153,8 +130,8 @@ struct Source {
 
 /// An open bag: an iterator over its messages in time order.
 ///
-/// A damaged part gives an error in its place, and the parts behind it follow. A file that was cut short gives everything
-/// up to the cut; [`Bag::cuts`] says so.
+/// A damaged part gives an error in its place, and the parts behind it follow. A file that was cut short gives
+/// everything up to the cut; [`Bag::cuts`] says so.
 pub struct Bag {
     sources: Vec<Source>,
     topics: Vec<Arc<Topic>>,
@@ -258,12 +235,12 @@ impl Bag {
         }
     }
 
-    /// Number of messages of all topics, where every file tells it; for progress bars.
+    /// Number of messages of all topics, where every file says it; for progress bars.
     pub fn message_count(&self) -> Option<u64> {
         self.sources.iter().map(|source| source.stream.messages()).sum()
     }
 
-    /// First and last log time (ns), as the files tell.
+    /// First and last log time (ns), as the files say.
     pub fn bounds(&self) -> Option<(i64, i64)> {
         self.sources
             .iter()

@@ -175,8 +175,8 @@ impl Recorder {
         Ok(())
     }
 
-    /// Brings what was recorded into the file, and to the disk when the last time was a second ago or more. To be called
-    /// when no message may come for a while; [`Recorder::record`] does it by itself.
+    /// Brings what was recorded into the file, and to the disk when the last time was a second ago or more. To be
+    /// called when no message may come for a while; [`Recorder::record`] does it by itself.
     ///
     /// # Errors
     /// When writing fails.

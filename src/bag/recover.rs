@@ -25,7 +25,7 @@ pub fn recover(input: &Path, output: &Path) -> Result<Recovered, BagError> {
     recover_with(input, output, |_, _| {})
 }
 
-/// Like [`recover`]; `progress` is told the number of messages done and, where known, of all.
+/// Like [`recover`]; `progress` gets the number of messages done and, where known, of all.
 ///
 /// # Errors
 /// As [`recover`].

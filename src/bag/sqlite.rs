@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use rusqlite::{Connection, OpenFlags, OptionalExtension, Row, params};
 
-use super::reader::RawMessage;
+use super::raw::RawMessage;
 use super::{BagError, Topic, qos};
 use crate::messages::find_type;
 

@@ -17,7 +17,6 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use self::replay::TimedInput;
 use crate::ros::args;
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.

@@ -105,7 +105,7 @@ fn case(args: &PaperArgs) -> anyhow::Result<Case> {
         let value = whole.or_else(|_| number()).unwrap_or_else(|_| value.into());
         values.push((key, value));
     }
-    let mut case = Case::new(config.with_values(values)?);
+    let mut case = Case::new(config.with_values("parameter", values)?);
     case.rotary_speed_rpm = args.rpm.unwrap_or(case.rotary_speed_rpm);
     case.weight_on_bit_kn = args.wob.unwrap_or(case.weight_on_bit_kn);
     case.turns = args.turns;

@@ -14,7 +14,7 @@ pub(super) struct Progress {
     end: f64,
     counted: bool,
     began: Instant,
-    told: Instant,
+    printed: Instant,
 }
 
 impl Progress {
@@ -34,7 +34,7 @@ impl Progress {
             end,
             counted: false,
             began: now,
-            told: now,
+            printed: now,
         }
     }
 
@@ -62,8 +62,8 @@ impl Progress {
         if let Some(bar) = &self.bar {
             bar.set_position((time * 1e3) as u64);
             bar.set_message(format!("{time:.1} of {:.1} s, {speed:.2} x real time", self.end));
-        } else if self.told.elapsed() >= LINE_EVERY {
-            self.told = Instant::now();
+        } else if self.printed.elapsed() >= LINE_EVERY {
+            self.printed = Instant::now();
             eprintln!("{time:.1} of {:.1} s of model time, {speed:.2} x real time", self.end);
         }
     }

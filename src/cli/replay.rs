@@ -16,12 +16,10 @@ use super::run::load_config;
 use super::{WrongUse, source};
 use crate::bag;
 
-pub(crate) use inputs::TimedInput;
-
 /// Run a bag or a field log through the model as fast as it goes, into a bag.
 ///
-/// One of our recordings is replayed with its own configuration and applied inputs: the outputs are the same to the bit.
-/// From other bags and from field logs the inputs are taken.
+/// One of our recordings is replayed with its own configuration and applied inputs: the outputs are the same to the
+/// bit. From other bags and from field logs the inputs are taken.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
     /// Bag (MCAP, SQLite or their folder) or field log (CSV).
@@ -63,7 +61,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
 fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow::Result<()> {
     progress.done();
     let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);
-    let joints = incidents::joints_of(&player);
+    let joints = incidents::Joints(player.joint_stations().to_vec());
     let (recording, mut tally) = player.finish()?;
     println!("wrote {} messages to {}", recording.messages, recording.path.display());
     tally.print(wall, time_step);

@@ -5,15 +5,16 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::{TimedInput, WrongUse, signals, source};
+use super::source::{self, Sample};
+use super::{WrongUse, signals};
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
 use crate::ros::network::Network;
 use crate::ros::rig_node::{RIG_NODE_NAME, RigNode};
 use flexdrill_core::inputs::InputKind;
 
-/// Time between two lines.
-const TELL: Duration = Duration::from_secs(5);
+/// Time between two lines of progress.
+const REPORT_INTERVAL: Duration = Duration::from_secs(5);
 /// A sample is never followed by the next within less than this: what is overdue is left out, not sent in a burst.
 const LEAST_GAP: Duration = Duration::from_millis(2);
 /// Time for discovery before the first sample.
@@ -87,7 +88,7 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
-async fn play(node: &RigNode, samples: &[TimedInput], rate: f64, again: bool) {
+async fn play(node: &RigNode, samples: &[Sample], rate: f64, again: bool) {
     tokio::time::sleep(DISCOVERY).await;
     loop {
         play_once(node, samples, rate).await;
@@ -98,13 +99,13 @@ async fn play(node: &RigNode, samples: &[TimedInput], rate: f64, again: bool) {
     }
 }
 
-async fn play_once(node: &RigNode, samples: &[TimedInput], rate: f64) {
+async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
     let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
         return;
     };
-    let at = |sample: &TimedInput| (sample.time - first.time) as f64 * 1e-9;
+    let at = |sample: &Sample| sample.since(first);
     let began = Instant::now();
-    let mut told = began;
+    let mut reported = began;
     let mut newest: [Option<f64>; 2] = [None; 2];
     let (mut next, mut sent, mut left_out) = (0, 0_u64, 0_u64);
     while let Some(sample) = samples.get(next) {
@@ -123,8 +124,8 @@ async fn play_once(node: &RigNode, samples: &[TimedInput], rate: f64) {
                 newest[kind.index()] = Some(value);
             }
         }
-        if told.elapsed() >= TELL {
-            told = Instant::now();
+        if reported.elapsed() >= REPORT_INTERVAL {
+            reported = Instant::now();
             let show = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}"));
             let late = if left_out > 0 {
                 format!(", {left_out} left out because others came at the same time")

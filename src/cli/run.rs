@@ -10,7 +10,7 @@ use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
 use crate::ros::network::{Network, Reach};
 use crate::ros::node::{self, NodeSetup, RunSummary};
-use crate::ros::parameters::configured;
+use crate::ros::parameters;
 use crate::ros::service::ServiceMapping;
 use crate::ros::{DEFAULT_NODE_NAME, logging};
 use flexdrill_config::Config;
@@ -62,7 +62,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .remapping
         .identity(&args.namespace, DEFAULT_NODE_NAME)
         .map_err(WrongUse::new)?;
-    let started = configured::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
+    let started = parameters::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
     let setup = NodeSetup {
         config: started.config,

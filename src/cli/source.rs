@@ -5,12 +5,30 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 
-use super::{TimedInput, WrongUse};
+use super::WrongUse;
 use crate::bag::{self, BagError};
 use crate::field_log::{self, Mapping, Position};
 use crate::messages::Message;
 use crate::messages::std_msgs::Float64;
 use flexdrill_core::inputs::InputKind;
+
+/// A sample at an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sample {
+    /// ns since 1970; of a field log, since its first row.
+    pub(super) time: i64,
+    /// The input that it belongs to.
+    pub(super) kind: InputKind,
+    /// In the unit of the input's topic: r/min or kN.
+    pub(super) value: f64,
+}
+
+impl Sample {
+    /// Time since another sample (s).
+    pub(super) fn since(&self, first: &Self) -> f64 {
+        (self.time - first.time) as f64 * 1e-9
+    }
+}
 
 /// Which part of a source is used, and how its columns are read.
 #[derive(Debug, Args)]
@@ -44,11 +62,11 @@ impl SourceArgs {
         self.mapping.is_some() || self.from.is_some() || self.to.is_some()
     }
 
-    /// The samples in the order of their times. What is wrong in a field log is told on standard error.
+    /// The samples in the order of their times. What is wrong in a field log is reported on standard error.
     ///
     /// # Errors
     /// When the source cannot be read or holds none.
-    pub(super) fn read(&self, path: &Path) -> anyhow::Result<Vec<TimedInput>> {
+    pub(super) fn read(&self, path: &Path) -> anyhow::Result<Vec<Sample>> {
         let mut samples = if is_bag(path)? {
             self.part_of_bag(path, from_bag(path)?)?
         } else {
@@ -63,17 +81,17 @@ impl SourceArgs {
     }
 
     /// Those between --from and --to.
-    fn part_of_bag(&self, path: &Path, mut samples: Vec<TimedInput>) -> anyhow::Result<Vec<TimedInput>> {
+    fn part_of_bag(&self, path: &Path, mut samples: Vec<Sample>) -> anyhow::Result<Vec<Sample>> {
         let seconds_of = |place: Option<Position>, default: f64| match place {
             None => Ok(default),
             Some(Position::Time(seconds)) => Ok(seconds),
             Some(Position::Row(row)) => Err(WrongUse::new(format!("row:{row}: a bag has no rows; give seconds"))),
         };
         let (from, to) = (seconds_of(self.from, 0.0)?, seconds_of(self.to, f64::INFINITY)?);
-        let Some(first) = samples.iter().map(|sample| sample.time).min() else {
+        let Some(first) = samples.iter().min_by_key(|sample| sample.time).copied() else {
             return Ok(samples);
         };
-        let seconds = |sample: &TimedInput| (sample.time - first) as f64 * 1e-9;
+        let seconds = |sample: &Sample| sample.since(&first);
         let all = samples.iter().map(seconds).fold(0.0, f64::max);
         samples.retain(|sample| (from..=to).contains(&seconds(sample)));
         if samples.is_empty() {
@@ -85,7 +103,7 @@ impl SourceArgs {
         Ok(samples)
     }
 
-    fn log_samples(&self, path: &Path) -> anyhow::Result<Vec<TimedInput>> {
+    fn log_samples(&self, path: &Path) -> anyhow::Result<Vec<Sample>> {
         let mapping_file = match &self.mapping {
             Some(file) => file.clone(),
             None => mapping_beside(path)?,
@@ -97,7 +115,7 @@ impl SourceArgs {
         };
         let (sequence, report) = field_log::read_range(path, &mapping, &range)?;
         eprint!("{report}");
-        let samples = sequence.inputs.iter().map(|input| TimedInput {
+        let samples = sequence.inputs.iter().map(|input| Sample {
             // Times of a log begin at 0 and are at most some years.
             time: (input.time * 1e9).round() as i64,
             kind: input.kind,
@@ -135,7 +153,7 @@ fn mapping_beside(log: &Path) -> anyhow::Result<PathBuf> {
     }
 }
 
-fn from_bag(path: &Path) -> anyhow::Result<Vec<TimedInput>> {
+fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
     let mut bag = bag::open(path)?;
     let names: Vec<String> = InputKind::ALL
         .iter()
@@ -151,7 +169,7 @@ fn from_bag(path: &Path) -> anyhow::Result<Vec<TimedInput>> {
         } else {
             InputKind::WeightOnBit
         };
-        samples.push(TimedInput {
+        samples.push(Sample {
             time: message.log_time,
             kind,
             value: message.decode::<Float64>()?.data,

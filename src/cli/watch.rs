@@ -5,21 +5,21 @@ mod feed;
 mod plain;
 mod profile;
 mod screen;
-mod words;
+mod texts;
 
 use std::io::IsTerminal;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail};
 use clap::Args;
 
+use super::signals;
 use crate::ros::network::Network;
 use board::Board;
 use feed::Feed;
 
-/// Time between two looks at the network and the keyboard.
+/// How often the network and the keyboard are polled.
 const POLL: Duration = Duration::from_millis(50);
 /// Time between two pictures.
 const FRAME: Duration = Duration::from_millis(100);
@@ -49,10 +49,14 @@ pub(super) struct WatchArgs {
     duration: Option<f64>,
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+#[derive(Debug, thiserror::Error)]
+#[error("use a number of seconds above 0")]
+struct NotSeconds;
+
+fn seconds(text: &str) -> Result<f64, NotSeconds> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value <= 1e7 => Ok(value),
-        _ => Err("use a number of seconds above 0".to_owned()),
+        _ => Err(NotSeconds),
     }
 }
 
@@ -60,7 +64,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// When DDS does not start, the terminal cannot be used, or no twin was heard in the given time.
 pub(super) fn run(args: &WatchArgs) -> anyhow::Result<()> {
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok())?;
-    let stop = stop_on_signals()?;
+    let stop = signals::stop_flag()?;
     let mut feed = Feed::new(&network, &args.namespace)?;
     let mut board = Board::new(Instant::now());
     let deadline = args.duration.map(Duration::from_secs_f64);
@@ -146,24 +150,4 @@ fn show_screen(
         }
     }
     Ok(())
-}
-
-/// Set by SIGINT, SIGTERM or SIGHUP, so that the terminal is always given back as it was.
-fn stop_on_signals() -> anyhow::Result<Arc<AtomicBool>> {
-    use tokio::signal::unix::{SignalKind, signal};
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-    let mut streams = {
-        let _entered = runtime.enter();
-        [SignalKind::interrupt(), SignalKind::terminate(), SignalKind::hangup()].map(signal)
-    };
-    std::thread::spawn(move || {
-        runtime.block_on(async {
-            let waits = streams.iter_mut().flatten().map(|stream| Box::pin(stream.recv()));
-            futures::future::select_all(waits).await;
-            flag.store(true, Ordering::Relaxed);
-        });
-    });
-    Ok(stop)
 }

@@ -13,7 +13,7 @@ pub enum FieldLogError {
     /// The log could not be opened or read.
     #[error("{}: cannot be read: {reason}", path.display())]
     Read {
-        /// As given.
+        /// File or folder that it is about.
         path: PathBuf,
         /// The system's reason.
         reason: String,
@@ -45,15 +45,15 @@ pub enum FieldLogError {
     EmptyRange {
         /// Name of the log.
         file: String,
-        /// As asked.
+        /// Begin, as it was asked for.
         from: String,
-        /// As asked.
+        /// End, as it was asked for.
         to: String,
         /// First row with a time.
         first_row: u64,
         /// Last row with a time.
         last_row: u64,
-        /// s.
+        /// Length (s).
         length: f64,
     },
     /// A place in a log could not be understood.
@@ -61,7 +61,7 @@ pub enum FieldLogError {
         "`{text}` is not a place in a log: write seconds since the log's first row (90) or a row as an editor numbers it (row:6345)"
     )]
     Position {
-        /// As given.
+        /// Text, as it was given.
         text: String,
     },
 }

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use super::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
-use flexdrill_config::lines::Lines;
 use flexdrill_config::reading;
 use flexdrill_core::units::{klbf_to_kn, n_to_kn, rad_per_s_to_rpm};
 
@@ -165,7 +164,7 @@ pub struct Hookload {
     /// Faster than this counts as rotating. Default 10.
     #[serde(default = "ten")]
     pub rotating_above_rpm: f64,
-    /// s. Default 30.
+    /// Tare window (s). Default 30.
     #[serde(default = "thirty")]
     pub tare_window: f64,
     /// A stretch with fewer rows gives no tare. Default 20.
@@ -244,12 +243,8 @@ impl Mapping {
     /// # Errors
     /// When the file cannot be read, is not YAML of this schema, or does not make sense.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigError> {
-        let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Read {
-            path: path.to_path_buf(),
-            reason,
-        })?;
-        Self::from_text(&path.display().to_string(), &text)
+        let (name, text) = reading::read(path.as_ref())?;
+        Self::from_text(&name, &text)
     }
 
     /// Reads and checks a text; `name` stands for the file in errors.
@@ -257,18 +252,7 @@ impl Mapping {
     /// # Errors
     /// When the text is not YAML of this schema, or does not make sense.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
-        let lines = Lines::of(text);
-        let mapping: Self = serde_saphyr::from_str(text)
-            .map_err(|error| reading::syntax_error(name, text, &lines, REQUIRED, &error))?;
-        let mut checker = Checker::new(name, &lines);
-        mapping.check(&mut checker);
-        if checker.problems.is_empty() {
-            Ok(mapping)
-        } else {
-            Err(ConfigError::Invalid {
-                problems: checker.problems,
-            })
-        }
+        reading::checked(name, text, REQUIRED, Self::check)
     }
 
     /// Factor that the log's weight on bit is multiplied by.

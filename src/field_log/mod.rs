@@ -1,8 +1,9 @@
 //! Field logs: a CSV file with a mapping file gives the same timed inputs as the topics do, and a report of everything
 //! in the log that is not as it should be.
 //!
-//! Nothing is guessed silently: what is missing is not filled in but left out, so that the door sees the input age as it
-//! would on the rig, and the report names the rows. Rows are numbered as an editor shows them: the header is row 1.
+//! Nothing is guessed silently: what is missing is not filled in but left out, so that the conditioner sees the input
+//! age as it would on the rig, and the report names the rows. Rows are numbered as an editor shows them: the header is
+//! row 1.
 
 mod condition;
 mod error;

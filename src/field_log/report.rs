@@ -76,7 +76,7 @@ impl IssueKind {
 /// Something found in one row or in successive rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Issue {
-    /// What.
+    /// What is wrong with it.
     pub kind: IssueKind,
     /// In which column; empty if the whole row.
     pub column: String,
@@ -106,7 +106,7 @@ pub struct Tare {
 /// The samples of one input, in the unit of its topic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// Which input.
+    /// The input that it belongs to.
     pub kind: InputKind,
     /// How many samples.
     pub samples: u64,
@@ -145,7 +145,7 @@ pub struct Report {
     pub last_row: u64,
     /// Rows with a usable time.
     pub rows: u64,
-    /// s.
+    /// Duration (s).
     pub duration: f64,
     /// Per input, in the order of [`InputKind::ALL`].
     pub inputs: [Summary; 2],

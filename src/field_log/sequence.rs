@@ -7,7 +7,7 @@ use flexdrill_core::inputs::InputKind;
 pub struct TimedInput {
     /// Since the first row of the range that was read (s).
     pub time: f64,
-    /// Which input.
+    /// The input that it belongs to.
     pub kind: InputKind,
     /// r/min or kN, in the unit of the input's topic.
     pub value: f64,

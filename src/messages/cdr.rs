@@ -1,13 +1,15 @@
 //! CDR, the bytes of a message on the wire and in bags: a header of 4 bytes that tells the byte order, then the fields.
 
 use byteorder::{BigEndian, LittleEndian};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::Message;
 
 /// Header of plain little-endian CDR.
 const LITTLE_ENDIAN: [u8; 4] = [0, 1, 0, 0];
-/// Most bytes of padding behind a message: up to the next multiple of four.
-const MOST_PADDING: usize = 3;
+/// Most bytes of padding behind a body: up to the next multiple of four.
+pub const MOST_PADDING: usize = 3;
 
 /// Why bytes are not a message, or a message could not be made into bytes.
 #[derive(Debug, thiserror::Error)]
@@ -49,7 +51,7 @@ pub enum CdrError {
     Encode {
         /// Type of the message.
         ros_type: &'static str,
-        /// Why.
+        /// The error behind it.
         source: cdr_encoding::Error,
     },
 }
@@ -78,6 +80,22 @@ pub fn to_cdr_into<M: Message>(message: &M, bytes: &mut Vec<u8>) -> Result<(), C
     })
 }
 
+/// The body of a message or service, little endian, without header: DDS writes that itself.
+///
+/// # Errors
+/// When a string or sequence is longer than CDR can say (2^32 elements).
+pub fn to_cdr_body<T: Serialize>(message: &T) -> Result<Vec<u8>, cdr_encoding::Error> {
+    cdr_encoding::to_vec::<T, LittleEndian>(message)
+}
+
+/// What a little-endian body says, and how many bytes it took.
+///
+/// # Errors
+/// When the bytes are too short or do not fit the type.
+pub fn from_cdr_body<T: DeserializeOwned>(body: &[u8]) -> Result<(T, usize), cdr_encoding::Error> {
+    cdr_encoding::from_bytes::<T, LittleEndian>(body)
+}
+
 /// The message in CDR bytes with their header, of either byte order.
 ///
 /// # Errors
@@ -92,7 +110,7 @@ pub fn from_cdr<M: Message>(bytes: &[u8]) -> Result<M, CdrError> {
     };
     let decoded = match [header[0], header[1]] {
         [0, 0] => cdr_encoding::from_bytes::<M, BigEndian>(body),
-        [0, 1] => cdr_encoding::from_bytes::<M, LittleEndian>(body),
+        [0, 1] => from_cdr_body(body),
         other => {
             return Err(CdrError::UnknownEncoding {
                 ros_type,

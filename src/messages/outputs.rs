@@ -226,7 +226,7 @@ impl Outputs {
     }
 }
 
-/// The drive of a run as a recorded message tells it; what it leaves to the configuration is taken from `config`, in
+/// The drive of a run as a recorded message has it; what it leaves to the configuration is taken from `config`, in
 /// which its parameters must already be set.
 pub fn run_inputs(message: &AppliedInputs, config: &Config) -> RunInputs {
     RunInputs {

@@ -17,7 +17,7 @@ use tracing_subscriber::{EnvFilter, fmt};
 use super::NodeError;
 use super::args::RosArgs;
 use super::publisher::{Offer, TopicPublisher};
-use super::raw::encode;
+use crate::messages::to_cdr_body;
 
 /// RustDDS warns of every datagram above 1500 bytes and of peers that go; ros2-client of every plain DDS client.
 const LIBRARIES: &str = "rustdds=error,ros2_client=error,mio=error";
@@ -106,7 +106,7 @@ impl<S: Subscriber> Layer<S> for RosoutLayer {
             function: metadata.target().to_owned(),
             line: metadata.line().unwrap_or_default(),
         };
-        if let Ok(body) = encode(&line) {
+        if let Ok(body) = to_cdr_body(&line) {
             publisher.publish(&body);
         }
     }

@@ -1,7 +1,6 @@
 //! The ROS 2 node.
 
 pub mod args;
-pub mod health;
 pub mod logging;
 pub mod network;
 pub mod node;
@@ -70,7 +69,7 @@ pub enum NodeError {
     /// A checkpoint that cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]
     Checkpoint {
-        /// The file.
+        /// File or folder that it is about.
         path: std::path::PathBuf,
         /// What is wrong.
         why: String,

@@ -34,7 +34,7 @@ pub enum NetworkError {
     Domain {
         /// Option or variable.
         origin: &'static str,
-        /// As given.
+        /// Value, as it was given.
         value: String,
     },
     /// Not a word that ROS 2 knows.

@@ -25,7 +25,7 @@ pub struct Offer {
     pub reliable: bool,
     /// Keep the last sample for those who come later.
     pub latched: bool,
-    /// History depth as told to readers.
+    /// History depth as announced to readers.
     pub depth: i32,
     /// Highest rate of publication (Hz), for the size of the history.
     pub rate: f64,

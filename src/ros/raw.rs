@@ -52,33 +52,18 @@ impl<'de> Deserialize<'de> for RawCdr {
     }
 }
 
-/// Encodes a message's CDR body.
-///
-/// # Errors
-/// When a string or sequence is longer than CDR can say (2^32 elements).
-pub fn encode<T: Serialize>(message: &T) -> Result<Vec<u8>, cdr_encoding::Error> {
-    cdr_encoding::to_vec::<T, byteorder::LittleEndian>(message)
-}
-
-/// Decodes a message from a CDR body and says how many bytes it took.
-///
-/// # Errors
-/// When the bytes are too short or do not fit the type.
-pub fn decode<T: serde::de::DeserializeOwned>(body: &[u8]) -> Result<(T, usize), cdr_encoding::Error> {
-    cdr_encoding::from_bytes::<T, byteorder::LittleEndian>(body)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::messages::{from_cdr_body, to_cdr_body};
 
     #[test]
     fn bytes_go_through_unchanged() {
         for length in [0, 1, 7, 8, 9, 64, 1001] {
             let bytes: Vec<u8> = (0..length).map(|i| (i * 7 + 3) as u8).collect();
             let raw = RawCdr(bytes.clone());
-            assert_eq!(encode(&raw).unwrap(), bytes, "length {length}");
-            assert_eq!(decode::<RawCdr>(&bytes).unwrap().0, raw, "length {length}");
+            assert_eq!(to_cdr_body(&raw).unwrap(), bytes, "length {length}");
+            assert_eq!(from_cdr_body::<RawCdr>(&bytes).unwrap().0, raw, "length {length}");
         }
     }
 }

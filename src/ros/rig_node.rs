@@ -6,8 +6,8 @@ use super::NodeError;
 use super::args::{NodeIdentity, Remapping};
 use super::network::Network;
 use super::publisher::{Offer, TopicPublisher, dds_topic_name};
-use super::raw::encode;
 use crate::messages::std_msgs::Float64;
+use crate::messages::to_cdr_body;
 use crate::messages::topics;
 use flexdrill_core::inputs::InputKind;
 
@@ -69,7 +69,7 @@ impl RigNode {
 
     /// Publishes a sample (r/min or kN). False when there was no room for it.
     pub fn publish(&self, kind: InputKind, value: f64) -> bool {
-        let body = encode(&Float64 { data: value }).unwrap_or_default();
+        let body = to_cdr_body(&Float64 { data: value }).unwrap_or_default();
         self.publishers[kind.index()].publish(&body)
     }
 

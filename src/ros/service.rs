@@ -19,19 +19,18 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::NodeError;
-use super::raw::{self, RawCdr};
+use super::raw::RawCdr;
+use crate::messages::{MOST_PADDING, from_cdr_body, to_cdr_body};
 
 /// Bytes that rmw_cyclonedds puts before a request and expects before its reply: client id and sequence number.
 const CYCLONE_HEADER: usize = 16;
-/// CDR bodies are padded to a multiple of this many bytes.
-const PADDING: usize = 4;
 /// Requests and replies kept per service; several clients may ask at once.
 const DEPTH: usize = 64;
 /// Longest wait for a new client's reply reader to be discovered.
 const CLIENT_WAIT: Duration = Duration::from_millis(500);
 
-/// Discovery knows a reader some time before our writer is matched with it, on another thread; nothing tells when. Paid once
-/// per client.
+/// Discovery knows a reader some time before our writer is matched with it, on another thread; nothing tells when. Paid
+/// once per client.
 const MATCH_WAIT: Duration = Duration::from_millis(100);
 
 /// Which form of services is served.
@@ -73,33 +72,45 @@ impl ServiceMapping {
     }
 }
 
-impl FromStr for ServiceMapping {
-    type Err = String;
+/// A form of services that nobody knows.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("'{0}' is not a service mapping; use auto, enhanced or cyclone")]
+pub struct UnknownMapping(String);
 
-    fn from_str(text: &str) -> Result<Self, String> {
+impl FromStr for ServiceMapping {
+    type Err = UnknownMapping;
+
+    fn from_str(text: &str) -> Result<Self, UnknownMapping> {
         match text {
             "auto" => Ok(ServiceMapping::Auto(Dialect::of_rmw(
                 std::env::var("RMW_IMPLEMENTATION").ok().as_deref(),
             ))),
             "enhanced" => Ok(ServiceMapping::Only(Dialect::Enhanced)),
             "cyclone" => Ok(ServiceMapping::Only(Dialect::Cyclone)),
-            other => Err(format!(
-                "'{other}' is not a service mapping; use auto, enhanced or cyclone"
-            )),
+            other => Err(UnknownMapping(other.to_owned())),
         }
     }
 }
 
+/// Why the bytes of a request do not fit its type.
+#[derive(Debug, thiserror::Error)]
+enum RequestError {
+    #[error("it is shorter than the header of {CYCLONE_HEADER} bytes")]
+    NoHeader,
+    #[error(transparent)]
+    Decode(#[from] cdr_encoding::Error),
+    #[error("{0} bytes are left over")]
+    LeftOver(usize),
+}
+
 /// Reads a request in the form it came.
-fn interpret<Req: DeserializeOwned>(mapping: ServiceMapping, body: &[u8]) -> Result<(Dialect, Req), String> {
-    let read = |bytes: Option<&[u8]>| -> Result<Req, String> {
-        let bytes = bytes.ok_or("it is shorter than the header")?;
-        let (request, used) = raw::decode::<Req>(bytes).map_err(|error| error.to_string())?;
-        let left = bytes.len().saturating_sub(used);
-        if left < PADDING {
-            Ok(request)
-        } else {
-            Err(format!("{left} bytes are left over"))
+fn interpret<Req: DeserializeOwned>(mapping: ServiceMapping, body: &[u8]) -> Result<(Dialect, Req), RequestError> {
+    let read = |bytes: Option<&[u8]>| -> Result<Req, RequestError> {
+        let bytes = bytes.ok_or(RequestError::NoHeader)?;
+        let (request, used) = from_cdr_body::<Req>(bytes)?;
+        match bytes.len().saturating_sub(used) {
+            left if left > MOST_PADDING => Err(RequestError::LeftOver(left)),
+            _ => Ok(request),
         }
     };
     let enhanced = || read(Some(body)).map(|request| (Dialect::Enhanced, request));
@@ -199,7 +210,7 @@ impl ServiceServer {
             Dialect::Cyclone => request[..CYCLONE_HEADER].to_vec(),
             Dialect::Enhanced => Vec::new(),
         };
-        match raw::encode(response) {
+        match to_cdr_body(response) {
             Ok(encoded) => bytes.extend(encoded),
             Err(error) => return tracing::error!("service {}: the reply could not be encoded: {error}", self.name),
         }
@@ -258,7 +269,7 @@ mod tests {
     }
 
     fn both_ways<T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(request: &T) {
-        let plain = raw::encode(request).unwrap();
+        let plain = to_cdr_body(request).unwrap();
         let headed: Vec<u8> = (0..16u8)
             .map(|i| i.wrapping_mul(37) ^ 0xa5)
             .chain(plain.iter().copied())

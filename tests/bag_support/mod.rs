@@ -1,6 +1,7 @@
 //! A recording with known content, for the tests of bags.
 
-#![allow(dead_code)] // Each test binary uses a part of it.
+#![allow(dead_code, reason = "each test file uses some of it")]
+#![allow(clippy::unwrap_used, reason = "a helper of tests fails by panicking")]
 
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,8 @@
 //! A small synthetic rig log with everything that happens in a real one, for demonstrations without a real one.
 //!
-//! The same bytes every time. 180 s at 1 Hz with the columns of `config/field_logs/rig_1hz.yaml`: a connection, a run-up
-//! off bottom, steps of weight on bit, a stall, a gap, missing codes, a spike, a time that stands still, and the pull off
-//! bottom. Its hookload, speeds and noise are made up, of the size of a small rig's.
+//! The same bytes every time. 180 s at 1 Hz with the columns of `config/field_logs/rig_1hz.yaml`: a connection, a
+//! run-up off bottom, steps of weight on bit, a stall, a gap, missing codes, a spike, a time that stands still, and the
+//! pull off bottom. Its hookload, speeds and noise are made up, of the size of a small rig's.
 
 use std::fmt::Write;
 

@@ -59,7 +59,7 @@ pub enum Drive {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Held {
-    /// Where.
+    /// Place along the tool.
     pub at: At,
     /// `pipe` or `guide`.
     pub body: Body,

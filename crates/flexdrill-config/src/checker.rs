@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::error::Problem;
+use super::error::{ConfigError, Problem};
 use super::lines::Lines;
 
 /// Limits of a number.
@@ -77,7 +77,7 @@ pub struct Checker<'a> {
     lines: &'a Lines,
     path: Vec<String>,
     /// Found so far.
-    pub problems: Vec<Problem>,
+    problems: Vec<Problem>,
     /// Every number read so far, with its bounds.
     pub numbers: Vec<NumberKey>,
 }
@@ -91,6 +91,20 @@ impl<'a> Checker<'a> {
             path: Vec::new(),
             problems: Vec::new(),
             numbers: Vec::new(),
+        }
+    }
+
+    /// Ends the walk.
+    ///
+    /// # Errors
+    /// With every problem that was found.
+    pub fn finish(self) -> Result<(), ConfigError> {
+        if self.problems.is_empty() {
+            Ok(())
+        } else {
+            Err(ConfigError::Invalid {
+                problems: self.problems,
+            })
         }
     }
 

@@ -1,45 +1,40 @@
 //! `contact`: the two gap layers.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use super::checker::{Bound, Checker};
+use super::section::section;
 use flexdrill_core::tool::GapDescription;
 
-/// Contact between pipe and guide and between guide and wall.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Contact {
-    /// Pipe and guide, steel on steel.
-    #[serde(deserialize_with = "inner_layer")]
-    pub inner: Layer,
-    /// Guide and wall, steel on rock.
-    #[serde(deserialize_with = "outer_layer")]
-    pub outer: Layer,
-    /// Sliding speed at which the regularised friction reaches 71 % of Coulomb's (m/s). Default 0.01.
-    pub slip_speed: f64,
-}
-
-impl Default for Contact {
-    fn default() -> Self {
-        Self {
-            inner: Layer::INNER,
-            outer: Layer::OUTER,
-            slip_speed: 0.01,
-        }
+section! {
+    /// Contact between pipe and guide and between guide and wall.
+    #[derive(Copy)]
+    pub struct Contact(this) {
+        /// Pipe and guide, steel on steel.
+        #[serde(deserialize_with = "inner_layer")]
+        inner: Layer = Layer::INNER, below;
+        /// Guide and wall, steel on rock.
+        #[serde(deserialize_with = "outer_layer")]
+        outer: Layer = Layer::OUTER, below;
+        /// Sliding speed at which the regularised friction reaches 71 % of Coulomb's (m/s).
+        slip_speed: f64 = 0.01, within(1e-6, 1.0), "m/s",
+            "0 would make friction jump at standstill; above 1 m/s it hardly holds anything";
     }
 }
 
-/// One gap layer.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Layer {
-    /// Per station (N/m). Default 1e7 inner, 2e7 outer.
-    pub stiffness: f64,
-    /// Hunt-Crossley (s/m). Default 0.5.
-    pub damping: f64,
-    /// Coulomb, around the circumference. Default 0.2 inner, 0.3 outer.
-    pub friction_tangential: f64,
-    /// Coulomb, along the axis. Default 0.2 inner, 0.3 outer.
-    pub friction_axial: f64,
+section! {
+    /// One gap layer.
+    #[derive(Copy)]
+    pub struct Layer(this) {
+        /// Penalty stiffness per station (N/m). Default 1e7 inner, 2e7 outer.
+        stiffness: f64, within(0.0, 1e12), "N/m", "0 switches the layer off";
+        /// Damping of Hunt and Crossley (s/m). Default 0.5.
+        damping: f64, within(0.0, 1e3), "s/m",
+            "0 is elastic; bodies here meet at well below 10 m/s, where 10 s/m is already dead";
+        /// Coulomb, around the circumference. Default 0.2 inner, 0.3 outer.
+        friction_tangential: f64, within(0.0, 2.0), "", "dry surfaces stay below 1; 2 leaves room for trials";
+        /// Coulomb, along the axis. Default 0.2 inner, 0.3 outer.
+        friction_axial: f64, within(0.0, 2.0), "", "dry surfaces stay below 1; 2 leaves room for trials";
+    }
 }
 
 /// What the file says of a layer; the rest depends on which layer it is.
@@ -85,28 +80,6 @@ impl Layer {
         friction_axial: 0.3,
     };
 
-    fn check(&self, c: &mut Checker) {
-        let reason = "0 switches the layer off";
-        c.number("stiffness", self.stiffness, Bound::within(0.0, 1e12), "N/m", reason);
-        let reason = "0 is elastic; bodies here meet at well below 10 m/s, where 10 s/m is already dead";
-        c.number("damping", self.damping, Bound::within(0.0, 1e3), "s/m", reason);
-        let reason = "dry surfaces stay below 1; 2 leaves room for trials";
-        c.number(
-            "friction_tangential",
-            self.friction_tangential,
-            Bound::within(0.0, 2.0),
-            "",
-            reason,
-        );
-        c.number(
-            "friction_axial",
-            self.friction_axial,
-            Bound::within(0.0, 2.0),
-            "",
-            reason,
-        );
-    }
-
     pub(super) fn describe(&self) -> GapDescription {
         GapDescription {
             stiffness: self.stiffness,
@@ -114,14 +87,5 @@ impl Layer {
             friction_tangential: self.friction_tangential,
             friction_axial: self.friction_axial,
         }
-    }
-}
-
-impl Contact {
-    pub(super) fn check(&self, c: &mut Checker) {
-        c.below("inner", |c| self.inner.check(c));
-        c.below("outer", |c| self.outer.check(c));
-        let reason = "0 would make friction jump at standstill; above 1 m/s it hardly holds anything";
-        c.number("slip_speed", self.slip_speed, Bound::within(1e-6, 1.0), "m/s", reason);
     }
 }

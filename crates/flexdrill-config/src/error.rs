@@ -9,7 +9,7 @@ pub enum ConfigError {
     /// The file could not be read.
     #[error("{}: cannot be read: {reason}", path.display())]
     Read {
-        /// As given.
+        /// File or folder that it is about.
         path: PathBuf,
         /// The system's reason.
         reason: std::io::Error,
@@ -45,7 +45,7 @@ pub enum ConfigError {
     WrongType {
         /// Dotted path.
         key: String,
-        /// As given.
+        /// Value, as it was given.
         value: String,
         /// What is wrong.
         message: String,

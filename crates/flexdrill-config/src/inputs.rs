@@ -1,201 +1,75 @@
 //! `inputs`: what the rig may ask for and what happens when it falls silent.
 
-use serde::{Deserialize, Serialize};
-
-use super::checker::{Bound, Checker};
+use super::section::section;
 use flexdrill_core::inputs::{InputRule, InputRules};
 
-/// Both inputs.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct InputsConfig {
-    /// Of the top drive.
-    pub rotary_speed: RotarySpeed,
-    /// Weight on bit.
-    pub weight_on_bit: WeightOnBit,
-}
-
-/// `inputs.rotary_speed`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct RotarySpeed {
-    /// Default 0.
-    pub min_rpm: f64,
-    /// Default 120.
-    pub max_rpm: f64,
-    /// Fastest change that the model follows. Default 20.
-    pub slew_rpm_per_s: f64,
-    /// Until the first sample. Default 0.
-    pub initial_rpm: f64,
-    /// Where it is brought to when the rig stays silent. Default 0.
-    pub safe_rpm: f64,
-    /// How fast it is brought there. Default 5.
-    pub safe_ramp_rpm_per_s: f64,
-    /// Age at which the input is SLOW (s). Default 2.5.
-    pub slow_age: f64,
-    /// Age at which it is STALE (s). Default 5.
-    pub max_age: f64,
-    /// How long the last good value is held after that (s). Default 10.
-    pub hold_before_safe: f64,
-}
-
-impl Default for RotarySpeed {
-    fn default() -> Self {
-        Self {
-            min_rpm: 0.0,
-            max_rpm: 120.0,
-            slew_rpm_per_s: 20.0,
-            initial_rpm: 0.0,
-            safe_rpm: 0.0,
-            safe_ramp_rpm_per_s: 5.0,
-            slow_age: 2.5,
-            max_age: 5.0,
-            hold_before_safe: 10.0,
-        }
+section! {
+    /// Both inputs.
+    #[derive(Copy)]
+    pub struct InputsConfig(this) {
+        /// Of the top drive.
+        rotary_speed: RotarySpeed = RotarySpeed::default(), below;
+        /// Weight on bit.
+        weight_on_bit: WeightOnBit = WeightOnBit::default(), below;
     }
 }
 
-/// `inputs.weight_on_bit`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct WeightOnBit {
-    /// Default 0.
-    pub min_kn: f64,
-    /// Default 60.
-    pub max_kn: f64,
-    /// How far below zero a reading may be and still count as zero. Default 0.5.
-    pub tare_error_kn: f64,
-    /// Fastest change that the model follows. Default 10.
-    pub slew_kn_per_s: f64,
-    /// Until the first sample. Default 0.
-    pub initial_kn: f64,
-    /// Where it is brought to when the rig stays silent. Default 0.
-    pub safe_kn: f64,
-    /// How fast it is brought there. Default 1.
-    pub safe_ramp_kn_per_s: f64,
-    /// Age at which the input is SLOW (s). Default 2.5.
-    pub slow_age: f64,
-    /// Age at which it is STALE (s). Default 5.
-    pub max_age: f64,
-    /// How long the last good value is held after that (s). Default 10.
-    pub hold_before_safe: f64,
+section! {
+    /// `inputs.rotary_speed`.
+    #[derive(Copy)]
+    pub struct RotarySpeed(this) {
+        /// Least speed that is taken.
+        min_rpm: f64 = 0.0, within(-5000.0, this.max_rpm), "r/min", "not above max_rpm";
+        /// Greatest speed that is taken.
+        max_rpm: f64 = 120.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
+        /// Fastest change that the model follows.
+        slew_rpm_per_s: f64 = 20.0, above(0.0, 1e6), "r/min per s",
+            "0 would never follow; a jump in speed is an infinite torque";
+        /// Acts until the first sample.
+        initial_rpm: f64 = 0.0, within(this.min_rpm, this.max_rpm), "r/min", "within min_rpm and max_rpm";
+        /// Where it is brought to when the rig stays silent.
+        safe_rpm: f64 = 0.0, within(this.min_rpm, this.max_rpm), "r/min", "within min_rpm and max_rpm";
+        /// How fast it is brought there.
+        safe_ramp_rpm_per_s: f64 = 5.0, above(0.0, 1e6), "r/min per s", "0 would never get there";
+        /// Age at which the input is SLOW (s).
+        slow_age: f64 = 2.5, above(0.0, this.max_age), "s", "slow comes before stale (max_age)";
+        /// Age at which it is STALE (s).
+        max_age: f64 = 5.0, above(0.0, 3600.0), "s", "an hour is not live any more";
+        /// How long the last good value is held after that (s).
+        hold_before_safe: f64 = 10.0, within(0.0, 86_400.0), "s", "a day is not live any more";
+    }
 }
 
-impl Default for WeightOnBit {
-    fn default() -> Self {
-        Self {
-            min_kn: 0.0,
-            max_kn: 60.0,
-            tare_error_kn: 0.5,
-            slew_kn_per_s: 10.0,
-            initial_kn: 0.0,
-            safe_kn: 0.0,
-            safe_ramp_kn_per_s: 1.0,
-            slow_age: 2.5,
-            max_age: 5.0,
-            hold_before_safe: 10.0,
-        }
+section! {
+    /// `inputs.weight_on_bit`.
+    #[derive(Copy)]
+    pub struct WeightOnBit(this) {
+        /// Least weight that is taken.
+        min_kn: f64 = 0.0, within(0.0, this.max_kn), "kN", "a bit does not pull, and not above max_kn";
+        /// Greatest weight that is taken.
+        max_kn: f64 = 60.0, within(0.0, 2000.0), "kN", "far above any drilling tool";
+        /// How far below zero a reading may be and still count as zero.
+        tare_error_kn: f64 = 0.5, within(0.0, 100.0), "kN", "a reading further below zero is wrong, not untared";
+        /// Fastest change that the model follows.
+        slew_kn_per_s: f64 = 10.0, above(0.0, 1e6), "kN/s",
+            "0 would never follow; a jump in load is a blow on the tool";
+        /// Acts until the first sample.
+        initial_kn: f64 = 0.0, within(this.min_kn, this.max_kn), "kN", "within min_kn and max_kn";
+        /// Where it is brought to when the rig stays silent.
+        safe_kn: f64 = 0.0, within(this.min_kn, this.max_kn), "kN", "within min_kn and max_kn";
+        /// How fast it is brought there.
+        safe_ramp_kn_per_s: f64 = 1.0, above(0.0, 1e6), "kN/s", "0 would never get there";
+        /// Age at which the input is SLOW (s).
+        slow_age: f64 = 2.5, above(0.0, this.max_age), "s", "slow comes before stale (max_age)";
+        /// Age at which it is STALE (s).
+        max_age: f64 = 5.0, above(0.0, 3600.0), "s", "an hour is not live any more";
+        /// How long the last good value is held after that (s).
+        hold_before_safe: f64 = 10.0, within(0.0, 86_400.0), "s", "a day is not live any more";
     }
 }
 
 impl InputsConfig {
-    pub(super) fn check(&self, c: &mut Checker) {
-        c.below("rotary_speed", |c| self.rotary_speed.check(c));
-        c.below("weight_on_bit", |c| self.weight_on_bit.check(c));
-    }
-}
-
-impl RotarySpeed {
-    fn check(&self, c: &mut Checker) {
-        let unit = "r/min";
-        c.number(
-            "max_rpm",
-            self.max_rpm,
-            Bound::within(-5000.0, 5000.0),
-            unit,
-            "far above any top drive",
-        );
-        let reason = "not above max_rpm";
-        c.number(
-            "min_rpm",
-            self.min_rpm,
-            Bound::within(-5000.0, self.max_rpm),
-            unit,
-            reason,
-        );
-        let limits = Bound::within(self.min_rpm, self.max_rpm);
-        c.number(
-            "initial_rpm",
-            self.initial_rpm,
-            limits,
-            unit,
-            "within min_rpm and max_rpm",
-        );
-        c.number("safe_rpm", self.safe_rpm, limits, unit, "within min_rpm and max_rpm");
-        let rate = Bound::above(0.0, 1e6);
-        let reason = "0 would never follow; a jump in speed is an infinite torque";
-        c.number("slew_rpm_per_s", self.slew_rpm_per_s, rate, "r/min per s", reason);
-        let reason = "0 would never get there";
-        c.number(
-            "safe_ramp_rpm_per_s",
-            self.safe_ramp_rpm_per_s,
-            rate,
-            "r/min per s",
-            reason,
-        );
-        check_ages(c, self.slow_age, self.max_age, self.hold_before_safe);
-    }
-}
-
-impl WeightOnBit {
-    fn check(&self, c: &mut Checker) {
-        let unit = "kN";
-        c.number(
-            "max_kn",
-            self.max_kn,
-            Bound::within(0.0, 2000.0),
-            unit,
-            "far above any drilling tool",
-        );
-        let reason = "a bit does not pull, and not above max_kn";
-        c.number("min_kn", self.min_kn, Bound::within(0.0, self.max_kn), unit, reason);
-        let reason = "a reading further below zero is wrong, not untared";
-        c.number(
-            "tare_error_kn",
-            self.tare_error_kn,
-            Bound::within(0.0, 100.0),
-            unit,
-            reason,
-        );
-        let limits = Bound::within(self.min_kn, self.max_kn);
-        c.number("initial_kn", self.initial_kn, limits, unit, "within min_kn and max_kn");
-        c.number("safe_kn", self.safe_kn, limits, unit, "within min_kn and max_kn");
-        let rate = Bound::above(0.0, 1e6);
-        let reason = "0 would never follow; a jump in load is a blow on the tool";
-        c.number("slew_kn_per_s", self.slew_kn_per_s, rate, "kN/s", reason);
-        let reason = "0 would never get there";
-        c.number("safe_ramp_kn_per_s", self.safe_ramp_kn_per_s, rate, "kN/s", reason);
-        check_ages(c, self.slow_age, self.max_age, self.hold_before_safe);
-    }
-}
-
-fn check_ages(c: &mut Checker, slow_age: f64, max_age: f64, hold_before_safe: f64) {
-    let reason = "an hour is not live any more";
-    c.number("max_age", max_age, Bound::above(0.0, 3600.0), "s", reason);
-    let reason = "slow comes before stale (max_age)";
-    c.number("slow_age", slow_age, Bound::above(0.0, max_age), "s", reason);
-    let reason = "a day is not live any more";
-    c.number(
-        "hold_before_safe",
-        hold_before_safe,
-        Bound::within(0.0, 86_400.0),
-        "s",
-        reason,
-    );
-}
-
-impl InputsConfig {
-    /// For the door.
+    /// For the input conditioning.
     pub fn rules(&self) -> InputRules {
         let (speed, weight) = (&self.rotary_speed, &self.weight_on_bit);
         [

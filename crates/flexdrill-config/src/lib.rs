@@ -22,6 +22,7 @@ mod pipe;
 mod place;
 pub mod reading;
 mod run;
+mod section;
 mod sized;
 mod solver;
 mod start;
@@ -35,6 +36,7 @@ use std::ops::Deref;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 pub use boundary::{BottomAxial, Boundary, Drive, Held, Preset};
@@ -154,12 +156,8 @@ impl Config {
     /// # Errors
     /// When the file cannot be read, is not YAML of this schema, or does not make sense.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigError> {
-        let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Read {
-            path: path.to_path_buf(),
-            reason,
-        })?;
-        Self::from_text(&path.display().to_string(), &text)
+        let (name, text) = reading::read(path.as_ref())?;
+        Self::from_text(&name, &text)
     }
 
     /// Reads and checks a text; `name` stands for the file in errors.
@@ -167,10 +165,8 @@ impl Config {
     /// # Errors
     /// When the text is not YAML of this schema, or does not make sense.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
-        let lines = Lines::of(text);
-        let schema = serde_saphyr::from_str(text)
-            .map_err(|error| reading::syntax_error(name, text, &lines, REQUIRED, &error))?;
-        Self::checked(name, &lines, schema)
+        let schema = reading::checked(name, text, REQUIRED, Schema::check)?;
+        Ok(Self { schema })
     }
 
     /// Checks a schema built in code; `name` stands for the file in errors.
@@ -178,19 +174,10 @@ impl Config {
     /// # Errors
     /// When it does not make sense.
     pub fn from_schema(name: &str, schema: Schema) -> Result<Self, ConfigError> {
-        Self::checked(name, &Lines::default(), schema)
-    }
-
-    fn checked(name: &str, lines: &Lines, schema: Schema) -> Result<Self, ConfigError> {
-        let mut checker = Checker::new(name, lines);
+        let lines = Lines::default();
+        let mut checker = Checker::new(name, &lines);
         schema.check(&mut checker);
-        if checker.problems.is_empty() {
-            Ok(Self { schema })
-        } else {
-            Err(ConfigError::Invalid {
-                problems: checker.problems,
-            })
-        }
+        checker.finish().map(|()| Self { schema })
     }
 
     /// A copy with one value changed, checked as a whole. `key` is a dotted path (`contact.inner.friction_axial`) of a
@@ -198,35 +185,52 @@ impl Config {
     ///
     /// # Errors
     /// When the key does not exist, or the value is of the wrong type or out of bounds.
-    pub fn with_value(&self, key: &str, value: impl Into<serde_json::Value>) -> Result<Self, ConfigError> {
-        self.with_values([(key, value)])
+    pub fn with_value(&self, key: &str, value: impl Into<Value>) -> Result<Self, ConfigError> {
+        self.with_values("parameter", [(key, value)])
     }
 
-    /// The same with several values, for keys that only make sense together.
+    /// The same with several values, for keys that only make sense together; `origin` stands for the file in errors.
     ///
     /// # Errors
     /// As [`Config::with_value`].
-    pub fn with_values<'a, V: Into<serde_json::Value>>(
+    pub fn with_values<K: AsRef<str>, V: Into<Value>>(
         &self,
-        values: impl IntoIterator<Item = (&'a str, V)>,
+        origin: &str,
+        values: impl IntoIterator<Item = (K, V)>,
     ) -> Result<Self, ConfigError> {
-        let wrong_type = |key: &str, value: &serde_json::Value, message: String| ConfigError::WrongType {
-            key: key.to_string(),
-            value: value.to_string(),
-            message,
-        };
+        let mut tree = self.to_tree();
         let mut schema = self.schema.clone();
         for (key, value) in values {
-            let value = value.into();
-            let mut tree = serde_json::to_value(&schema).map_err(|error| wrong_type(key, &value, error.to_string()))?;
-            let pointer = format!("/{}", key.replace('.', "/"));
-            let Some(place) = tree.pointer_mut(&pointer) else {
-                return Err(ConfigError::UnknownKey { key: key.to_string() });
-            };
+            let (key, value) = (key.as_ref(), value.into());
+            let place = tree
+                .pointer_mut(&pointer(key))
+                .ok_or_else(|| ConfigError::UnknownKey { key: key.to_string() })?;
+            let wanted = kind(place);
+            let mistyped = wanted != kind(&value);
             *place = value.clone();
-            schema = serde_json::from_value(tree).map_err(|error| wrong_type(key, &value, error.to_string()))?;
+            // One by one, so that the error names the key: the types do not tell by themselves.
+            schema = Schema::deserialize(&tree).map_err(|error| ConfigError::WrongType {
+                key: key.to_string(),
+                value: value.to_string(),
+                message: if mistyped {
+                    format!("must be {wanted}")
+                } else {
+                    error.to_string()
+                },
+            })?;
         }
-        Self::from_schema("parameter", schema)
+        Self::from_schema(origin, schema)
+    }
+
+    /// Whether there is a key of this dotted path.
+    pub fn has(&self, key: &str) -> bool {
+        self.to_tree().pointer(&pointer(key)).is_some()
+    }
+
+    /// All values by their keys.
+    pub fn to_tree(&self) -> Value {
+        // Plain numbers, text and lists: this does not fail, and an empty tree would only mean that no key is known.
+        serde_json::to_value(&self.schema).unwrap_or(Value::Null)
     }
 
     /// Every numeric key with value, limits, unit and the reason of the limits.
@@ -354,8 +358,8 @@ impl Schema {
             format!("above the guide's outer diameter, {guide} m"),
             "the guide lies in the hole",
         );
-        c.below("contact", |c| self.contact.check(c));
-        c.below("environment", |c| self.environment.check(c));
+        c.below("contact", |c| self.contact.check_numbers(c));
+        c.below("environment", |c| self.environment.check_numbers(c));
         c.below("boundary", |c| self.boundary.check(c, &mesh));
         let guide_may_spin = self.well.is_straight() && !self.tool.guide.fixed && !self.boundary.holds_guide_spin();
         c.require(
@@ -378,10 +382,27 @@ impl Schema {
         });
         c.below("initial", |c| self.initial.check(c, self.start));
         c.below("solver", |c| self.solver.check(c));
-        c.below("inputs", |c| self.inputs.check(c));
+        c.below("inputs", |c| self.inputs.check_numbers(c));
         c.below("whirl", |c| self.whirl.check(c, &mesh));
         c.below("stick_slip", |c| self.stick_slip.check(c));
         c.below("shock", |c| self.shock.check(c));
         c.below("outputs", |c| self.outputs.check(c));
+    }
+}
+
+/// The JSON pointer of a dotted key.
+fn pointer(key: &str) -> String {
+    format!("/{}", key.replace('.', "/"))
+}
+
+/// What a value is, as an error says it.
+fn kind(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "left out",
+        Value::Bool(_) => "true or false",
+        Value::Number(_) => "a number",
+        Value::String(_) => "text",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "a mapping",
     }
 }

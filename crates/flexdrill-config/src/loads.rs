@@ -16,7 +16,7 @@ const TIME_REASON: &str = "seconds of model time since the start";
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Where.
+    /// Place along the tool.
     pub at: At,
     /// `pipe` or `guide`.
     pub body: Body,
@@ -36,17 +36,17 @@ pub enum History {
     Ramp {
         /// N/s or N m/s.
         rate: f64,
-        /// s. Default 0.
+        /// Start (s). Default 0.
         #[serde(default)]
         start: f64,
-        /// s.
+        /// End (s).
         end: f64,
     },
     /// `sine: {amplitude: 100, frequency: 2, phase_deg: 0}`.
     Sine {
         /// N or N m.
         amplitude: f64,
-        /// Hz.
+        /// Frequency (Hz).
         frequency: f64,
         /// Default 0.
         #[serde(default)]
@@ -60,11 +60,11 @@ pub enum History {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mass {
-    /// Where.
+    /// Place along the tool.
     pub at: At,
     /// `pipe` or `guide`.
     pub body: Body,
-    /// kg.
+    /// Mass (kg).
     pub mass: f64,
 }
 

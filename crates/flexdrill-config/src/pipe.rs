@@ -12,10 +12,10 @@ const DIAMETER_REASON: &str = "given in metres";
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pipe {
-    /// m. Required unless there are pieces.
+    /// Outer diameter (m). Required unless there are pieces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer_diameter: Option<f64>,
-    /// m, 0 is a solid bar. Required unless there are pieces.
+    /// Inner diameter (m), 0 is a solid bar. Required unless there are pieces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner_diameter: Option<f64>,
     /// Diameter with which the pipe meets the guide (m), where it is not the steel's outer diameter. Default: that.
@@ -34,9 +34,9 @@ pub struct Piece {
     pub from: f64,
     /// Where it ends.
     pub to: f64,
-    /// m.
+    /// Outer diameter (m).
     pub outer_diameter: f64,
-    /// m.
+    /// Inner diameter (m).
     pub inner_diameter: f64,
 }
 
@@ -44,9 +44,9 @@ pub struct Piece {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guide {
-    /// m. Required.
+    /// Outer diameter (m). Required.
     pub outer_diameter: f64,
-    /// m. Required.
+    /// Inner diameter (m). Required.
     pub inner_diameter: f64,
     /// Factor on the bending stiffness: 1 for a plain tube, less for a slotted one. Default 1.
     #[serde(default = "one")]
@@ -170,7 +170,8 @@ impl Pipe {
             .collect()
     }
 
-    /// Contact diameter (m) at each of a link's stations: `contact_diameter`, or the thicker of the pieces that meet there.
+    /// Contact diameter (m) at each of a link's stations: `contact_diameter`, or the thicker of the pieces that meet
+    /// there.
     pub fn contact_diameters(&self, elements: usize) -> Vec<f64> {
         (0..=elements)
             .map(|station| {

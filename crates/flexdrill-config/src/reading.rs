@@ -1,17 +1,46 @@
-//! Turns the YAML reader's errors into ours: key path, value and place.
+//! From a file to a checked value, with errors that name key path, value and place.
 
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+
+use super::checker::Checker;
 use super::error::ConfigError;
 use super::lines::Lines;
 
-/// Words the error of reading `text`, the content of the file `name`. `required` are the keys without a default, to name
-/// the one that is missing.
-pub fn syntax_error(
+/// The text of a file, and its name for errors.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn read(path: &Path) -> Result<(String, String), ConfigError> {
+    let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Read {
+        path: path.to_path_buf(),
+        reason,
+    })?;
+    Ok((path.display().to_string(), text))
+}
+
+/// Reads `text` and checks what it says; `name` stands for the file in errors, `required` are the keys without a
+/// default.
+///
+/// # Errors
+/// When the text is not YAML of the type, or `check` finds something.
+pub fn checked<T: DeserializeOwned>(
     name: &str,
     text: &str,
-    lines: &Lines,
     required: &[&str],
-    error: &serde_saphyr::Error,
-) -> ConfigError {
+    check: impl FnOnce(&T, &mut Checker),
+) -> Result<T, ConfigError> {
+    let lines = Lines::of(text);
+    let value = serde_saphyr::from_str(text).map_err(|error| syntax_error(name, text, &lines, required, &error))?;
+    let mut checker = Checker::new(name, &lines);
+    check(&value, &mut checker);
+    checker.finish().map(|()| value)
+}
+
+/// Words the error of reading `text`, the content of the file `name`. `required` are the keys without a default, to
+/// name the one that is missing.
+fn syntax_error(name: &str, text: &str, lines: &Lines, required: &[&str], error: &serde_saphyr::Error) -> ConfigError {
     let (mut line, mut column) = error.location().map_or((0, 0), |place| (place.line(), place.column()));
     let mut key = lines.key_at(line, column).to_string();
     let mut message = plain_message(error);

@@ -7,9 +7,9 @@ use flexdrill_core::units::rad_to_deg;
 const SHORTEST: f64 = 1e-9;
 
 impl Config {
-    /// A copy with `links` links of the same length. The path keeps its beginning: a shorter tool ends earlier in it, a longer one goes
-    /// on straight below it, as a lateral does behind the curve. So every size has links of the same length, mesh and joints, and as
-    /// much of the curve as it can fill.
+    /// A copy with `links` links of the same length. The path keeps its beginning: a shorter tool ends earlier in it, a
+    /// longer one goes on straight below it, as a lateral does behind the curve. So every size has links of the same
+    /// length, mesh and joints, and as much of the curve as it can fill.
     ///
     /// # Errors
     /// When the result does not make sense: no links, or loads and supports at places that are no more.

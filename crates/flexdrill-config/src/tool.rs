@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::checker::{Bound, Checker};
+use super::checker::Checker;
 use super::pipe::{Guide, Pipe};
+use super::section::section;
 use flexdrill_core::tool::{BitDescription, HingeAngle, JointDescription, JointKind, Material as Steel, Rayleigh};
 use flexdrill_core::units::deg_to_rad;
 
@@ -36,52 +37,47 @@ fn five() -> usize {
     5
 }
 
-/// Isotropic, linear elastic.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Material {
-    /// Pa. Default 206e9, steel.
-    pub youngs_modulus: f64,
-    /// Default 0.3, steel.
-    pub poisson_ratio: f64,
-    /// kg/m3. Default 7850, steel.
-    pub density: f64,
-}
-
-impl Default for Material {
-    fn default() -> Self {
-        Self {
-            youngs_modulus: 206e9,
-            poisson_ratio: 0.3,
-            density: 7850.0,
-        }
+section! {
+    /// Isotropic, linear elastic; the defaults are those of steel.
+    #[derive(Copy)]
+    pub struct Material(this) {
+        /// Young's modulus (Pa).
+        youngs_modulus: f64 = 206e9, within(1e6, 1e14), "Pa", "in Pa; steel is 206e9";
+        /// Poisson's ratio.
+        poisson_ratio: f64 = 0.3, within(-0.99, 0.5), "",
+            "outside, an isotropic material would gain energy when loaded";
+        /// Density (kg/m3).
+        density: f64 = 7850.0, within(1.0, 1e6), "kg/m3", "the mass matrix must be positive; steel is 7850";
     }
 }
 
-/// The joints between links.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Joint {
-    /// `universal`, `ball_cage` or `revolute`. Default universal.
-    #[serde(default = "universal")]
-    pub kind: JointKind,
-    /// Bend angle at which the stop begins. Required.
-    pub limit_deg: f64,
-    /// N m/rad. Default 2e5, of the order of 4EI/l of a link.
-    #[serde(default = "default_stop_stiffness")]
-    pub stop_stiffness: f64,
-    /// Hunt-Crossley damping of the stop (s/rad). Default 0.5.
-    #[serde(default = "half")]
-    pub stop_damping: f64,
-    /// Angle of the first cross about the shaft. Default 0.
-    #[serde(default)]
-    pub cross_phase_deg: f64,
-    /// Turn from one cross to the next. Default 90.
-    #[serde(default = "ninety")]
-    pub cross_phase_step_deg: f64,
-    /// Angle that a `revolute` joint keeps across its hinge: `straight` links, or `as_built` in the well. Default straight.
-    #[serde(default)]
-    pub hinge_angle: HingeAngle,
+section! {
+    /// The joints between links.
+    #[derive(Copy)]
+    pub struct Joint(this) {
+        /// `universal`, `ball_cage` or `revolute`. Default universal.
+        #[serde(default = "universal")]
+        kind: JointKind;
+        /// Bend angle at which the stop begins. Required.
+        limit_deg: f64, above(0.0, 45.0), "deg",
+            "tilts are small in the model; a joint that never stops may be set to 45";
+        /// N m/rad. Default 2e5, of the order of 4EI/l of a link.
+        #[serde(default = "default_stop_stiffness")]
+        stop_stiffness: f64, within(0.0, 1e12), "N m/rad", "0 switches the stop off";
+        /// Hunt-Crossley damping of the stop (s/rad). Default 0.5.
+        #[serde(default = "half")]
+        stop_damping: f64, within(0.0, 1e3), "s/rad", "0 is elastic; far above 1 the stop hardly opens within a step";
+        /// Angle of the first cross about the shaft. Default 0.
+        #[serde(default)]
+        cross_phase_deg: f64, within(-360.0, 360.0), "deg", "one turn";
+        /// Turn from one cross to the next. Default 90.
+        #[serde(default = "ninety")]
+        cross_phase_step_deg: f64, within(-360.0, 360.0), "deg", "one turn";
+        /// Angle that a `revolute` joint keeps across its hinge: `straight` links, or `as_built` in the well. Default
+        /// straight.
+        #[serde(default)]
+        hinge_angle: HingeAngle;
+    }
 }
 
 fn universal() -> JointKind {
@@ -100,34 +96,30 @@ fn ninety() -> f64 {
     90.0
 }
 
-/// C = alpha M + beta K.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Damping {
-    /// 1/s. Default 2.
-    pub alpha: f64,
-    /// s. Default 1e-4.
-    pub beta: f64,
-}
-
-impl Default for Damping {
-    fn default() -> Self {
-        Self { alpha: 2.0, beta: 1e-4 }
+section! {
+    /// Rayleigh damping, C = alpha M + beta K.
+    #[derive(Copy)]
+    pub struct Damping(this) {
+        /// Of the mass (1/s).
+        alpha: f64 = 2.0, within(0.0, 1e5), "1/s", "damping only takes energy";
+        /// Of the stiffness (s).
+        beta: f64 = 1e-4, within(0.0, 1.0), "s", "damping only takes energy";
     }
 }
 
-/// The bit, Eq. 1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Bit {
-    /// m. Required.
-    pub diameter: f64,
-    /// eta of Eq. 1. Default 0.235, the paper's.
-    #[serde(default = "paper_eta")]
-    pub friction_factor: f64,
-    /// Speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s). Default 0.1.
-    #[serde(default = "tenth")]
-    pub slip_rate: f64,
+section! {
+    /// The bit, Eq. 1.
+    #[derive(Copy)]
+    pub struct Bit(this) {
+        /// Diameter of the hole that it cuts (m). Required.
+        diameter: f64, above(0.0, 2.0), "m", "given in metres";
+        /// eta of Eq. 1. Default 0.235, the paper's.
+        #[serde(default = "paper_eta")]
+        friction_factor: f64, within(0.0, 5.0), "", "0 is a bit without torque; rock and bit rarely exceed 1";
+        /// Speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s). Default 0.1.
+        #[serde(default = "tenth")]
+        slip_rate: f64, within(1e-4, 10.0), "rad/s", "0 would make the torque jump at standstill";
+    }
 }
 
 fn paper_eta() -> f64 {
@@ -161,7 +153,7 @@ impl Tool {
             50,
             "a link is short and stiff; the paper takes 5",
         );
-        c.below("material", |c| self.material.check(c));
+        c.below("material", |c| self.material.check_numbers(c));
         c.below("pipe", |c| self.pipe.check(c));
         c.below("guide", |c| self.guide.check(c));
         if (1..=50).contains(&self.elements_per_link) {
@@ -179,34 +171,13 @@ impl Tool {
                 "the pipe turns inside the guide",
             );
         }
-        c.below("joint", |c| self.joint.check(c));
-        c.below("damping", |c| self.damping.check(c));
-        c.below("bit", |c| self.bit.check(c));
+        c.below("joint", |c| self.joint.check_numbers(c));
+        c.below("damping", |c| self.damping.check_numbers(c));
+        c.below("bit", |c| self.bit.check_numbers(c));
     }
 }
 
 impl Material {
-    fn check(&self, c: &mut Checker) {
-        let reason = "in Pa; steel is 206e9";
-        c.number(
-            "youngs_modulus",
-            self.youngs_modulus,
-            Bound::within(1e6, 1e14),
-            "Pa",
-            reason,
-        );
-        let reason = "outside, an isotropic material would gain energy when loaded";
-        c.number(
-            "poisson_ratio",
-            self.poisson_ratio,
-            Bound::within(-0.99, 0.5),
-            "",
-            reason,
-        );
-        let reason = "the mass matrix must be positive; steel is 7850";
-        c.number("density", self.density, Bound::within(1.0, 1e6), "kg/m3", reason);
-    }
-
     pub(super) fn describe(&self) -> Steel {
         Steel {
             youngs_modulus: self.youngs_modulus,
@@ -217,42 +188,6 @@ impl Material {
 }
 
 impl Joint {
-    fn check(&self, c: &mut Checker) {
-        let reason = "tilts are small in the model; a joint that never stops may be set to 45";
-        c.number("limit_deg", self.limit_deg, Bound::above(0.0, 45.0), "deg", reason);
-        let reason = "0 switches the stop off";
-        c.number(
-            "stop_stiffness",
-            self.stop_stiffness,
-            Bound::within(0.0, 1e12),
-            "N m/rad",
-            reason,
-        );
-        let reason = "0 is elastic; far above 1 the stop hardly opens within a step";
-        c.number(
-            "stop_damping",
-            self.stop_damping,
-            Bound::within(0.0, 1e3),
-            "s/rad",
-            reason,
-        );
-        let reason = "one turn";
-        c.number(
-            "cross_phase_deg",
-            self.cross_phase_deg,
-            Bound::within(-360.0, 360.0),
-            "deg",
-            reason,
-        );
-        c.number(
-            "cross_phase_step_deg",
-            self.cross_phase_step_deg,
-            Bound::within(-360.0, 360.0),
-            "deg",
-            reason,
-        );
-    }
-
     pub(super) fn describe(&self) -> JointDescription {
         JointDescription {
             kind: self.kind,
@@ -267,12 +202,6 @@ impl Joint {
 }
 
 impl Damping {
-    fn check(&self, c: &mut Checker) {
-        let reason = "damping only takes energy";
-        c.number("alpha", self.alpha, Bound::within(0.0, 1e5), "1/s", reason);
-        c.number("beta", self.beta, Bound::within(0.0, 1.0), "s", reason);
-    }
-
     pub(super) fn describe(&self) -> Rayleigh {
         Rayleigh {
             alpha: self.alpha,
@@ -282,26 +211,6 @@ impl Damping {
 }
 
 impl Bit {
-    fn check(&self, c: &mut Checker) {
-        c.number(
-            "diameter",
-            self.diameter,
-            Bound::above(0.0, 2.0),
-            "m",
-            "given in metres",
-        );
-        let reason = "0 is a bit without torque; rock and bit rarely exceed 1";
-        c.number(
-            "friction_factor",
-            self.friction_factor,
-            Bound::within(0.0, 5.0),
-            "",
-            reason,
-        );
-        let reason = "0 would make the torque jump at standstill";
-        c.number("slip_rate", self.slip_rate, Bound::within(1e-4, 10.0), "rad/s", reason);
-    }
-
     pub(super) fn describe(&self) -> BitDescription {
         BitDescription {
             diameter: self.diameter,

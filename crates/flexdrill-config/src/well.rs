@@ -25,12 +25,12 @@ pub struct Well {
 pub enum Section {
     /// `straight: {length: 1.0}`.
     Straight {
-        /// m.
+        /// Length (m).
         length: f64,
     },
     /// `arc: {radius: 3.2, build_angle_deg: 90}`.
     Arc {
-        /// m.
+        /// Radius (m).
         radius: f64,
         /// Change of inclination, builds only.
         build_angle_deg: f64,

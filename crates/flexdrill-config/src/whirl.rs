@@ -2,72 +2,55 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::checker::{Bound, Checker};
+use super::checker::Checker;
 use super::place::Mesh;
+use super::section::section;
 use flexdrill_core::motion::{self, LevelThresholds, Severity, WhirlSettings};
 use flexdrill_core::tool::Body;
 use flexdrill_core::units::{kn_to_n, n_to_kn, rpm_to_rad_per_s};
 
-/// Whirl analysis and warnings.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Whirl {
-    /// Length of the sliding window in turns of the tool. Default 4.
-    pub window_turns: f64,
-    /// Longest window, for a slow or standing tool (s). Default 6: four turns at 40 r/min.
-    pub max_window: f64,
-    /// Samples of the motion per second (Hz). Default 250.
-    pub sample_rate: f64,
-    /// `joints`, `all` or `{stations: [5, 10]}`. Default joints, where contact is.
-    pub watched: Watched,
-    /// Below this rotary speed the tool counts as standing and no ratio is given. Default 5.
-    pub gate_speed_rpm: f64,
-    /// RMS orbit radius over clearance below which nothing is called whirl. Default 0.1.
-    pub min_orbit_ratio: f64,
-    /// Part of direction, 0 to 1, from which an orbit is forward or backward and below which it is chaotic. Default 0.6.
-    pub steady_direction: f64,
-    /// Correlation, 0 to 1, from which a motion without direction counts as the same again, turn by turn, and is not
-    /// chaotic. Default 0.8.
-    pub min_repetition: f64,
-    /// Relative difference to the rate of rolling without slip within which backward whirl counts as rolling. Default 0.15.
-    pub rolling_tolerance: f64,
-    /// Factors on the confidence while an input is not as it should be.
-    pub input_trust: InputTrust,
-    /// Below this confidence nothing raises a level. Default 0.5.
-    pub min_confidence: f64,
-    /// A level is left below threshold x (1 - hysteresis). Default 0.15.
-    pub hysteresis: f64,
-    /// And after this long there (s). Default 5.
-    pub hold_off: f64,
-    /// Time for which `critical` stands at least (s). Default 30.
-    pub latch: f64,
-    /// Highest level of forward whirl: ok, watch, warning or critical. Default warning.
-    pub forward_limit: Severity,
-    /// When to watch, warn and call critical.
-    pub levels: Levels,
-}
-
-impl Default for Whirl {
-    fn default() -> Self {
-        let settings = WhirlSettings::default();
-        Self {
-            window_turns: settings.window_turns,
-            max_window: settings.max_window,
-            sample_rate: 250.0,
-            watched: Watched::Joints,
-            gate_speed_rpm: 5.0,
-            min_orbit_ratio: settings.min_orbit_ratio,
-            steady_direction: settings.steady_direction,
-            min_repetition: settings.min_repetition,
-            rolling_tolerance: settings.rolling_tolerance,
-            input_trust: InputTrust::default(),
-            min_confidence: settings.min_confidence,
-            hysteresis: settings.hysteresis,
-            hold_off: settings.hold_off,
-            latch: settings.latch,
-            forward_limit: settings.forward_limit,
-            levels: Levels::default(),
-        }
+section! {
+    /// Whirl analysis and warnings.
+    pub struct Whirl(this) {
+        /// Length of the sliding window in turns of the tool.
+        window_turns: f64 = WhirlSettings::default().window_turns, within(1.0, 100.0), "turns",
+            "a window must hold a turn of the whirl";
+        /// Longest window, for a slow or standing tool (s): 6, four turns at 40 r/min.
+        max_window: f64 = WhirlSettings::default().max_window, within(0.5, 60.0), "s",
+            "shorter than half a second shows no direction; longer than a minute warns too late";
+        /// Samples of the motion per second.
+        sample_rate: f64 = 250.0, within(10.0, 10_000.0), "Hz", "an orbit needs some 20 samples per turn";
+        /// `joints`, `all` or `{stations: [5, 10]}`. Default joints, where contact is.
+        watched: Watched = Watched::Joints;
+        /// Below this rotary speed the tool counts as standing and no ratio is given.
+        gate_speed_rpm: f64 = 5.0, within(0.0, 1000.0), "r/min", "a tool that does not turn does not whirl";
+        /// RMS orbit radius over clearance below which nothing is called whirl.
+        min_orbit_ratio: f64 = WhirlSettings::default().min_orbit_ratio, within(0.0, 1.0), "",
+            "a ratio; 1 fills the gap";
+        /// Part of direction, 0 to 1, from which an orbit is forward or backward and below which it is chaotic.
+        steady_direction: f64 = WhirlSettings::default().steady_direction, within(0.1, 1.0), "",
+            "broad-band motion scatters by 0.2";
+        /// Correlation, 0 to 1, from which a motion without direction counts as the same again, turn by turn, and is
+        /// not chaotic.
+        min_repetition: f64 = WhirlSettings::default().min_repetition, within(0.1, 1.0), "",
+            "broad-band motion reaches 0.5 by chance; noise keeps periodic motion from 1";
+        /// Relative difference to the rate of rolling without slip within which backward whirl counts as rolling.
+        rolling_tolerance: f64 = WhirlSettings::default().rolling_tolerance, within(0.0, 0.5), "",
+            "wider would call sliding rolling";
+        /// Factors on the confidence while an input is not as it should be.
+        input_trust: InputTrust = InputTrust::default(), below;
+        /// Below this confidence nothing raises a level.
+        min_confidence: f64 = WhirlSettings::default().min_confidence, within(0.0, 1.0), "", "0 to 1";
+        /// A level is left below threshold x (1 - hysteresis).
+        hysteresis: f64 = WhirlSettings::default().hysteresis, within(0.0, 0.9), "", "at 1 a level would never be left";
+        /// And after this long there (s).
+        hold_off: f64 = WhirlSettings::default().hold_off, within(0.0, 3600.0), "s", "an hour";
+        /// Time for which `critical` stands at least (s).
+        latch: f64 = WhirlSettings::default().latch, within(0.0, 1e9), "s", "";
+        /// Highest level of forward whirl: ok, watch, warning or critical. Default warning.
+        forward_limit: Severity = WhirlSettings::default().forward_limit;
+        /// When to watch, warn and call critical.
+        levels: Levels = Levels::default();
     }
 }
 
@@ -84,45 +67,26 @@ pub enum Watched {
     Stations(Vec<usize>),
 }
 
-/// Factors on the confidence, 0 to 1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct InputTrust {
-    /// Late by a sample or two. Default 0.9.
-    pub slow: f64,
-    /// The newest sample was refused. Default 0.8.
-    pub rejected: f64,
-    /// Held for long or on the way to the safe value. Default 0.6.
-    pub stale: f64,
-    /// The configured start values act. Default 0.6.
-    pub not_received: f64,
-}
-
-impl Default for InputTrust {
-    fn default() -> Self {
-        let trust = motion::InputTrust::default();
-        Self {
-            slow: trust.slow,
-            rejected: trust.rejected,
-            stale: trust.stale,
-            not_received: trust.not_received,
-        }
+section! {
+    /// Factors on the confidence, 0 to 1.
+    #[derive(Copy)]
+    pub struct InputTrust(this) {
+        /// Late by a sample or two.
+        slow: f64 = motion::InputTrust::default().slow, within(0.0, 1.0), "",
+            "a factor on the confidence; 0 lets no level rise";
+        /// The newest sample was refused.
+        rejected: f64 = motion::InputTrust::default().rejected, within(0.0, 1.0), "",
+            "a factor on the confidence; 0 lets no level rise";
+        /// Held for long or on the way to the safe value.
+        stale: f64 = motion::InputTrust::default().stale, within(0.0, 1.0), "",
+            "a factor on the confidence; 0 lets no level rise";
+        /// The configured start values act.
+        not_received: f64 = motion::InputTrust::default().not_received, within(0.0, 1.0), "",
+            "a factor on the confidence; 0 lets no level rise";
     }
 }
 
 impl InputTrust {
-    fn check(&self, c: &mut Checker) {
-        for (key, value) in [
-            ("slow", self.slow),
-            ("rejected", self.rejected),
-            ("stale", self.stale),
-            ("not_received", self.not_received),
-        ] {
-            let reason = "a factor on the confidence; 0 lets no level rise";
-            c.number(key, value, Bound::within(0.0, 1.0), "", reason);
-        }
-    }
-
     fn describe(&self) -> motion::InputTrust {
         motion::InputTrust {
             slow: self.slow,
@@ -133,40 +97,31 @@ impl InputTrust {
     }
 }
 
-/// Thresholds of the three levels.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Levels {
-    /// Keep an eye on it.
-    pub watch: Level,
-    /// Act soon.
-    pub warning: Level,
-    /// Act now.
-    pub critical: Level,
+section! {
+    /// Thresholds of the three levels.
+    #[derive(Copy)]
+    pub struct Levels(this) {
+        /// Keep an eye on it.
+        watch: Level = WhirlSettings::default().watch.into(), below;
+        /// Act soon.
+        warning: Level = WhirlSettings::default().warning.into(), below;
+        /// Act now.
+        critical: Level = WhirlSettings::default().critical.into(), below;
+    }
 }
 
-/// A level is reached when, for `duration`, there is whirl with both ratios and the force reached.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Level {
-    /// Largest distance from the gap's centre over the clearance.
-    pub clearance_ratio: f64,
-    /// Part of the window in contact, 0 to 1.
-    pub contact_duty: f64,
-    /// Peak normal contact force.
-    pub force_kn: f64,
-    /// s.
-    pub duration: f64,
-}
-
-impl Default for Levels {
-    fn default() -> Self {
-        let settings = WhirlSettings::default();
-        Self {
-            watch: settings.watch.into(),
-            warning: settings.warning.into(),
-            critical: settings.critical.into(),
-        }
+section! {
+    /// A level is reached when, for `duration`, there is whirl with both ratios and the force reached.
+    #[derive(Copy)]
+    pub struct Level(this) {
+        /// Largest distance from the gap's centre over the clearance.
+        clearance_ratio: f64, within(0.0, 2.0), "", "above 1 is penetration";
+        /// Part of the window in contact, 0 to 1.
+        contact_duty: f64, within(0.0, 1.0), "", "a part of the window";
+        /// Peak normal contact force.
+        force_kn: f64, within(0.0, 1e4), "kN", "0 asks for none";
+        /// How long it must last (s).
+        duration: f64, within(0.0, 600.0), "s", "longer would warn too late";
     }
 }
 
@@ -183,24 +138,7 @@ impl From<LevelThresholds> for Level {
 
 impl Whirl {
     pub(super) fn check(&self, c: &mut Checker, mesh: &Mesh) {
-        let reason = "a window must hold a turn of the whirl";
-        c.number(
-            "window_turns",
-            self.window_turns,
-            Bound::within(1.0, 100.0),
-            "turns",
-            reason,
-        );
-        let reason = "shorter than half a second shows no direction; longer than a minute warns too late";
-        c.number("max_window", self.max_window, Bound::within(0.5, 60.0), "s", reason);
-        let reason = "an orbit needs some 20 samples per turn";
-        c.number(
-            "sample_rate",
-            self.sample_rate,
-            Bound::within(10.0, 10_000.0),
-            "Hz",
-            reason,
-        );
+        self.check_numbers(c);
         if let Watched::Stations(stations) = &self.watched {
             c.below("watched", |c| {
                 c.require(!stations.is_empty(), "stations", "[]", "", "at least one station", "");
@@ -212,57 +150,6 @@ impl Whirl {
                 });
             });
         }
-        let reason = "a tool that does not turn does not whirl";
-        c.number(
-            "gate_speed_rpm",
-            self.gate_speed_rpm,
-            Bound::within(0.0, 1000.0),
-            "r/min",
-            reason,
-        );
-        let reason = "a ratio; 1 fills the gap";
-        c.number(
-            "min_orbit_ratio",
-            self.min_orbit_ratio,
-            Bound::within(0.0, 1.0),
-            "",
-            reason,
-        );
-        c.number(
-            "steady_direction",
-            self.steady_direction,
-            Bound::within(0.1, 1.0),
-            "",
-            "broad-band motion scatters by 0.2",
-        );
-        let reason = "broad-band motion reaches 0.5 by chance; noise keeps periodic motion from 1";
-        c.number(
-            "min_repetition",
-            self.min_repetition,
-            Bound::within(0.1, 1.0),
-            "",
-            reason,
-        );
-        let reason = "wider would call sliding rolling";
-        c.number(
-            "rolling_tolerance",
-            self.rolling_tolerance,
-            Bound::within(0.0, 0.5),
-            "",
-            reason,
-        );
-        c.below("input_trust", |c| self.input_trust.check(c));
-        c.number(
-            "min_confidence",
-            self.min_confidence,
-            Bound::within(0.0, 1.0),
-            "",
-            "0 to 1",
-        );
-        let reason = "at 1 a level would never be left";
-        c.number("hysteresis", self.hysteresis, Bound::within(0.0, 0.9), "", reason);
-        c.number("hold_off", self.hold_off, Bound::within(0.0, 3600.0), "s", "an hour");
-        c.number("latch", self.latch, Bound::within(0.0, 1e9), "s", "");
         c.below("levels", |c| self.levels.check(c));
     }
 
@@ -301,13 +188,7 @@ impl Whirl {
 
 impl Levels {
     fn check(&self, c: &mut Checker) {
-        for (key, level) in [
-            ("watch", &self.watch),
-            ("warning", &self.warning),
-            ("critical", &self.critical),
-        ] {
-            c.below(key, |c| level.check(c));
-        }
+        self.check_numbers(c);
         for (key, lower, higher) in [
             ("warning", &self.watch, &self.warning),
             ("critical", &self.warning, &self.critical),
@@ -327,38 +208,6 @@ impl Levels {
 }
 
 impl Level {
-    fn check(&self, c: &mut Checker) {
-        let reason = "above 1 is penetration";
-        c.number(
-            "clearance_ratio",
-            self.clearance_ratio,
-            Bound::within(0.0, 2.0),
-            "",
-            reason,
-        );
-        c.number(
-            "contact_duty",
-            self.contact_duty,
-            Bound::within(0.0, 1.0),
-            "",
-            "a part of the window",
-        );
-        c.number(
-            "force_kn",
-            self.force_kn,
-            Bound::within(0.0, 1e4),
-            "kN",
-            "0 asks for none",
-        );
-        c.number(
-            "duration",
-            self.duration,
-            Bound::within(0.0, 600.0),
-            "s",
-            "longer would warn too late",
-        );
-    }
-
     fn describe(&self) -> LevelThresholds {
         LevelThresholds {
             clearance_ratio: self.clearance_ratio,

@@ -1,5 +1,11 @@
 //! Every configuration file that is shipped loads, and reads back from what it writes.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::path::{Path, PathBuf};
 
 use flexdrill_config::Config;

@@ -13,9 +13,9 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 pub struct Case {
     /// Tool, well, solver.
     pub config: Config,
-    /// r/min.
+    /// Rotary speed (r/min).
     pub rotary_speed_rpm: f64,
-    /// kN, on from the start.
+    /// Weight on bit (kN), on from the start.
     pub weight_on_bit_kn: f64,
     /// Turns of the drive at full speed before recording: what the run-up has stirred has died down.
     pub settling_turns: f64,
@@ -58,7 +58,7 @@ impl Case {
     }
 }
 
-/// Runs a case; `progress` is told the model time (s) now and then.
+/// Runs a case; `progress` gets the model time (s) now and then.
 ///
 /// # Errors
 /// When the configuration is refused, a step fails, or the energy audit does.

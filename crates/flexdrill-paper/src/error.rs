@@ -8,14 +8,14 @@ use flexdrill_core::dynamics::outcome::StepFailure;
 use flexdrill_core::twin::BuildError;
 use flexdrill_verify::VerifyError;
 
-/// Largest error of the energy audit, relative to the drive's work, with which figures are drawn. Healthy runs stay below 0.1 %; a
-/// chain that the integration feeds is far above 1 %.
+/// Largest error of the energy audit, relative to the drive's work, with which figures are drawn. Healthy runs stay
+/// below 0.1 %; a chain that the integration feeds is far above 1 %.
 pub const ENERGY_LIMIT: f64 = 0.01;
 
 /// Newton iterations per step from which a run of the search is given up: healthy ones take two to four.
 pub const ITERATION_LIMIT: u64 = 8;
 
-/// Why.
+/// Why the paper's case could not be run or shown.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperError {
     /// The configuration, or a value put into it, is refused.
@@ -30,7 +30,7 @@ pub enum PaperError {
     /// The drive stands still.
     #[error("paper: rotary speed {rpm} r/min, must be above 0: give inputs.rotary_speed.initial_rpm or --rpm")]
     Standing {
-        /// r/min.
+        /// Rotary speed (r/min).
         rpm: f64,
     },
     /// A step failed.
@@ -57,9 +57,9 @@ pub enum PaperError {
         100.0 * error.abs() / drive.abs().max(f64::MIN_POSITIVE), 100.0 * ENERGY_LIMIT
     )]
     Energy {
-        /// J.
+        /// Energy that the integration has gained or lost (J).
         error: f64,
-        /// J.
+        /// Work of the drive (J).
         drive: f64,
     },
     /// A figure could not be drawn.
@@ -68,9 +68,9 @@ pub enum PaperError {
     /// A file could not be written.
     #[error("paper: cannot write {}: {reason}", path.display())]
     Write {
-        /// File.
+        /// File that it is about.
         path: PathBuf,
-        /// Why.
+        /// Why it could not be drawn or written.
         reason: String,
     },
 }

@@ -9,7 +9,7 @@ use flexdrill_verify::{Bench, HingedBeam};
 pub struct Hinge {
     /// The beam.
     pub beam: HingedBeam,
-    /// s.
+    /// Time (s).
     pub time: Vec<f64>,
     /// Load (N): 1000 N/s, as the paper's.
     pub load: Vec<f64>,
@@ -21,8 +21,8 @@ pub struct Hinge {
 const RATE: f64 = 1000.0;
 /// Steps between two points.
 const EVERY: u64 = 20;
-/// Time before the first error is counted (s): the load starts suddenly, and the deflection that the error is relative to is still as
-/// small as the beam's swing.
+/// Time before the first error is counted (s): the load starts suddenly, and the deflection that the error is relative
+/// to is still as small as the beam's swing.
 const FIRST: f64 = 0.02;
 
 impl Hinge {
@@ -62,7 +62,8 @@ impl Hinge {
             })
     }
 
-    /// Largest error against the corrected form, and largest difference to the printed one, both over the largest deflection.
+    /// Largest error against the corrected form, and largest difference to the printed one, both over the largest
+    /// deflection.
     pub fn worst(&self) -> (f64, f64) {
         let over = |form: &dyn Fn(f64) -> f64| {
             let points = self.load.iter().zip(&self.numerical);

@@ -1,9 +1,11 @@
-//! The paper's case: a run recorded at every station, the paper's findings as numbers of that record, its figures and a report.
+//! The paper's case: a run recorded at every station, the paper's findings as numbers of that record, its figures and a
+//! report.
 //!
 //! Source: Lin, Luo, Wang, Xiu, Li, Scientific Reports 2024, figures 9 to 17.
 //!
 //! # Layout
-//! - [`Case`] says what is run; [`record`] runs it and keeps a [`Record`]. A record whose energy audit fails is an error.
+//! - [`Case`] says what is run; [`record`] runs it and keeps a [`Record`]. A record whose energy audit fails is an
+//!   error.
 //! - [`findings()`] turns a record into [`Finding`]s, each with its definition, the paper's number and a [`Verdict`].
 //!   `series` and `motion` hold what it measures with.
 //! - [`hinge`]: the case of Fig. 9. [`figures`]: the drawings, as SVG and PNG, and their data.

@@ -162,8 +162,8 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
     found
 }
 
-/// Part of the kinks at joints, and the RMS kink. A kink is the change of slope of the displacement (without the chord's offset, which
-/// is no displacement) from one element to the next.
+/// Part of the kinks at joints, and the RMS kink. A kink is the change of slope of the displacement (without the
+/// chord's offset, which is no displacement) from one element to the next.
 fn kinks(record: &Record, axis: &Axis, body: Body) -> (f64, f64) {
     let stations = &record.stations;
     let n = stations.len();

@@ -7,6 +7,7 @@ use flexdrill_core::elements::gap::Touch;
 use flexdrill_core::model::Model;
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{Simulation, SolverCounters};
+use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 /// One number per sample and station.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -50,7 +51,7 @@ impl Series {
 pub struct Stations {
     /// Measured depth (m).
     pub depth: Vec<f64>,
-    /// rad.
+    /// Inclination (rad).
     pub inclination: Vec<f64>,
     /// Whether a joint is here.
     pub joint: Vec<bool>,
@@ -100,7 +101,7 @@ impl Stations {
 
     /// The station nearest to an inclination (deg).
     pub fn nearest(&self, inclination_deg: f64) -> usize {
-        let wanted = inclination_deg.to_radians();
+        let wanted = deg_to_rad(inclination_deg);
         let distance = |s: &usize| (self.inclination[*s] - wanted).abs();
         (0..self.len())
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
@@ -109,7 +110,7 @@ impl Stations {
 
     /// Inclination in degrees.
     pub fn degrees(&self, station: usize) -> f64 {
-        self.inclination[station].to_degrees()
+        rad_to_deg(self.inclination[station])
     }
 }
 
@@ -205,7 +206,8 @@ struct Sums {
 }
 
 impl Recorder {
-    /// For samples every `per_sample` steps of `time_step` (s) of a tool that the drive turns at `rotary_speed` (rad/s).
+    /// For samples every `per_sample` steps of `time_step` (s) of a tool that the drive turns at `rotary_speed`
+    /// (rad/s).
     pub fn new(model: &Model, rotary_speed: f64, time_step: f64, per_sample: u64) -> Self {
         let stations = Stations::of(model);
         let n = stations.len();
@@ -248,7 +250,7 @@ impl Recorder {
         }
     }
 
-    /// Takes the state after a step.
+    /// Adds the state after a step.
     pub fn after_step(&mut self, simulation: &Simulation) {
         let stepper = simulation.stepper();
         let forces = &stepper.newton().assembler;

@@ -32,8 +32,8 @@ pub struct Period {
 /// Part of the best autocorrelation that a shorter lag must reach to be the period instead of its multiple.
 const AS_GOOD: f64 = 0.85;
 
-/// The dominant period of a series with samples `interval` (s) apart: the shortest lag between `shortest` (s) and half of the series at
-/// which the autocorrelation has a peak that is (nearly) its highest there.
+/// The dominant period of a series with samples `interval` (s) apart: the shortest lag between `shortest` (s) and half
+/// of the series at which the autocorrelation has a peak that is (nearly) its highest there.
 pub fn dominant_period(values: &[f64], interval: f64, shortest: f64) -> Period {
     let count = values.len();
     let (from, to) = ((shortest / interval).ceil() as usize, count / 2);
@@ -85,8 +85,8 @@ pub(super) fn largest(values: &[f64]) -> usize {
         .unwrap_or(0)
 }
 
-/// Indices of the two largest peaks of a profile that are at least `apart` from each other along `at` and below their own heights in
-/// between, the one nearer to the top first.
+/// Indices of the two largest peaks of a profile that are at least `apart` from each other along `at` and below their
+/// own heights in between, the one nearer to the top first.
 pub(super) fn two_peaks(profile: &[f64], at: &[f64], apart: f64) -> [usize; 2] {
     let first = largest(profile);
     let is_peak = |i: usize| {

@@ -10,8 +10,8 @@ use crate::monotonic;
 pub trait Clock: Send {
     /// Nanoseconds; the zero is the clock's own.
     fn now(&self) -> u64;
-    /// Waits for a deadline, at most for some milliseconds when it is not known when that will be. Returns early or late;
-    /// the caller looks at [`Clock::now`].
+    /// Waits for a deadline, at most for some milliseconds when it is not known when that will be. Returns early or
+    /// late; the caller looks at [`Clock::now`].
     fn wait_until(&self, deadline: u64);
     /// The present instant on the rig's clock (ns since 1970), for stamps.
     fn rig_time(&self) -> u64;

@@ -9,7 +9,7 @@
 //!     // advance the model by one step
 //!     let paced = pacer.step_done(monotonic::now());
 //!     if paced.skipped > 0 {
-//!         // tell it: the model stands still for so many periods
+//!         // report it: the model stands still for so many periods
 //!     }
 //! }
 //! ```
@@ -21,6 +21,9 @@ mod pacer;
 mod real_time_factor;
 mod real_time_loop;
 
+/// Length of a period of the solver (s): inputs take effect this fast, live and in replays of foreign inputs.
+pub const INPUT_PERIOD: f64 = 5e-3;
+
 pub use pacer::{Paced, Pacer, whole_periods};
-pub use real_time_factor::RealTimeFactor;
-pub use real_time_loop::Solver;
+pub use real_time_factor::{FAR_BEHIND, KEEPS_UP, RealTimeFactor};
+pub use real_time_loop::RealTimeLoop;

@@ -15,14 +15,14 @@ use flexdrill_core::twin::{CheckpointError, Frame, RunInputs, Schedule};
 
 /// Frames in circulation: at 100 frames per second, two thirds of a second of a stalled publisher.
 pub const FRAMES: usize = 64;
-/// Room for reports beside frames.
-const REPORTS: usize = 4096;
+/// Room for events beside frames.
+const EVENTS: usize = 4096;
 /// Room for commands.
 const COMMANDS: usize = 256;
 /// Room for step times.
 const STEP_TIMES: usize = 1 << 16;
 
-/// What the solver is told between periods.
+/// What the loop does between periods.
 #[expect(
     clippy::large_enum_variant,
     reason = "a box would be freed on the solver's thread; commands are rare"
@@ -45,10 +45,13 @@ pub enum Command {
     Checkpoint(SyncSender<Result<Vec<u8>, CheckpointError>>),
 }
 
-/// What the solver tells, in the order in which it happened.
+/// What happened in the loop, in order.
 #[derive(Debug)]
-#[allow(clippy::large_enum_variant)] // A box would be allocated on the solver's thread.
-pub enum Report {
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a box would be allocated on the solver's thread"
+)]
+pub enum LoopEvent {
     /// A snapshot; the frame must be given back.
     Frame(Box<Frame>),
     /// New values act from the next step on.
@@ -69,12 +72,12 @@ pub enum Report {
 /// How the solver is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Phase {
+pub enum RunState {
     /// The tool is being brought to rest.
     Starting = 0,
     /// Model time advances.
     Running = 1,
-    /// Told to stand still.
+    /// Model time stands still on request.
     Paused = 2,
     /// A step failed; the model stands still.
     Failed = 3,
@@ -83,7 +86,7 @@ pub enum Phase {
 /// Numbers that the solver's thread keeps up to date and others read.
 #[derive(Debug, Default)]
 pub struct Gauges {
-    phase: AtomicU8,
+    run_state: AtomicU8,
     /// Steps taken since the start or the last reset.
     pub step: AtomicU64,
     /// Steps taken since the start, over all resets.
@@ -102,22 +105,22 @@ pub struct Gauges {
     pub start: AtomicU64,
     /// Frames that were due when none was free.
     pub frames_dropped: AtomicU64,
-    /// Reports that found no room: a recording of this run cannot be replayed exactly.
-    pub reports_lost: AtomicU64,
+    /// Events that found no room: a recording of this run cannot be replayed exactly.
+    pub events_lost: AtomicU64,
     /// Time per phase of the steps taken so far (ns).
     phase_times: [AtomicU64; phases::Phase::ALL.len()],
-    /// Tells the solver's thread to end.
+    /// Set to end the loop.
     pub stop: AtomicBool,
 }
 
 impl Gauges {
     /// How the solver is doing.
-    pub fn phase(&self) -> Phase {
-        match self.phase.load(Ordering::Acquire) {
-            1 => Phase::Running,
-            2 => Phase::Paused,
-            3 => Phase::Failed,
-            _ => Phase::Starting,
+    pub fn run_state(&self) -> RunState {
+        match self.run_state.load(Ordering::Acquire) {
+            1 => RunState::Running,
+            2 => RunState::Paused,
+            3 => RunState::Failed,
+            _ => RunState::Starting,
         }
     }
 
@@ -132,12 +135,12 @@ impl Gauges {
         }
     }
 
-    pub(crate) fn set_phase(&self, phase: Phase) {
-        self.phase.store(phase as u8, Ordering::Release);
+    pub(crate) fn set_run_state(&self, state: RunState) {
+        self.run_state.store(state as u8, Ordering::Release);
     }
 }
 
-/// The newest targets. Each value is a cell of its own: what the solver took is told by its [`Report::Applied`].
+/// The newest targets. Each value is a cell of its own: what the loop took is published as [`LoopEvent::Applied`].
 #[derive(Debug, Default)]
 pub struct Targets {
     rotary_speed: AtomicU64,
@@ -171,10 +174,10 @@ impl Targets {
     }
 }
 
-/// The solver's end.
-pub struct SolverEnd {
+/// The end of the loop.
+pub struct LoopEnd {
     pub(crate) commands: Consumer<Command>,
-    pub(crate) reports: Producer<Report>,
+    pub(crate) events: Producer<LoopEvent>,
     pub(crate) empty: Consumer<Box<Frame>>,
     pub(crate) step_times: Producer<u32>,
     pub(crate) targets: Arc<Targets>,
@@ -184,7 +187,7 @@ pub struct SolverEnd {
 /// The publisher's end.
 pub struct PublisherEnd {
     /// What happened.
-    pub reports: Consumer<Report>,
+    pub events: Consumer<LoopEvent>,
     /// Where frames go back.
     pub empty: Producer<Box<Frame>>,
     /// Computing time of each step (ns).
@@ -192,22 +195,22 @@ pub struct PublisherEnd {
 }
 
 /// Makes both ends, and the end that sends commands.
-pub fn link(targets: Arc<Targets>, gauges: Arc<Gauges>) -> (SolverEnd, PublisherEnd, Producer<Command>) {
+pub fn link(targets: Arc<Targets>, gauges: Arc<Gauges>) -> (LoopEnd, PublisherEnd, Producer<Command>) {
     let (command_sender, commands) = RingBuffer::new(COMMANDS);
-    let (reports, report_receiver) = RingBuffer::new(FRAMES + REPORTS);
+    let (events, event_receiver) = RingBuffer::new(FRAMES + EVENTS);
     let (empty_sender, empty) = RingBuffer::new(FRAMES + 1);
     let (step_times, step_time_receiver) = RingBuffer::new(STEP_TIMES);
     (
-        SolverEnd {
+        LoopEnd {
             commands,
-            reports,
+            events,
             empty,
             step_times,
             targets,
             gauges,
         },
         PublisherEnd {
-            reports: report_receiver,
+            events: event_receiver,
             empty: empty_sender,
             step_times: step_time_receiver,
         },

@@ -9,9 +9,15 @@ pub fn now() -> u64 {
 #[cfg(target_os = "linux")]
 fn read(clock: libc::clockid_t) -> u64 {
     let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+    #[expect(
+        unsafe_code,
+        reason = "the standard library has no clock of a thread's processor time"
+    )]
     // SAFETY: `time` is a valid timespec that the call fills; both clocks asked for always exist on Linux, so that it
     // cannot fail.
-    unsafe { libc::clock_gettime(clock, &raw mut time) };
+    unsafe {
+        libc::clock_gettime(clock, &raw mut time)
+    };
     // Neither part is negative on these clocks.
     time.tv_sec.unsigned_abs() * 1_000_000_000 + time.tv_nsec.unsigned_abs()
 }
@@ -37,6 +43,10 @@ pub fn sleep_until(deadline: u64) {
         tv_nsec: (deadline % 1_000_000_000) as libc::c_long,
     };
     loop {
+        #[expect(
+            unsafe_code,
+            reason = "the standard library does not sleep until an absolute instant"
+        )]
         // SAFETY: `time` is a valid timespec that outlives the call; the remaining time is not asked for.
         let result = unsafe {
             libc::clock_nanosleep(

@@ -4,7 +4,7 @@
 /// periods are given up and counted, so that the deadlines keep their phase.
 #[derive(Debug, Clone)]
 pub struct Pacer {
-    /// ns.
+    /// Origin (ns).
     origin: u64,
     /// ns; deadlines are computed from the origin each time, so that no rounding adds up.
     period: f64,

@@ -1,12 +1,17 @@
 //! How fast model time runs against wall time.
 
+/// From this factor on the model keeps up with the clock: what is missing is the jitter of the measurement.
+pub const KEEPS_UP: f64 = 0.98;
+/// Below this factor it is far behind: every tenth second or more is skipped.
+pub const FAR_BEHIND: f64 = 0.9;
+
 /// Marks kept in a window; the factor is as old as window x (1 +- 1/MARKS).
 const MARKS: usize = 64;
 
 /// Model time gained per wall time over a sliding window.
 #[derive(Debug, Clone)]
 pub struct RealTimeFactor {
-    /// ns.
+    /// Window (ns).
     window: u64,
     /// (wall ns, model s), a ring.
     marks: [(u64, f64); MARKS],

@@ -1,5 +1,5 @@
-//! The solver's thread: steps the run in periods with absolute deadlines, takes inputs and commands between periods, and
-//! hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
+//! The solver's thread: steps the run in periods with absolute deadlines, takes inputs and commands between periods,
+//! and hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
 //!
 //! A period is a whole number of model steps. A little lateness is caught up; when the solver is late by more, whole
 //! periods are skipped and counted: model and clock stay together, and the model is never integrated with another step
@@ -15,22 +15,22 @@ use flexdrill_core::twin::{Frame, Run, RunInputs};
 use rtrb::PushError;
 
 use crate::clock::Clock;
-use crate::link::{Command, FRAMES, Phase, Report, SolverEnd};
+use crate::link::{Command, FRAMES, LoopEnd, LoopEvent, RunState};
 
 /// A clock that is found this long before the deadline (ns) has been set back.
 const SET_BACK: u64 = 2_000_000_000;
 
 /// Drives a run against a clock.
-pub struct Solver<C: Clock> {
+pub struct RealTimeLoop<C: Clock> {
     run: Run,
     clock: C,
-    end: SolverEnd,
+    end: LoopEnd,
     /// Frames that have not been used yet.
     stash: VecDeque<Box<Frame>>,
     /// Stands in when no frame is free, so that the statistics end where they should.
     spare: Box<Frame>,
     pacer: Pacer,
-    /// ns.
+    /// Period (ns).
     period: u64,
     steps_per_period: u64,
     steps_taken: u64,
@@ -41,15 +41,15 @@ pub struct Solver<C: Clock> {
     changed: bool,
     reset_asked: bool,
     wanted: RunInputs,
-    /// What was told last; `step` and `reset` are not looked at.
-    told: Option<RunInputs>,
-    /// The state at the start or after a reset has not been shown yet.
+    /// What was published last; `step` and `reset` do not count.
+    published: Option<RunInputs>,
+    /// The state at the start or after a reset has not been published yet.
     first: bool,
 }
 
-impl<C: Clock> Solver<C> {
-    /// A solver that takes `steps_per_period` steps per deadline. Allocates all it needs.
-    pub fn new(run: Run, clock: C, end: SolverEnd, steps_per_period: u64) -> Self {
+impl<C: Clock> RealTimeLoop<C> {
+    /// A loop that takes `steps_per_period` steps per deadline. Allocates all it needs.
+    pub fn new(run: Run, clock: C, end: LoopEnd, steps_per_period: u64) -> Self {
         let steps_per_period = steps_per_period.max(1);
         let time_step = run.simulation().settings().time_step;
         let spare = Box::new(run.new_frame());
@@ -68,7 +68,7 @@ impl<C: Clock> Solver<C> {
             changed: false,
             reset_asked: false,
             wanted: run.applied(),
-            told: None,
+            published: None,
             first: true,
             run,
             clock,
@@ -76,7 +76,7 @@ impl<C: Clock> Solver<C> {
         }
     }
 
-    /// Runs until told to stop.
+    /// Runs until [`Gauges::stop`](crate::link::Gauges::stop) is set.
     pub fn run(mut self) {
         while self.clock.now() == 0 && !self.stopped() {
             // A simulated clock has not ticked yet.
@@ -86,7 +86,7 @@ impl<C: Clock> Solver<C> {
         while !self.stopped() {
             let (now, deadline) = (self.clock.now(), self.pacer.deadline());
             if now >= deadline {
-                self.turn();
+                self.run_period();
             } else if deadline - now > SET_BACK {
                 self.pacer.restart(now);
             } else {
@@ -101,8 +101,8 @@ impl<C: Clock> Solver<C> {
     }
 
     /// One period and what follows from how long it took.
-    fn turn(&mut self) {
-        self.take_commands();
+    fn run_period(&mut self) {
+        self.handle_commands();
         self.one_period();
         let paced = self.pacer.step_done(self.clock.now());
         if paced.skipped > 0 {
@@ -113,14 +113,14 @@ impl<C: Clock> Solver<C> {
             }
         }
         self.end.gauges.lateness.store(paced.lateness, Ordering::Relaxed);
-        self.tell();
+        self.update_gauges();
     }
 
     fn stopped(&self) -> bool {
         self.end.gauges.stop.load(Ordering::Relaxed)
     }
 
-    fn take_commands(&mut self) {
+    fn handle_commands(&mut self) {
         while let Ok(command) = self.end.commands.pop() {
             self.commands_done += 1;
             match command {
@@ -151,11 +151,11 @@ impl<C: Clock> Solver<C> {
         }
         self.apply(&current);
         if self.paused {
-            self.show_start();
+            self.publish_first();
             self.run.skip(self.steps_per_period);
             return;
         }
-        self.show_start();
+        self.publish_first();
         let end = self.pacer.deadline().saturating_add(self.period);
         let mut began = Instant::now();
         for taken in 0..self.steps_per_period {
@@ -172,9 +172,9 @@ impl<C: Clock> Solver<C> {
                     self.steps_taken += 1;
                     if self.failed {
                         self.failed = false;
-                        self.report(Report::Recovered);
+                        self.push(LoopEvent::Recovered);
                     }
-                    self.show_if_due();
+                    self.publish_if_due();
                     if self.clock.now() > end {
                         self.end.gauges.deadline_misses.fetch_add(1, Ordering::Relaxed);
                     }
@@ -182,7 +182,7 @@ impl<C: Clock> Solver<C> {
                 StepOutcome::Failed(failure) => {
                     self.failed = true;
                     self.changed = false;
-                    self.report(Report::Failed(failure, self.run.ticks()));
+                    self.push(LoopEvent::Failed(failure, self.run.ticks()));
                     self.run.skip(self.steps_per_period - taken);
                     return;
                 }
@@ -191,7 +191,7 @@ impl<C: Clock> Solver<C> {
         self.changed = false;
     }
 
-    /// Lets what is wanted act, and tells of it when anything is different.
+    /// Hands the newest inputs and settings to the run; publishes them when anything has changed.
     fn apply(&mut self, current: &RunInputs) {
         let next = RunInputs {
             step: current.step,
@@ -199,12 +199,12 @@ impl<C: Clock> Solver<C> {
             reset: self.reset_asked,
             ..self.wanted
         };
-        let same = self.told.is_some_and(|told| {
+        let same = self.published.is_some_and(|published| {
             RunInputs {
-                step: told.step,
+                step: published.step,
                 reset: false,
                 ..next
-            } == told
+            } == published
         });
         if same && !next.reset && !self.changed {
             return;
@@ -215,23 +215,23 @@ impl<C: Clock> Solver<C> {
             self.first = true;
         }
         self.run.apply(&next);
-        self.told = Some(RunInputs { reset: false, ..next });
+        self.published = Some(RunInputs { reset: false, ..next });
         let ticks = self.run.ticks();
-        self.report(Report::Applied {
+        self.push(LoopEvent::Applied {
             inputs: next,
             ticks,
             commands: self.commands_done,
         });
     }
 
-    fn show_start(&mut self) {
+    fn publish_first(&mut self) {
         if self.first {
             self.first = false;
-            self.show_if_due();
+            self.publish_if_due();
         }
     }
 
-    fn show_if_due(&mut self) {
+    fn publish_if_due(&mut self) {
         if self.run.due().is_empty() {
             return;
         }
@@ -241,19 +241,19 @@ impl<C: Clock> Solver<C> {
             return;
         };
         self.run.capture(&mut frame);
-        self.report(Report::Frame(frame));
+        self.push(LoopEvent::Frame(frame));
     }
 
-    fn report(&mut self, report: Report) {
-        if let Err(PushError::Full(report)) = self.end.reports.push(report) {
-            self.end.gauges.reports_lost.fetch_add(1, Ordering::Relaxed);
-            if let Report::Frame(frame) = report {
+    fn push(&mut self, event: LoopEvent) {
+        if let Err(PushError::Full(event)) = self.end.events.push(event) {
+            self.end.gauges.events_lost.fetch_add(1, Ordering::Relaxed);
+            if let LoopEvent::Frame(frame) = event {
                 self.stash.push_back(frame);
             }
         }
     }
 
-    fn tell(&self) {
+    fn update_gauges(&self) {
         let gauges = &self.end.gauges;
         gauges.step.store(self.run.simulation().step(), Ordering::Relaxed);
         gauges.steps_taken.store(self.steps_taken, Ordering::Relaxed);
@@ -262,10 +262,10 @@ impl<C: Clock> Solver<C> {
             .store(self.run.applied().skipped, Ordering::Relaxed);
         gauges.ticks.store(self.run.ticks(), Ordering::Relaxed);
         gauges.set_phase_times(&self.run.simulation().phase_times());
-        gauges.set_phase(match (self.paused, self.failed) {
-            (true, _) => Phase::Paused,
-            (_, true) => Phase::Failed,
-            _ => Phase::Running,
+        gauges.set_run_state(match (self.paused, self.failed) {
+            (true, _) => RunState::Paused,
+            (_, true) => RunState::Failed,
+            _ => RunState::Running,
         });
     }
 }

@@ -1,7 +1,7 @@
 //! Closed forms of the hinged beam in a tube, Fig. 8 of the paper: as Eq. 45 is printed, and corrected.
 
-/// Two links of length l, clamped at the left, on a roller at the right, a joint with a bend limit at mid-span, a load F there, and a
-/// fixed tube around them.
+/// Two links of length l, clamped at the left, on a roller at the right, a joint with a bend limit at mid-span, a load
+/// F there, and a fixed tube around them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HingedBeam {
     /// EI (N m2).
@@ -25,8 +25,8 @@ impl HingedBeam {
         96.0 * self.bending * (self.gap - 5.0 * self.limit * self.length / 16.0) / (7.0 * self.length.powi(3))
     }
 
-    /// Deflection of the joint under `load` (m, towards the load); what statics gives: the free joint swings, then it is locked, then
-    /// the beam lies on the tube.
+    /// Deflection of the joint under `load` (m, towards the load); what statics gives: the free joint swings, then it
+    /// is locked, then the beam lies on the tube.
     pub fn corrected(&self, load: f64) -> f64 {
         if load <= self.limit_load() {
             load * self.length.powi(3) / (3.0 * self.bending)
@@ -37,7 +37,8 @@ impl HingedBeam {
         }
     }
 
-    /// The same as Eq. 45 is printed: without the power of l, and with the locked joint's stiffness in the first branch.
+    /// The same as Eq. 45 is printed: without the power of l, and with the locked joint's stiffness in the first
+    /// branch.
     pub fn printed(&self, load: f64) -> f64 {
         let bent = 7.0 * load * self.length / (96.0 * self.bending);
         if load <= self.limit_load() {

@@ -1,5 +1,5 @@
-//! The closed-form verification cases of `flexdrill verify` and the tests: configurations in `config/verify/`, run by the
-//! same code as the node and compared with the closed forms. Also the [error of the time step](step_error).
+//! The closed-form verification cases of `flexdrill verify` and the tests: configurations in `config/verify/`, run by
+//! the same code as the node and compared with the closed forms. Also the [error of the time step](step_error).
 
 mod bench;
 mod contacts;
@@ -104,15 +104,15 @@ pub enum VerifyError {
     /// Its tool cannot be built or started.
     #[error("verification case {case}: {source}")]
     Build {
-        /// Case.
+        /// Name of the verification case.
         case: &'static str,
-        /// Why.
+        /// The error behind it.
         source: BuildError,
     },
     /// A step failed.
     #[error("verification case {case}: step failed: {failure:?}")]
     Step {
-        /// Case.
+        /// Name of the verification case.
         case: &'static str,
         /// Why and where.
         failure: StepFailure,
@@ -120,9 +120,9 @@ pub enum VerifyError {
     /// Something that must happen in the case did not, so that there is nothing to compare.
     #[error("verification case {case}: {what} did not happen")]
     Missing {
-        /// Case.
+        /// Name of the verification case.
         case: &'static str,
-        /// What.
+        /// What is missing.
         what: &'static str,
     },
 }

@@ -1,5 +1,11 @@
-//! The whole tool of `config/default.yaml`: its step is converged, its energy adds up. `flexdrill bench --cases step-error` tells the
-//! same of the hard cases.
+//! The whole tool of `config/default.yaml`: its step is converged, its energy adds up. `flexdrill bench --cases
+//! step-error` tells the same of the hard cases.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
 
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
@@ -71,8 +77,8 @@ fn with_bit_torque_statistics_agree_and_energy_adds_up() {
         ("ripple of the bit speed (rad/s)", statistics.ripple),
         ("mean whirl ratio", statistics.whirl_ratio),
     ] {
-        // The range of three draws is 1.7 standard deviations s on average, the difference of two means of three scatters by 0.82 s:
-        // both ranges together are four times that.
+        // The range of three draws is 1.7 standard deviations s on average, the difference of two means of three
+        // scatters by 0.82 s: both ranges together are four times that.
         let (difference, both) = mean_and_range(&figure);
         assert!(difference <= both, "{name}: {figure:?}");
     }

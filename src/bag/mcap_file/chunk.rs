@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::fields::ChunkHead;
+use super::records::ChunkHead;
 
 /// Largest chunk that is unpacked (bytes): far more than any writer makes, far less than memory.
 const LARGEST: u64 = 1 << 30;
@@ -18,7 +18,7 @@ pub(super) fn unpack(body: &[u8], whole: bool) -> (Vec<u8>, Option<String>) {
         _ if !whole => rest,
         _ => return (Vec::new(), Some("the chunk is longer than its record".to_owned())),
     };
-    // A chunk that was still open when its writer died tells no size.
+    // A chunk that was still open when its writer died has no size.
     let limit = if whole || head.uncompressed_size != 0 {
         head.uncompressed_size.min(LARGEST)
     } else {

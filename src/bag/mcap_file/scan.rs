@@ -1,14 +1,16 @@
 //! First pass over an MCAP file: which parts hold messages of which time, which topics there are, where it ends.
 
-use std::collections::HashMap;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
-use std::sync::Arc;
 
-use super::fields::{Channel, Fields, Message, Schema, records};
-use super::{MAGIC, RECORD_HEAD, chunk, op};
-use crate::bag::{BagError, Topic, qos};
+use mcap::records::{Record, op};
+use mcap::{MAGIC, parse_record};
+
+use super::channels::Channels;
+use super::records::{Fields, MESSAGE_HEAD, message_header, records};
+use super::{RECORD_HEAD, chunk};
+use crate::bag::BagError;
 
 /// Bytes of a chunk's body that hold its head, with room for the name of any compression.
 const CHUNK_HEAD: u64 = 256;
@@ -39,65 +41,6 @@ pub(super) enum Kind {
     Loose,
 }
 
-/// What is known of the topics.
-#[derive(Default)]
-pub(super) struct Channels {
-    schemas: HashMap<u16, Arc<Schema>>,
-    /// Topic number by channel.
-    topic_of: HashMap<u16, usize>,
-    pub topics: Vec<Arc<Topic>>,
-}
-
-impl Channels {
-    /// Takes a schema or channel record; false if it is damaged.
-    pub fn add(&mut self, opcode: u8, body: &[u8]) -> bool {
-        if opcode == op::SCHEMA {
-            let Some(schema) = Schema::parse(body) else {
-                return false;
-            };
-            self.schemas.entry(schema.id).or_insert(Arc::new(schema));
-            return true;
-        }
-        let Some(channel) = Channel::parse(body) else {
-            return false;
-        };
-        if self.topic_of.contains_key(&channel.id) {
-            return true;
-        }
-        let schema = self.schemas.get(&channel.schema_id);
-        let text = |get: fn(&Schema) -> &String| schema.map(|schema| get(schema).clone()).unwrap_or_default();
-        let metadata = |key: &str| channel.metadata.get(key).cloned().unwrap_or_default();
-        let topic = Topic {
-            name: channel.topic.clone(),
-            ros_type: text(|schema| &schema.name),
-            encoding: channel.encoding.clone(),
-            schema: text(|schema| &schema.text),
-            schema_encoding: text(|schema| &schema.encoding),
-            type_hash: metadata("topic_type_hash"),
-            qos: qos::from_yaml(&metadata("offered_qos_profiles")),
-        };
-        let index = match self.topics.iter().position(|known| **known == topic) {
-            Some(index) => index,
-            None => {
-                self.topics.push(Arc::new(topic));
-                self.topics.len() - 1
-            }
-        };
-        self.topic_of.insert(channel.id, index);
-        true
-    }
-
-    /// Number of channels.
-    fn count(&self) -> usize {
-        self.topic_of.len()
-    }
-
-    /// Number of the topic of a channel.
-    pub fn topic(&self, channel: u16) -> Option<usize> {
-        self.topic_of.get(&channel).copied()
-    }
-}
-
 /// Result of the first pass.
 pub(super) struct Scan {
     pub segments: Vec<Segment>,
@@ -117,7 +60,7 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
     let length = file.metadata().map_err(read_error())?.len();
     let mut reader = BufReader::with_capacity(1 << 16, file);
     let mut magic = [0; MAGIC.len()];
-    let is_mcap = reader.read_exact(&mut magic).is_ok() && magic == MAGIC;
+    let is_mcap = reader.read_exact(&mut magic).is_ok() && magic == *MAGIC;
     if !is_mcap {
         return Err(BagError::NotABag {
             path: path.to_owned(),
@@ -183,10 +126,10 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
                 });
             }
             op::MESSAGE => {
-                used = size.min(22);
+                used = size.min(MESSAGE_HEAD as u64);
                 let mut bytes = vec![0; used as usize];
                 reader.read_exact(&mut bytes).map_err(read_error())?;
-                if let Some(message) = Message::parse(&bytes) {
+                if let Some(message) = message_header(&bytes) {
                     add_loose(&mut scan.segments, position, RECORD_HEAD + size, message.log_time);
                 }
             }
@@ -195,9 +138,10 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
                 let mut bytes = vec![0; size as usize];
                 reader.read_exact(&mut bytes).map_err(read_error())?;
                 if opcode == op::STATISTICS {
-                    let mut fields = Fields(&bytes);
-                    scan.messages = fields.u64();
-                    channel_count = fields.u16().and_then(|_schemas| fields.u32()).unwrap_or(0) as usize;
+                    if let Ok(Record::Statistics(statistics)) = parse_record(opcode, &bytes) {
+                        scan.messages = Some(statistics.message_count);
+                        channel_count = statistics.channel_count as usize;
+                    }
                 } else {
                     scan.channels.add(opcode, &bytes);
                 }
@@ -253,7 +197,7 @@ fn walk_chunks(path: &Path, file: &File, scan: &mut Scan) -> Result<(), BagError
                     scan.channels.add(opcode, body);
                 }
                 op::MESSAGE => {
-                    if let Some(message) = Message::parse(body) {
+                    if let Some(message) = message_header(body) {
                         let time = message.log_time;
                         messages += 1;
                         bounds = Some(bounds.map_or((time, time), |(a, b)| (a.min(time), b.max(time))));
@@ -262,7 +206,7 @@ fn walk_chunks(path: &Path, file: &File, scan: &mut Scan) -> Result<(), BagError
                 _ => {}
             }
         }
-        // An open chunk's head does not yet tell its times.
+        // An open chunk's head does not yet have its times.
         if let Some((start, end)) = bounds {
             (segment.start, segment.end) = (start, end);
         }

@@ -6,11 +6,22 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::fields::{Message, records};
-use super::op;
-use super::scan::{self, Channels, Kind, Segment};
-use crate::bag::reader::RawMessage;
+use mcap::records::op;
+
+use super::channels::Channels;
+use super::records::{MESSAGE_HEAD, message_header, records};
+use super::scan::{self, Kind, Segment};
+use crate::bag::raw::RawMessage;
 use crate::bag::{BagError, Cut, Topic};
+
+/// What is wrong with a record of a message.
+#[derive(Debug, thiserror::Error)]
+enum RecordProblem {
+    #[error("a message record is damaged")]
+    Message,
+    #[error("a message is on channel {0}, which is not described")]
+    UnknownChannel(u16),
+}
 
 /// An open MCAP file. Chunks are unpacked when their time comes; messages wait until no chunk can bring an earlier one.
 pub(in crate::bag) struct McapStream {
@@ -74,7 +85,7 @@ impl McapStream {
         self.cut.as_ref()
     }
 
-    /// First and last log time; chunks without messages tell zero for both and do not count.
+    /// First and last log time; chunks without messages have zero for both and do not count.
     pub fn bounds(&self) -> Option<(u64, u64)> {
         let filled = || self.segments.iter().filter(|segment| segment.end != 0);
         let start = filled().map(|segment| segment.start).min()?;
@@ -121,7 +132,7 @@ impl McapStream {
                 }
                 op::MESSAGE => {
                     if let Err(wrong) = self.queue(body) {
-                        problem.get_or_insert(wrong);
+                        problem.get_or_insert_with(|| wrong.to_string());
                     }
                 }
                 _ => {}
@@ -135,19 +146,19 @@ impl McapStream {
         Ok(())
     }
 
-    fn queue(&mut self, body: &[u8]) -> Result<(), String> {
-        let message = Message::parse(body).ok_or("a message record is damaged")?;
+    fn queue(&mut self, body: &[u8]) -> Result<(), RecordProblem> {
+        let message = message_header(body).ok_or(RecordProblem::Message)?;
         let topic = self
             .channels
             .topic(message.channel_id)
-            .ok_or_else(|| format!("a message is on channel {}, which is not described", message.channel_id))?;
+            .ok_or(RecordProblem::UnknownChannel(message.channel_id))?;
         if self.wanted.get(topic) == Some(&true) {
             self.waiting.push(Reverse(RawMessage {
                 log_time: i64::try_from(message.log_time).unwrap_or(i64::MAX),
                 order: self.order,
                 publish_time: i64::try_from(message.publish_time).unwrap_or(i64::MAX),
                 topic,
-                data: message.data.to_vec(),
+                data: body[MESSAGE_HEAD..].to_vec(),
             }));
             self.order += 1;
         }

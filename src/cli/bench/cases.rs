@@ -5,12 +5,13 @@ use flexdrill_config::{Config, ConfigError};
 /// A tool and a load that the twin must keep pace with.
 pub(super) struct Case {
     pub(super) name: &'static str,
-    /// kN.
+    /// Weight on bit (kN).
     pub(super) wob: f64,
     pub(super) changes: fn(&Config) -> Result<Config, ConfigError>,
 }
 
-/// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the wall.
+/// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the
+/// wall.
 pub(super) const CASES: &[Case] = &[
     Case {
         name: "as it is, 10 kN",

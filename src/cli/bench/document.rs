@@ -57,7 +57,7 @@ fn replaced(document: &str, name: &str, text: &str) -> Option<String> {
     ))
 }
 
-/// Whether `path` can be written to: told before a run of minutes, not after it.
+/// Whether `path` can be written to: known before a run of minutes, not after it.
 ///
 /// # Errors
 /// When the file cannot be read or has no markers for `name`.

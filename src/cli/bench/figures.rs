@@ -2,7 +2,7 @@
 
 use super::document::Table;
 use flexdrill_core::twin::Snapshot;
-use flexdrill_core::units::rad_per_s_to_rpm;
+use flexdrill_core::units::{rad_per_s_to_rpm, rad_to_deg};
 
 /// Kept over a run; nothing grows with its length.
 pub(super) struct Figures {
@@ -93,7 +93,7 @@ impl Figures {
         ]);
         table.row([
             "largest bend, joints at limit on average".into(),
-            format!("{:.3} deg, {:.1}", self.bend.to_degrees(), self.at_limit as f64 / count),
+            format!("{:.3} deg, {:.1}", rad_to_deg(self.bend), self.at_limit as f64 / count),
         ]);
         for (name, square, peak) in [
             ("pipe-guide", &self.inner_square, &self.inner_peak),
@@ -105,7 +105,7 @@ impl Figures {
                     .unwrap_or(0)
             };
             let (s, p) = (at(square), at(peak));
-            let place = |s: usize| last.contacts.inclination[s].to_degrees();
+            let place = |s: usize| rad_to_deg(last.contacts.inclination[s]);
             table.row([
                 format!("{name} force: largest rms, largest peak"),
                 format!(

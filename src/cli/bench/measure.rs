@@ -16,15 +16,15 @@ use flexdrill_realtime::monotonic;
 
 /// Model time in one published frame (s).
 const FRAME: f64 = 0.02;
-/// Longest time told apart (ns): a minute.
+/// Longest time resolved (ns): a minute.
 const LONGEST: u64 = 60_000_000_000;
 
 /// What is run.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Load {
-    /// r/min.
+    /// Rotary speed (r/min).
     pub rpm: f64,
-    /// kN, on from the static start.
+    /// Weight on bit (kN), on from the static start.
     pub wob: f64,
     /// Vector instructions to use.
     pub instructions: Instructions,
@@ -35,7 +35,7 @@ pub(super) struct Measured {
     /// Of the static start (s).
     pub start: f64,
     pub unknowns: usize,
-    /// s.
+    /// Time step (s).
     pub time_step: f64,
     /// Steps asked for and taken.
     pub steps: u64,
@@ -81,7 +81,8 @@ impl Measured {
         1e6 * self.processor / self.steps.max(1) as f64
     }
 
-    /// Mean per step of one phase (us): its share of the wall time, of the processor time. So neighbours on the machine do not count.
+    /// Mean per step of one phase (us): its share of the wall time, of the processor time. So neighbours on the machine
+    /// do not count.
     pub(super) fn phase(&self, phase: Phase) -> f64 {
         self.step_time() * self.phases.of(phase) as f64 / self.phases.total().max(1) as f64
     }
@@ -93,7 +94,7 @@ pub(super) fn percentiles(times: &Histogram<u64>) -> [f64; 4] {
     [at(0.5), at(0.99), at(0.999), times.max() as f64 * 1e-6]
 }
 
-/// Runs `config` for `duration` (s) of model time after the static start; `every_frame` is told the model time.
+/// Runs `config` for `duration` (s) of model time after the static start; `every_frame` gets the model time.
 ///
 /// # Errors
 /// When the tool cannot be built. A step that fails ends the run and is part of the result.

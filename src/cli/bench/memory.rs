@@ -13,7 +13,7 @@ const SHOWN: [usize; 8] = [1, 2, 5, 10, 20, 30, 45, 60];
 /// Runs for `duration` (s) and samples the resident set; gives the table.
 ///
 /// # Errors
-/// When the tool cannot be built, a step fails, or the system does not tell the memory.
+/// When the tool cannot be built, a step fails, or the system does not show the memory.
 pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Result<String> {
     // Allocated before the run, so that the samples themselves do not show.
     let mut samples: Vec<u64> = Vec::with_capacity((duration / EVERY) as usize + 1);
@@ -33,7 +33,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         anyhow::bail!("--duration {duration}: at least {EVERY} s, the time between two samples");
     };
     if first == 0 {
-        anyhow::bail!("this system does not tell the memory of a process in /proc/self/status");
+        anyhow::bail!("this system does not show the memory of a process in /proc/self/status");
     }
     let mut table = Table::new(["after model time", "resident memory"]);
     for (index, kb) in samples.iter().enumerate() {

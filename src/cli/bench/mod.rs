@@ -18,7 +18,7 @@ use clap::{Args, ValueEnum};
 use self::document::Table;
 use self::measure::{Load, Measured, percentiles};
 use super::WrongUse;
-use crate::ros::health::diagnostics::describe;
+use crate::messages::words;
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
@@ -26,8 +26,8 @@ use flexdrill_core::dynamics::phases::Phase;
 /// Runs a configuration at constant inputs as fast as it goes and prints its speed and its figures, as Markdown.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// Configurations to run, one after another; with --cases the first one, of step-error the others too, as they are [default:
-    /// config/default.yaml, without --cases and of step-error also config/coarse.yaml].
+    /// Configurations to run, one after another; with --cases the first one, of step-error the others too, as they are
+    /// [default: config/default.yaml, without --cases and of step-error also config/coarse.yaml].
     #[arg(long = "config", value_name = "FILE")]
     configs: Vec<PathBuf>,
     /// A set of runs instead of a single one.
@@ -223,7 +223,7 @@ fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
             anyhow::bail!(
                 "a step failed at model time {:.4} s: {}",
                 failure.time,
-                describe(&failure)
+                words::step_failure(&failure)
             );
         }
     }

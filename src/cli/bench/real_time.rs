@@ -3,7 +3,7 @@
 use super::cases::CASES;
 use super::document::Table;
 use super::measure::{Load, Measured, percentiles, run};
-use crate::ros::health::diagnostics::describe;
+use crate::messages::words;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::phases::Phase;
 
@@ -48,7 +48,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
                 "\nFailed: {}, at model time {:.3} s: {}.\n",
                 case.name,
                 failure.time,
-                describe(&failure)
+                words::step_failure(&failure)
             ));
         }
     }

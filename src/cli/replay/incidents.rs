@@ -6,50 +6,15 @@ use std::path::Path;
 use anyhow::Context as _;
 use serde::Serialize;
 
-use super::player::Player;
-use flexdrill_core::motion::{Incident, IncidentKind, IncidentPlace, Severity};
-use flexdrill_core::tool::Body;
-use flexdrill_core::twin::Snapshot;
+use crate::messages::words;
+use flexdrill_core::motion::{Incident, IncidentKind, Severity};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
 
 /// Most rows that are printed; the JSON has all.
 const ROWS: usize = 40;
 
-/// The bit: the last station.
-pub(super) fn place_of_bit(snapshot: &Snapshot) -> IncidentPlace {
-    place(
-        snapshot,
-        snapshot.contacts.measured_depth.len().saturating_sub(1),
-        Body::Pipe,
-    )
-}
-
-/// The station that was struck.
-pub(super) fn place_of_shock(snapshot: &Snapshot) -> IncidentPlace {
-    let body = if snapshot.shock.layer == 0 {
-        Body::Pipe
-    } else {
-        Body::Guide
-    };
-    place(snapshot, snapshot.shock.station, body)
-}
-
-fn place(snapshot: &Snapshot, station: usize, body: Body) -> IncidentPlace {
-    let at = |values: &[f64]| values.get(station).copied().unwrap_or_default();
-    IncidentPlace {
-        station,
-        body,
-        measured_depth: at(&snapshot.contacts.measured_depth),
-        inclination: at(&snapshot.contacts.inclination),
-    }
-}
-
-/// Stations of the joints, to call places by their joint.
-pub(super) struct Joints(Vec<usize>);
-
-pub(super) fn joints_of(player: &Player) -> Joints {
-    Joints(player.joint_stations().to_vec())
-}
+/// Stations of the joints, top to bottom, to call stations by their joint.
+pub(super) struct Joints(pub(super) Vec<usize>);
 
 impl Joints {
     /// Number of the joint at a station, from 1 at the top as in `joint_01`.
@@ -86,19 +51,13 @@ fn kind(kind: IncidentKind) -> &'static str {
     }
 }
 
-fn severity(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Ok => "ok",
-        Severity::Watch => "watch",
-        Severity::Warning => "WARNING",
-        Severity::Critical => "CRITICAL",
-    }
-}
-
-fn body(body: Body) -> &'static str {
-    match body {
-        Body::Pipe => "pipe",
-        Body::Guide => "guide",
+/// The severity's word; in capitals when something is to be done.
+fn severity(severity: Severity) -> String {
+    let word = words::severity(severity as u8);
+    if severity >= Severity::Warning {
+        word.to_uppercase()
+    } else {
+        word.to_owned()
     }
 }
 
@@ -157,7 +116,7 @@ pub(super) fn table(incidents: &[Incident], joints: &Joints) -> String {
             incident.start,
             severity(incident.severity),
             kind(incident.kind),
-            body(incident.place.body),
+            words::body(incident.place.body),
             joints.range(incident.stations),
             incident.place.measured_depth,
             rad_to_deg(incident.place.inclination),
@@ -206,6 +165,8 @@ pub(super) fn write_json(path: &Path, incidents: &[Incident], joints: &Joints) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use flexdrill_core::motion::IncidentPlace;
+    use flexdrill_core::tool::Body;
 
     fn rolling() -> Incident {
         Incident {

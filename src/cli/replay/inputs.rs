@@ -1,34 +1,23 @@
-//! Inputs with times, from a field log or anybody's bag, through the same door as live samples.
+//! Inputs with times, from a field log or anybody's bag, through the same conditioner as live samples.
 
 use std::path::Path;
 
 use super::player::Player;
 use crate::cli::progress::Progress;
+use crate::cli::source::Sample;
 use crate::messages::topics::TopicInfo;
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::inputs::Door;
 use flexdrill_core::twin::RunInputs;
+use flexdrill_realtime::INPUT_PERIOD;
 
-/// A sample at an instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct TimedInput {
-    /// ns since 1970.
-    pub time: i64,
-    /// Which input.
-    pub kind: InputKind,
-    /// r/min or kN.
-    pub value: f64,
-}
-
-/// How often inputs take effect (s), as in the node.
-const PERIOD: f64 = 5e-3;
 /// Model time after the last sample (s).
 const TAIL: f64 = 1.0;
 
 /// Runs the model through the samples, which are in the order of their times.
 pub(super) fn replay(
     config: Config,
-    samples: &[TimedInput],
+    samples: &[Sample],
     out: &Path,
     duration: Option<f64>,
 ) -> anyhow::Result<(Player, Progress)> {
@@ -36,11 +25,11 @@ pub(super) fn replay(
         anyhow::bail!("there is no sample of rotary speed or weight on bit to replay");
     };
     let time_step = config.solver.time_step;
-    let span = (last.time - first.time) as f64 * 1e-9 + TAIL;
+    let span = last.since(first) + TAIL;
     let span = duration.map_or(span, |duration| duration.min(span));
     let steps = (span / time_step).round() as u64;
-    let per_period = ((PERIOD / time_step).round() as u64).max(1);
-    let mut door = Door::new(config.inputs.rules());
+    let per_period = ((INPUT_PERIOD / time_step).round() as u64).max(1);
+    let mut conditioner = Door::new(config.inputs.rules());
     let mut player = Player::new(config, first.time, out, |topic: &TopicInfo| {
         if topic.name.starts_with('/') {
             topic.name.to_owned()
@@ -50,14 +39,14 @@ pub(super) fn replay(
     })?;
     let mut progress = Progress::new(span);
     let mut waiting = samples.iter().peekable();
-    let mut told: Option<RunInputs> = None;
+    let mut applied: Option<RunInputs> = None;
     let mut refused = 0_u64;
     while player.step() < steps {
         let now = player.time_of(player.step());
-        let due = |sample: &&TimedInput| (sample.time - first.time) as f64 * 1e-9 <= now;
+        let due = |sample: &&Sample| sample.since(first) <= now;
         while let Some(sample) = waiting.next_if(due) {
-            let at = (sample.time - first.time) as f64 * 1e-9;
-            if let Err(rejection) = door.offer(sample.kind, sample.value, at) {
+            let at = sample.since(first);
+            if let Err(rejection) = conditioner.offer(sample.kind, sample.value, at) {
                 refused += 1;
                 if refused <= 10 {
                     eprintln!("at {at:.2} s: {rejection}");
@@ -65,19 +54,19 @@ pub(super) fn replay(
             }
         }
         let inputs = RunInputs {
-            inputs: door.targets(now),
-            input_quality: door.quality(now) as u8,
+            inputs: conditioner.targets(now),
+            input_quality: conditioner.quality(now) as u8,
             ..player.inputs()
         };
-        let same = told.is_some_and(|told| {
+        let same = applied.is_some_and(|applied| {
             RunInputs {
-                step: told.step,
+                step: applied.step,
                 ..inputs
-            } == told
+            } == applied
         });
         if !same {
-            player.apply(&inputs, &[], told.is_none())?;
-            told = Some(inputs);
+            player.apply(&inputs, &[], applied.is_none())?;
+            applied = Some(inputs);
         }
         for _ in 0..per_period.min(steps - player.step()) {
             player.advance_surely()?;

@@ -9,13 +9,13 @@ use crate::bag::{BagError, Recorder, Recording, Topic};
 use crate::messages::CdrError;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
-use crate::ros::health::diagnostics::describe;
+use crate::messages::words;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::outcome::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Run, RunInputs, Simulation};
 use flexdrill_realtime::monotonic;
 
-/// Topics that a replay can give: those that do not tell of wall-clock time.
+/// Topics that a replay can give: those that do not speak of wall-clock time.
 fn replayed() -> impl Iterator<Item = &'static TopicInfo> {
     topics::ALL
         .iter()
@@ -39,7 +39,7 @@ pub(super) struct Player {
     outputs: Outputs,
     recorder: Recorder,
     topics: Vec<&'static TopicInfo>,
-    /// What a person is told at the end.
+    /// What is printed at the end.
     pub tally: Tally,
 }
 
@@ -143,7 +143,7 @@ impl Player {
                 "step {} at model time {:.4} s failed: {}; what was replayed until then is in the bag",
                 self.step(),
                 failure.time,
-                describe(&failure)
+                words::step_failure(&failure)
             );
         }
         Ok(())
@@ -154,7 +154,7 @@ impl Player {
             return Ok(());
         }
         self.run.capture(&mut self.frame);
-        self.tally.take(&self.frame.snapshot);
+        self.tally.observe(&self.frame.snapshot);
         let (recorder, topics) = (&mut self.recorder, &self.topics);
         let began = monotonic::now();
         self.outputs

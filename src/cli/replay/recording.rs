@@ -10,7 +10,6 @@ use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{AppliedInputs, JointDeflections, Message, SessionInfo, TwinStatus};
-use crate::ros::parameters::configured::with_values;
 use flexdrill_config::Config;
 
 /// What of a recording is needed.
@@ -141,7 +140,8 @@ impl Script {
             }
             let changes = changes_of(message);
             if !changes.is_empty() {
-                let changed = with_changes(player.config(), &changes)?;
+                let values = changes.iter().map(|(name, value)| (name, *value));
+                let changed = player.config().with_values("recorded parameters", values)?;
                 player.reconfigure(changed);
             }
             let inputs = run_inputs(message, player.config());
@@ -185,7 +185,7 @@ fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]
         .map(|inputs| inputs.step)
         .sum();
     let since = ticks.saturating_sub(before_resets + last.skipped_steps);
-    // An output older than the last change of inputs tells nothing of the steps after it.
+    // An output older than the last change of inputs says nothing of the steps after it.
     if since >= last.step || last.reset {
         since
     } else {
@@ -200,14 +200,6 @@ fn changes_of(message: &AppliedInputs) -> Vec<ParameterChange> {
         .cloned()
         .zip(message.parameter_value.iter().copied())
         .collect()
-}
-
-fn with_changes(config: &Config, changes: &[ParameterChange]) -> anyhow::Result<Config> {
-    let values = changes
-        .iter()
-        .map(|(name, value)| (name.clone(), serde_json::Value::from(*value)))
-        .collect();
-    Ok(with_values(config, "recorded parameters", values)?)
 }
 
 fn short(hash: &str) -> &str {

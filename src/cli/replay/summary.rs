@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::incidents::{place_of_bit, place_of_shock};
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
-use flexdrill_core::motion::{Incident, IncidentLog, Observation};
+use flexdrill_core::motion::{Incident, IncidentLog, IncidentPlace, Observation};
+use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::rad_to_deg;
 
 /// The largest value of something and where and when it was.
 #[derive(Debug, Clone, Copy, Default)]
@@ -16,7 +17,7 @@ struct Peak {
 }
 
 impl Peak {
-    fn take(&mut self, values: &[f64], depths: &[f64], time: f64) {
+    fn raise(&mut self, values: &[f64], depths: &[f64], time: f64) {
         for (value, depth) in values.iter().zip(depths) {
             if *value > self.value {
                 *self = Self {
@@ -58,6 +59,7 @@ struct Last {
 }
 
 impl Tally {
+    /// Counts a step.
     pub(super) fn step(&mut self, iterations: u32, halvings: u32) {
         self.steps += 1;
         self.iterations += u64::from(iterations);
@@ -76,14 +78,15 @@ impl Tally {
         self.phases = times;
     }
 
-    pub(super) fn take(&mut self, snapshot: &Snapshot) {
+    /// Keeps the extremes of a snapshot.
+    pub(super) fn observe(&mut self, snapshot: &Snapshot) {
         let (joints, contacts, time) = (&snapshot.joints, &snapshot.contacts, snapshot.time);
-        self.bend.take(&joints.bend_angle, &joints.measured_depth, time);
-        self.stop.take(&joints.stop_moment, &joints.measured_depth, time);
+        self.bend.raise(&joints.bend_angle, &joints.measured_depth, time);
+        self.stop.raise(&joints.stop_moment, &joints.measured_depth, time);
         self.pipe_guide
-            .take(&contacts.pipe_guide.normal_peak, &contacts.measured_depth, time);
+            .raise(&contacts.pipe_guide.normal_peak, &contacts.measured_depth, time);
         self.guide_wall
-            .take(&contacts.guide_wall.normal_peak, &contacts.measured_depth, time);
+            .raise(&contacts.guide_wall.normal_peak, &contacts.measured_depth, time);
         let at_limit = joints
             .bend_angle
             .iter()
@@ -95,9 +98,9 @@ impl Tally {
             time,
             whirl: &snapshot.whirl,
             stick_slip: (snapshot.bit.stick_slip, snapshot.bit.stick_slip_index),
-            bit: place_of_bit(snapshot),
+            bit: bit_location(snapshot),
             shock: snapshot.shock,
-            shock_place: place_of_shock(snapshot),
+            shock_place: shock_location(snapshot),
         });
         self.last = Some(Last {
             energy_error: snapshot.energy.error,
@@ -157,7 +160,7 @@ impl Tally {
         );
         row(
             "largest bend",
-            format!("{:.2} deg {}", self.bend.value.to_degrees(), place(&self.bend)),
+            format!("{:.2} deg {}", rad_to_deg(self.bend.value), place(&self.bend)),
         );
         if self.joints_at_limit > 0 {
             row(
@@ -186,6 +189,7 @@ impl Tally {
             row("whirl warnings", format!("{} changes of level", last.warnings));
         }
     }
+
     /// Mean per step and phase.
     fn time_per_step(&self) -> String {
         let micros = |time: u64| time as f64 * 1e-3 / self.steps as f64;
@@ -200,5 +204,34 @@ impl Tally {
             micros(self.phases.total() + self.publish),
             parts.join(", ")
         )
+    }
+}
+
+/// The bit: the last station.
+fn bit_location(snapshot: &Snapshot) -> IncidentPlace {
+    location(
+        snapshot,
+        snapshot.contacts.measured_depth.len().saturating_sub(1),
+        Body::Pipe,
+    )
+}
+
+/// The station that was struck.
+fn shock_location(snapshot: &Snapshot) -> IncidentPlace {
+    let body = if snapshot.shock.layer == 0 {
+        Body::Pipe
+    } else {
+        Body::Guide
+    };
+    location(snapshot, snapshot.shock.station, body)
+}
+
+fn location(snapshot: &Snapshot, station: usize, body: Body) -> IncidentPlace {
+    let at = |values: &[f64]| values.get(station).copied().unwrap_or_default();
+    IncidentPlace {
+        station,
+        body,
+        measured_depth: at(&snapshot.contacts.measured_depth),
+        inclination: at(&snapshot.contacts.inclination),
     }
 }

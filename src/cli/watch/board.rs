@@ -64,7 +64,7 @@ impl Board {
         }
     }
 
-    pub(super) fn take_status(&mut self, status: TwinStatus, now: Instant) {
+    pub(super) fn update_status(&mut self, status: TwinStatus, now: Instant) {
         // A heartbeat that counts anew is another run: what is known of the last one no longer holds.
         if self
             .status
@@ -78,7 +78,7 @@ impl Board {
         self.status = Some((status, now));
     }
 
-    pub(super) fn take_bit(&mut self, bit: BitState) {
+    pub(super) fn update_bit(&mut self, bit: BitState) {
         let time = stamp(&bit.header);
         match self.history.back() {
             Some(last) if time < last.time => self.history.clear(),
@@ -99,23 +99,23 @@ impl Board {
         self.bit = Some(bit);
     }
 
-    pub(super) fn take_contacts(&mut self, contacts: ContactForces) {
+    pub(super) fn update_contacts(&mut self, contacts: ContactForces) {
         let time = stamp(&contacts.header);
         self.pipe_guide.take(time, &contacts.pipe_guide_normal_peak);
         self.guide_wall.take(time, &contacts.guide_wall_normal_peak);
         self.contacts = Some(contacts);
     }
 
-    pub(super) fn take_joints(&mut self, joints: JointDeflections) {
+    pub(super) fn update_joints(&mut self, joints: JointDeflections) {
         self.joints = Some(joints);
     }
 
-    pub(super) fn take_whirl(&mut self, whirl: WhirlState) {
+    pub(super) fn update_whirl(&mut self, whirl: WhirlState) {
         self.whirl = Some(whirl);
     }
 
     /// A latched topic may bring old samples too: the one with the highest sequence holds.
-    pub(super) fn take_warning(&mut self, warning: WhirlWarning) {
+    pub(super) fn update_warning(&mut self, warning: WhirlWarning) {
         if self
             .warning
             .as_ref()
@@ -225,12 +225,12 @@ mod tests {
         let start = Instant::now();
         let mut board = Board::new(start);
         assert!(matches!(board.heartbeat(start), Heartbeat::Waiting(_)));
-        board.take_status(status(7), start);
-        board.take_warning(WhirlWarning {
+        board.update_status(status(7), start);
+        board.update_warning(WhirlWarning {
             sequence: 9,
             ..WhirlWarning::default()
         });
-        board.take_warning(WhirlWarning {
+        board.update_warning(WhirlWarning {
             sequence: 3,
             ..WhirlWarning::default()
         });
@@ -238,7 +238,7 @@ mod tests {
         assert_eq!(board.heartbeat(start + Duration::from_secs(1)), Heartbeat::Beating);
         let late = start + Duration::from_secs(5);
         assert_eq!(board.heartbeat(late), Heartbeat::Lost(Duration::from_secs(5)));
-        board.take_status(status(1), late);
+        board.update_status(status(1), late);
         assert_eq!(board.heartbeat(late), Heartbeat::Beating);
         assert!(board.warning().is_none());
     }
@@ -247,11 +247,11 @@ mod tests {
     fn history_is_bounded_and_follows_a_reset() {
         let mut board = Board::new(Instant::now());
         for step in 0..5000 {
-            board.take_bit(bit(f64::from(step) * 0.02, 4.0));
+            board.update_bit(bit(f64::from(step) * 0.02, 4.0));
         }
         let (first, last) = (board.history()[0].time, board.history()[board.history().len() - 1].time);
         assert!(last - first <= HISTORY && board.history().len() <= 601);
-        board.take_bit(bit(0.0, 4.0));
+        board.update_bit(bit(0.0, 4.0));
         assert_eq!(board.history().len(), 1);
     }
 }

@@ -42,12 +42,12 @@ impl Feed {
 
     /// Puts all that has arrived on the board.
     pub(super) fn drain(&mut self, board: &mut Board, now: Instant) {
-        let unreadable = self.status.drain(|message| board.take_status(message, now))
-            + self.bit.drain(|message| board.take_bit(message))
-            + self.contacts.drain(|message| board.take_contacts(message))
-            + self.joints.drain(|message| board.take_joints(message))
-            + self.whirl.drain(|message| board.take_whirl(message))
-            + self.warning.drain(|message| board.take_warning(message));
+        let unreadable = self.status.drain(|message| board.update_status(message, now))
+            + self.bit.drain(|message| board.update_bit(message))
+            + self.contacts.drain(|message| board.update_contacts(message))
+            + self.joints.drain(|message| board.update_joints(message))
+            + self.whirl.drain(|message| board.update_whirl(message))
+            + self.warning.drain(|message| board.update_warning(message));
         board.add_unreadable(unreadable);
     }
 }

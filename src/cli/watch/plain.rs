@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::time::Instant;
 
 use super::board::Board;
-use super::words;
+use super::texts;
 use flexdrill_core::units::rad_per_s_to_rpm;
 
 pub(super) fn print(board: &Board, now: Instant) -> anyhow::Result<()> {
@@ -23,14 +23,14 @@ fn block(board: &Board, now: Instant) -> String {
 }
 
 fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
-    if let Some(line) = words::heartbeat(board, now) {
+    if let Some(line) = texts::heartbeat(board, now) {
         writeln!(text, "{line}")?;
     }
     if let Some(status) = board.status() {
         writeln!(
             text,
             "twin       {} at {:.1} s, heartbeat {}",
-            words::state(status.state),
+            texts::state(status.state),
             status.model_time,
             status.sequence
         )?;
@@ -38,12 +38,12 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
             text,
             "pace       x{:.3} real time, late {}, steps missed {} skipped {}, step p50 {} p99 {} max {}",
             status.real_time_factor,
-            words::short_time(status.lateness),
+            texts::short_time(status.lateness),
             status.deadline_misses,
             status.steps_skipped,
-            words::short_time(status.step_time_p50),
-            words::short_time(status.step_time_p99),
-            words::short_time(status.step_time_max)
+            texts::short_time(status.step_time_p50),
+            texts::short_time(status.step_time_p99),
+            texts::short_time(status.step_time_max)
         )?;
         writeln!(
             text,
@@ -53,7 +53,7 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
             status.failed_steps,
             100.0 * status.energy_error_ratio
         )?;
-        for (line, _) in words::inputs(status) {
+        for (line, _) in texts::inputs(status) {
             writeln!(text, "input      {line}")?;
         }
     }
@@ -64,20 +64,20 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
             rad_per_s_to_rpm(bit.rotary_speed),
             bit.torque
         )?;
-        writeln!(text, "stick-slip {}", words::stick_slip(bit).0)?;
+        writeln!(text, "stick-slip {}", texts::stick_slip(bit).0)?;
     }
     if let Some(contacts) = board.contacts() {
-        writeln!(text, "pipe-guide {}", words::largest(board, 0))?;
-        writeln!(text, "guide-wall {}", words::largest(board, 1))?;
-        writeln!(text, "shock      {}", words::shock(contacts).0)?;
+        writeln!(text, "pipe-guide {}", texts::largest(board, 0))?;
+        writeln!(text, "guide-wall {}", texts::largest(board, 1))?;
+        writeln!(text, "shock      {}", texts::shock(contacts).0)?;
     }
     if board.joints().is_some() {
-        writeln!(text, "joints     {}", words::joints(board))?;
+        writeln!(text, "joints     {}", texts::joints(board))?;
     }
     if let Some(whirl) = board.whirl() {
-        writeln!(text, "whirl      {}", words::whirl_counts(whirl))?;
+        writeln!(text, "whirl      {}", texts::whirl_counts(whirl))?;
     }
-    writeln!(text, "warning    {}", words::warning(board.warning()))?;
+    writeln!(text, "warning    {}", texts::warning(board.warning()))?;
     if board.unreadable() > 0 {
         writeln!(
             text,
@@ -104,7 +104,7 @@ mod tests {
     fn values_carry_their_units() {
         let now = Instant::now();
         let mut board = Board::new(now);
-        board.take_status(
+        board.update_status(
             TwinStatus {
                 state: TwinStatus::RUNNING,
                 real_time_factor: 1.0,
@@ -119,14 +119,14 @@ mod tests {
             },
             now,
         );
-        board.take_bit(BitState {
+        board.update_bit(BitState {
             rotary_speed: 4.18879,
             torque: 92.4,
             stick_slip_index: 0.85,
             stick_slip_severity: BitState::WARNING,
             ..BitState::default()
         });
-        board.take_contacts(ContactForces {
+        board.update_contacts(ContactForces {
             measured_depth: vec![0.0, 2.5],
             inclination: vec![0.0, 0.785],
             shock_severity: ContactForces::SHOCK_WATCH,

@@ -1,5 +1,5 @@
-//! Messages made from a [`Snapshot`](flexdrill_core::twin::Snapshot): one function per type, each filling a message that keeps
-//! its memory from one time to the next.
+//! Messages made from a [`Snapshot`](flexdrill_core::twin::Snapshot): one function per type, each filling a message
+//! that keeps its memory from one time to the next.
 
 mod arrows;
 mod bit;

@@ -2,11 +2,11 @@
 
 use super::copy;
 use crate::messages::std_msgs::Header;
-use crate::messages::{WhirlState, WhirlWarning};
+use crate::messages::{WhirlState, WhirlWarning, words};
 use flexdrill_core::motion::{Severity, WhirlKind, WhirlWarningLevel};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
-use flexdrill_core::units::n_to_kn;
+use flexdrill_core::units::{n_to_kn, rad_to_deg};
 
 fn body_code(body: Body) -> u8 {
     match body {
@@ -66,17 +66,13 @@ pub fn whirl_warning(snapshot: &Snapshot, header: &Header, input_quality: u8, ou
 
 /// What a person reads.
 fn sentence(warning: &WhirlWarning, level: &WhirlWarningLevel, body: Body) -> String {
-    let severity = match level.severity {
-        Severity::Ok => return "No whirl that needs attention.".to_owned(),
-        Severity::Watch => "Watch",
-        Severity::Warning => "Warning",
-        Severity::Critical => "Critical",
-    };
+    if level.severity == Severity::Ok {
+        return "No whirl that needs attention.".to_owned();
+    }
+    let severity = capitalized(words::severity(warning.severity));
     let kind = match level.kind {
-        WhirlKind::None => "large lateral motion",
-        WhirlKind::Forward => "forward whirl",
-        WhirlKind::Backward => "backward whirl",
-        WhirlKind::Chaotic => "chaotic whirl",
+        WhirlKind::None => "large lateral motion".to_owned(),
+        kind => format!("{} whirl", words::whirl_kind(kind as u8)),
     };
     let body = match body {
         Body::Pipe => "flexible pipe",
@@ -91,7 +87,7 @@ fn sentence(warning: &WhirlWarning, level: &WhirlWarningLevel, body: Body) -> St
         "{severity}: {kind} of the {body} at {:.2} m (inclination {:.0} deg), {:.1} times the rotary speed{manner}, {:.0} % of the \
          clearance, in contact {:.0} % of the last {:.1} s with up to {:.2} kN, confidence {:.0} %.",
         warning.measured_depth,
-        warning.inclination.to_degrees(),
+        rad_to_deg(warning.inclination),
         warning.whirl_ratio,
         100.0 * warning.clearance_ratio,
         100.0 * warning.contact_duty,
@@ -99,6 +95,11 @@ fn sentence(warning: &WhirlWarning, level: &WhirlWarningLevel, body: Body) -> St
         n_to_kn(warning.peak_force),
         100.0 * warning.confidence,
     )
+}
+
+fn capitalized(word: &str) -> String {
+    let (first, rest) = word.split_at(word.len().min(1));
+    first.to_uppercase() + rest
 }
 
 /// What the state of the inputs means for the warning; none when they are fresh.

@@ -9,7 +9,7 @@ pub mod value;
 
 use std::path::PathBuf;
 
-pub use names::{NodeIdentity, Remapping};
+pub use names::{NameProblem, NodeIdentity, Remapping};
 pub use params::{Override, Overrides};
 
 /// What is wrong with the ROS 2 arguments.
@@ -26,25 +26,25 @@ pub enum ArgsError {
     /// A remapping rule that cannot be read.
     #[error("remapping rule '{rule}': {why}")]
     Rule {
-        /// As given.
+        /// Rule, as it was given.
         rule: String,
         /// What is wrong and what to do.
         why: String,
     },
     /// A name that ROS 2 does not allow.
-    #[error("{what} '{name}': {why}")]
+    #[error("{what} '{name}': {problem}")]
     Name {
         /// Which kind of name.
         what: &'static str,
-        /// As given.
+        /// Name, as it was given.
         name: String,
         /// What is wrong.
-        why: String,
+        problem: NameProblem,
     },
     /// A parameter override that cannot be read.
     #[error("parameter '{parameter}': {why}")]
     Parameter {
-        /// As given.
+        /// Parameter and value, as they were given.
         parameter: String,
         /// What is wrong.
         why: String,
@@ -52,7 +52,7 @@ pub enum ArgsError {
     /// A parameter file that cannot be used.
     #[error("parameter file {path}: {why}", path = path.display())]
     File {
-        /// The file.
+        /// File or folder that it is about.
         path: PathBuf,
         /// What is wrong.
         why: String,

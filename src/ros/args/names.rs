@@ -2,7 +2,7 @@
 
 use super::ArgsError;
 
-/// A node's place in the graph.
+/// What a node is called in the graph.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NodeIdentity {
     /// Absolute namespace: `/` or `/a/b`.
@@ -17,10 +17,10 @@ impl NodeIdentity {
     /// # Errors
     /// When one of the two is not a valid name.
     pub fn new(namespace: &str, name: &str) -> Result<Self, ArgsError> {
-        check_token(name).map_err(|why| ArgsError::Name {
+        check_token(name).map_err(|problem| ArgsError::Name {
             what: "node name",
             name: name.to_owned(),
-            why,
+            problem,
         })?;
         Ok(Self {
             namespace: normal_namespace(namespace)?,
@@ -38,10 +38,10 @@ impl NodeIdentity {
     /// # Errors
     /// When the name has a character or form that ROS 2 does not allow.
     pub fn expand(&self, name: &str) -> Result<String, ArgsError> {
-        let wrong = |why: String| ArgsError::Name {
+        let wrong = |problem| ArgsError::Name {
             what: "topic or service name",
             name: name.to_owned(),
-            why,
+            problem,
         };
         let absolute = if name == "~" {
             self.full_name()
@@ -77,29 +77,45 @@ pub fn normal_namespace(namespace: &str) -> Result<String, ArgsError> {
         return Ok("/".into());
     }
     for token in trimmed.split('/') {
-        check_token(token).map_err(|why| ArgsError::Name {
+        check_token(token).map_err(|problem| ArgsError::Name {
             what: "namespace",
             name: namespace.to_owned(),
-            why,
+            problem,
         })?;
     }
     Ok(format!("/{trimmed}"))
 }
 
-fn check_token(token: &str) -> Result<(), String> {
+/// What ROS 2 does not allow of a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NameProblem {
+    /// Nothing, or nothing between two slashes.
+    #[error("it is empty or has an empty part between two slashes")]
+    Empty,
+    /// A digit or something stranger at the beginning of a part.
+    #[error("a part must begin with a letter or underscore, not '{0}'")]
+    Begin(char),
+    /// Within a part.
+    #[error("'{0}' is not allowed; use letters, digits, underscores and slashes")]
+    Character(char),
+    /// Reserved by ROS 2.
+    #[error("two underscores in a row are not allowed")]
+    Underscores,
+}
+
+/// Checks one part of a name.
+fn check_token(token: &str) -> Result<(), NameProblem> {
     let mut characters = token.chars();
     match characters.next() {
-        None => return Err("it is empty or has an empty part between two slashes".into()),
+        None => return Err(NameProblem::Empty),
         Some(c) if c.is_ascii_alphabetic() || c == '_' => {}
-        Some(c) => return Err(format!("a part must begin with a letter or underscore, not '{c}'")),
+        Some(c) => return Err(NameProblem::Begin(c)),
     }
     if let Some(bad) = characters.find(|c| !(c.is_ascii_alphanumeric() || *c == '_')) {
-        return Err(format!(
-            "'{bad}' is not allowed; use letters, digits, underscores and slashes"
-        ));
+        return Err(NameProblem::Character(bad));
     }
     if token.contains("__") {
-        return Err("two underscores in a row are not allowed".into());
+        return Err(NameProblem::Underscores);
     }
     Ok(())
 }
@@ -224,7 +240,7 @@ pub(super) fn read_rule(text: &str, into: &mut Remapping) -> Result<(), ArgsErro
     }
     match from {
         "__node" | "__name" => {
-            check_token(to).map_err(|why| wrong(&why))?;
+            check_token(to).map_err(|problem| wrong(&problem.to_string()))?;
             into.node_names.push((node, to.to_owned()));
         }
         "__ns" => {

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use ros2_client::ParameterValue;
+use serde_json::Value;
 
 use super::ArgsError;
 use super::names::NodeIdentity;
-use super::value::{self, Yaml};
+use super::value::{parse, to_parameter};
 
 /// One override, for the nodes whose full name matches `node`.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,9 +79,9 @@ pub(super) fn read_override(text: &str, into: &mut Overrides) -> Result<(), Args
     if name.is_empty() {
         return Err(wrong("the name is missing".into()));
     }
-    let value = value::parse(right)
-        .and_then(|yaml| yaml.to_parameter())
-        .map_err(wrong)?;
+    let value = parse(right)
+        .and_then(|value| to_parameter(&value))
+        .map_err(|error| wrong(error.to_string()))?;
     into.entries.push(Override {
         node,
         name: name.to_owned(),
@@ -107,21 +108,21 @@ fn read_text(path: &Path, text: &str, into: &mut Overrides) -> Result<(), ArgsEr
         path: path.to_owned(),
         why,
     };
-    match value::parse(text).map_err(wrong)? {
-        Yaml::Null => Ok(()),
-        Yaml::Map(entries) => entries
+    match parse(text).map_err(|error| wrong(error.to_string()))? {
+        Value::Null => Ok(()),
+        Value::Object(entries) => entries
             .iter()
             .try_for_each(|(key, below)| read_nodes(path, key, below, into)),
         _ => Err(wrong("the top level must map node names to 'ros__parameters'".into())),
     }
 }
 
-fn read_nodes(path: &Path, node: &str, below: &Yaml, into: &mut Overrides) -> Result<(), ArgsError> {
+fn read_nodes(path: &Path, node: &str, below: &Value, into: &mut Overrides) -> Result<(), ArgsError> {
     let wrong = |why: String| ArgsError::File {
         path: path.to_owned(),
         why,
     };
-    let Yaml::Map(entries) = below else {
+    let Value::Object(entries) = below else {
         return Err(wrong(format!(
             "'{node}' must hold 'ros__parameters' or a deeper node name, not a value"
         )));
@@ -137,8 +138,8 @@ fn read_nodes(path: &Path, node: &str, below: &Yaml, into: &mut Overrides) -> Re
             continue;
         }
         match value {
-            Yaml::Null => {}
-            Yaml::Map(parameters) => {
+            Value::Null => {}
+            Value::Object(parameters) => {
                 for (name, value) in parameters {
                     read_parameter(path, node, name.clone(), value, into)?;
                 }
@@ -153,13 +154,13 @@ fn read_nodes(path: &Path, node: &str, below: &Yaml, into: &mut Overrides) -> Re
     Ok(())
 }
 
-fn read_parameter(path: &Path, node: &str, name: String, value: &Yaml, into: &mut Overrides) -> Result<(), ArgsError> {
-    if let Yaml::Map(deeper) = value {
+fn read_parameter(path: &Path, node: &str, name: String, value: &Value, into: &mut Overrides) -> Result<(), ArgsError> {
+    if let Value::Object(deeper) = value {
         return deeper
             .iter()
             .try_for_each(|(key, value)| read_parameter(path, node, format!("{name}.{key}"), value, into));
     }
-    let value = value.to_parameter().map_err(|why| ArgsError::File {
+    let value = to_parameter(value).map_err(|why| ArgsError::File {
         path: path.to_owned(),
         why: format!("parameter '{name}' of '{node}': {why}"),
     })?;

@@ -1,4 +1,4 @@
-//! What others may tell the node: parameters, reset, pause, checkpoint.
+//! What others may ask of the node: parameters, reset, pause, checkpoint.
 
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -9,14 +9,15 @@ use std::time::Duration;
 use ros2_client::{Node, Parameter, ParameterValue};
 use rustdds::DomainParticipant;
 
-use super::rig::Gate;
+use super::rig::RigInputs;
 use crate::messages::outputs::{self, ParameterChange};
 use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use crate::ros::NodeError;
-use crate::ros::parameters::{ParameterStore, Task, configured};
+use crate::ros::parameters::{ParameterStore, Task, reconfigured, refresh_ranges};
 use crate::ros::service::{ServiceMapping, ServiceServer, at_once, shared};
-use flexdrill_config::Config;
-use flexdrill_realtime::link::{Command, Gauges, Phase};
+use flexdrill_config::{Config, ConfigError};
+use flexdrill_core::twin::CheckpointError;
+use flexdrill_realtime::link::{Command, Gauges, RunState};
 
 /// Longest wait for the solver to hand out its state.
 const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
@@ -37,12 +38,40 @@ struct Commands {
     sent: u64,
 }
 
-/// Tells the solver.
+/// Why a service of the node could not do what was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum ControlError {
+    /// The ring of commands is full.
+    #[error("the solver does not take commands; is a step taking very long?")]
+    Busy,
+    /// There is no state yet.
+    #[error("the model is still being built")]
+    Starting,
+    /// The solver is in a step that takes longer than [`CHECKPOINT_WAIT`].
+    #[error("the solver did not answer in time")]
+    NoAnswer,
+    /// The state could not be put into bytes.
+    #[error(transparent)]
+    State(#[from] CheckpointError),
+    /// The file could not be written.
+    #[error("{}: {source}", path.display())]
+    Write {
+        /// File or folder that it is about.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// The task that wrote it was ended.
+    #[error(transparent)]
+    Ended(#[from] tokio::task::JoinError),
+}
+
+/// Sends commands to the solver.
 pub struct Control {
     commands: Mutex<Commands>,
     config: Mutex<Arc<Config>>,
     changes: Sender<Change>,
-    gate: Gate,
+    rig_inputs: RigInputs,
     gauges: Arc<Gauges>,
 }
 
@@ -52,14 +81,14 @@ impl Control {
         sender: rtrb::Producer<Command>,
         config: Arc<Config>,
         changes: Sender<Change>,
-        gate: Gate,
+        rig_inputs: RigInputs,
         gauges: Arc<Gauges>,
     ) -> Arc<Self> {
         Arc::new(Self {
             commands: Mutex::new(Commands { sender, sent: 0 }),
             config: Mutex::new(config),
             changes,
-            gate,
+            rig_inputs,
             gauges,
         })
     }
@@ -69,13 +98,10 @@ impl Control {
     }
 
     /// Sends commands that belong together. Gives the number of the last one.
-    fn send(&self, list: impl IntoIterator<Item = Command>) -> Result<u64, String> {
+    fn send(&self, list: impl IntoIterator<Item = Command>) -> Result<u64, ControlError> {
         let mut commands = self.commands.lock().unwrap_or_else(PoisonError::into_inner);
         for command in list {
-            commands
-                .sender
-                .push(command)
-                .map_err(|_| "the solver does not take commands; is a step taking very long?".to_owned())?;
+            commands.sender.push(command).map_err(|_| ControlError::Busy)?;
             commands.sent += 1;
         }
         Ok(commands.sent)
@@ -84,21 +110,21 @@ impl Control {
     /// Whether parameters may take these values together.
     ///
     /// # Errors
-    /// What is wrong, in words.
-    pub fn check(&self, candidate: &ParameterStore) -> Result<(), String> {
-        configured::reconfigured(&self.config(), &candidate.all()).map(drop)
+    /// When the configuration does not make sense with them.
+    pub fn check(&self, candidate: &ParameterStore) -> Result<(), ConfigError> {
+        reconfigured(&self.config(), &candidate.all()).map(drop)
     }
 
     /// Lets accepted values act.
     pub fn apply(&self, store: &mut ParameterStore, changed: &[Parameter]) {
-        let Ok(config) = configured::reconfigured(&self.config(), changed) else {
+        let Ok(config) = reconfigured(&self.config(), changed) else {
             return;
         };
         let config = Arc::new(config);
         *self.config.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&config);
-        configured::refresh_ranges(store, &config);
-        self.gate
-            .door
+        refresh_ranges(store, &config);
+        self.rig_inputs
+            .conditioner
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .set_rules(config.inputs.rules());
@@ -136,34 +162,35 @@ impl Control {
 
     fn pause(&self, pause: bool) -> SetBoolResponse {
         tracing::info!("{}", if pause { "paused" } else { "resumed" });
-        let told = self
+        let sent = self
             .send([Command::Pause(pause)])
             .map(|_| if pause { "paused" } else { "running" }.to_owned());
-        let TriggerResponse { success, message } = answer(told);
+        let TriggerResponse { success, message } = answer(sent);
         SetBoolResponse { success, message }
     }
 
     async fn save_checkpoint(self: Arc<Self>) -> TriggerResponse {
-        if self.gauges.phase() == Phase::Starting {
-            return answer(Err("the model is still being built".into()));
+        if self.gauges.run_state() == RunState::Starting {
+            return answer(Err(ControlError::Starting));
         }
         let saved = tokio::task::spawn_blocking(move || {
             let (sender, receiver) = sync_channel(1);
             self.send([Command::Checkpoint(sender)])?;
             let bytes = receiver
                 .recv_timeout(CHECKPOINT_WAIT)
-                .map_err(|_| "the solver did not answer in time".to_owned())?
-                .map_err(|error| error.to_string())?;
+                .map_err(|_| ControlError::NoAnswer)??;
             let step = self.gauges.step.load(Ordering::Relaxed);
             let path = PathBuf::from(format!(
                 "flexdrill_{}_step{step}.checkpoint",
                 &self.config().hash()[..12]
             ));
-            std::fs::write(&path, &bytes).map_err(|error| format!("{}: {error}", path.display()))?;
+            if let Err(source) = std::fs::write(&path, &bytes) {
+                return Err(ControlError::Write { path, source });
+            }
             let shown = std::path::absolute(&path).unwrap_or(path);
             Ok(format!("{} ({} bytes)", shown.display(), bytes.len()))
         });
-        let result = saved.await.unwrap_or_else(|error| Err(error.to_string()));
+        let result = saved.await.unwrap_or_else(|error| Err(error.into()));
         match &result {
             Ok(message) => tracing::info!("checkpoint saved: {message}"),
             Err(why) => tracing::warn!("no checkpoint: {why}"),
@@ -180,12 +207,12 @@ fn number(value: &ParameterValue) -> Option<f64> {
     }
 }
 
-fn answer(result: Result<String, String>) -> TriggerResponse {
+fn answer(result: Result<String, ControlError>) -> TriggerResponse {
     match result {
         Ok(message) => TriggerResponse { success: true, message },
-        Err(message) => TriggerResponse {
+        Err(error) => TriggerResponse {
             success: false,
-            message,
+            message: error.to_string(),
         },
     }
 }

@@ -1,13 +1,12 @@
 //! The node: what runs where, and how it begins and ends.
 //!
 //! - the solver's thread: [`flexdrill_realtime`];
-//! - the publisher's thread: `publish`; the recorder's thread: `recording`;
+//! - the publisher's thread: `publish`; the recorder's thread: [`RecordingThread`];
 //! - tokio tasks: inputs and clock (`rig`), services and parameters (`control`).
 
 pub mod control;
 pub mod publish;
 pub mod publishers;
-pub mod recording;
 pub mod rig;
 
 use std::future::Future;
@@ -23,26 +22,23 @@ use tokio::task::JoinSet;
 use self::control::Control;
 use self::publish::{Publisher, PublisherParts};
 use self::publishers::Publishers;
-use self::recording::RecordingThread;
-use self::rig::{Gate, Now};
+use self::rig::{Now, RigInputs};
 use super::args::{NodeIdentity, Remapping};
 use super::network::Network;
-use super::parameters::{self, Parameters, configured};
+use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
 use super::{DEFAULT_NODE_NAME, NodeError, logging};
-use crate::bag::Recording;
+use crate::bag::{Recording, RecordingThread};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Door, InputKind};
 use flexdrill_core::twin::{BuildError, Run, Simulation};
-use flexdrill_realtime::Solver;
 use flexdrill_realtime::clock::{SimulatedClock, WallClock};
 use flexdrill_realtime::link::{Gauges, Targets, link};
 use flexdrill_realtime::monotonic;
+use flexdrill_realtime::{INPUT_PERIOD, RealTimeLoop};
 
-/// Length of a period of the solver (s): inputs take effect this fast.
-const PERIOD: f64 = 5e-3;
 /// Samples that may wait for the recording.
 const RECEIVED: usize = 1024;
 /// Longest wait for the solver to end: a step that is split to its limit takes this long on a slow machine.
@@ -138,10 +134,10 @@ async fn run_in(
     let settings = config.simulation();
     let targets = Targets::new(settings.initial_inputs);
     let gauges = Arc::new(Gauges::default());
-    let (solver_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
-    let door = Arc::new(Mutex::new(Door::new(config.inputs.rules())));
-    let gate = Gate {
-        door: Arc::clone(&door),
+    let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
+    let conditioner = Arc::new(Mutex::new(Door::new(config.inputs.rules())));
+    let rig_inputs = RigInputs {
+        conditioner: Arc::clone(&conditioner),
         targets,
         now: Arc::clone(&now),
     };
@@ -151,10 +147,10 @@ async fn run_in(
         commands,
         Arc::clone(&config),
         change_sender,
-        gate.clone(),
+        rig_inputs.clone(),
         Arc::clone(&gauges),
     );
-    let store = configured::declare(&config, &setup.config_file, setup.use_sim_time);
+    let store = parameters::declare(&config, &setup.config_file, setup.use_sim_time);
     let (checking, applying) = (Arc::clone(&control), Arc::clone(&control));
     let parameters = Parameters::new(
         &mut node,
@@ -179,7 +175,7 @@ async fn run_in(
     ] {
         let subscription = rig::subscribe(&mut node, &participant, &setup.topic_name(topic)?, topic)?;
         let record = recording.is_some().then(|| received_sender.clone());
-        tasks.spawn(rig::receive(gate.clone(), kind, subscription, record));
+        tasks.spawn(rig::receive(rig_inputs.clone(), kind, subscription, record));
     }
     if setup.use_sim_time {
         let subscription = rig::subscribe(
@@ -188,9 +184,13 @@ async fn run_in(
             &setup.topic_name(&topics::CLOCK)?,
             &topics::CLOCK,
         )?;
-        tasks.spawn(rig::follow_clock(gate.clone(), subscription, Arc::clone(&simulated)));
+        tasks.spawn(rig::follow_clock(
+            rig_inputs.clone(),
+            subscription,
+            Arc::clone(&simulated),
+        ));
     }
-    tasks.spawn(rig::keep_looking(gate));
+    tasks.spawn(rig::keep_targets(rig_inputs));
 
     let finish = Arc::new(AtomicBool::new(false));
     let publisher = Publisher::new(PublisherParts {
@@ -201,7 +201,7 @@ async fn run_in(
         changes,
         config: Arc::clone(&config),
         gauges: Arc::clone(&gauges),
-        door,
+        conditioner,
         now,
         rig_time,
         node_name: setup.identity.full_name(),
@@ -211,7 +211,7 @@ async fn run_in(
     let publisher_thread = spawn("publisher", move || publisher.run())?;
 
     let (built_sender, built) = tokio::sync::oneshot::channel::<Result<(), BuildError>>();
-    let steps_per_period = (PERIOD / settings.time_step).round().max(1.0) as u64;
+    let steps_per_period = (INPUT_PERIOD / settings.time_step).round().max(1.0) as u64;
     let checkpoint = read_checkpoint(&setup)?;
     let clock_cell = setup.use_sim_time.then_some(simulated);
     let solver_thread = spawn("solver", move || {
@@ -219,11 +219,11 @@ async fn run_in(
             Ok(run) => run,
             Err(error) => return drop(built_sender.send(Err(error))),
         };
-        // The node may have been told to end meanwhile.
+        // The node may be ending meanwhile.
         let _ = built_sender.send(Ok(()));
         match clock_cell {
-            Some(cell) => Solver::new(run, SimulatedClock::new(cell), solver_end, steps_per_period).run(),
-            None => Solver::new(run, WallClock, solver_end, steps_per_period).run(),
+            Some(cell) => RealTimeLoop::new(run, SimulatedClock::new(cell), loop_end, steps_per_period).run(),
+            None => RealTimeLoop::new(run, WallClock, loop_end, steps_per_period).run(),
         }
     })?;
 
@@ -284,7 +284,7 @@ fn read_checkpoint(setup: &NodeSetup) -> Result<Option<Vec<u8>>, NodeError> {
     setup.checkpoint.as_ref().map(read).transpose()
 }
 
-/// Waits for the end of the run: told to, the duration has passed, or the model could not be built.
+/// Waits for the end of the run: on request, after the duration, or because the model could not be built.
 async fn wait(
     built: tokio::sync::oneshot::Receiver<Result<(), BuildError>>,
     gauges: &Gauges,

@@ -1,4 +1,4 @@
-//! The publisher's thread: frames and reports of the solver become messages, for DDS and the recording alike; status and
+//! The publisher's thread: frames and events of the solver become messages, for DDS and the recording alike; status and
 //! diagnostics follow the wall clock, so that they go on when the model does not.
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,24 +8,24 @@ use std::time::Duration;
 
 use super::control::Change;
 use super::publishers::Publishers;
-use super::recording::RecordingThread;
 use super::rig::{Now, Received};
+use crate::bag::RecordingThread;
+use crate::health::diagnostics::{Diagnostics, Evidence};
+use crate::health::motion::MotionEvidence;
+use crate::health::status::{OutputCount, Sources, StatusKeeper};
 use crate::messages::diagnostic_msgs::DiagnosticArray;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
-use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
-use crate::ros::health::diagnostics::{Diagnostics, Evidence, describe};
-use crate::ros::health::motion::MotionEvidence;
-use crate::ros::health::status::{Sources, StatusKeeper};
+use crate::messages::{CdrError, Message, TwinStatus, to_cdr, words};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Door, InputKind};
 use flexdrill_core::twin::RunInputs;
-use flexdrill_realtime::link::{Gauges, PublisherEnd, Report};
-use flexdrill_realtime::monotonic;
+use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
+use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
 
-/// How often the rings are looked at: the delay that publishing adds.
-const LOOK: Duration = Duration::from_millis(1);
+/// How often the rings are polled: the delay that publishing adds.
+const POLL: Duration = Duration::from_millis(1);
 
 /// What the publisher's thread is made of.
 pub struct PublisherParts {
@@ -44,8 +44,8 @@ pub struct PublisherParts {
     /// Of the solver.
     pub gauges: Arc<Gauges>,
     /// Inputs.
-    pub door: Arc<Mutex<Door>>,
-    /// Time as the door counts it.
+    pub conditioner: Arc<Mutex<Door>>,
+    /// Time as the conditioner counts it.
     pub now: Now,
     /// Present instant on the rig's clock (ns since 1970).
     pub rig_time: Arc<dyn Fn() -> i64 + Send + Sync>,
@@ -55,7 +55,7 @@ pub struct PublisherParts {
     pub finish: Arc<AtomicBool>,
 }
 
-/// Publishes until told to finish.
+/// Turns what happens in the run into messages.
 pub struct Publisher {
     parts: PublisherParts,
     outputs: Option<Outputs>,
@@ -66,7 +66,7 @@ pub struct Publisher {
     next_status: u64,
     next_diagnostics: u64,
     newest_status: TwinStatus,
-    told_late: bool,
+    late: bool,
 }
 
 impl Publisher {
@@ -87,35 +87,35 @@ impl Publisher {
             next_status: now,
             next_diagnostics: now,
             newest_status: TwinStatus::default(),
-            told_late: false,
+            late: false,
         })
     }
 
-    /// Runs until told to finish; gives back the recording and the last status.
+    /// Runs until `finish` is set; gives back the recording and the last status.
     pub fn run(mut self) -> (Option<RecordingThread>, TwinStatus) {
         loop {
             let finish = self.parts.finish.load(Ordering::Acquire);
-            let worked = self.turn();
+            let worked = self.poll();
             if finish {
                 break;
             }
             if !worked {
-                std::thread::sleep(LOOK);
+                std::thread::sleep(POLL);
             }
         }
         self.send_status();
         (self.parts.recording, self.newest_status)
     }
 
-    /// Looks at everything once. Whether there was something of the solver.
-    fn turn(&mut self) -> bool {
+    /// Publishes what is there; whether there was something of the solver.
+    fn poll(&mut self) -> bool {
         if self.outputs.is_none() && self.parts.gauges.start.load(Ordering::Acquire) != 0 {
             self.begin();
         }
         let mut worked = false;
-        while let Ok(report) = self.parts.end.reports.pop() {
+        while let Ok(event) = self.parts.end.events.pop() {
             worked = true;
-            if let Err(error) = self.report(report) {
+            if let Err(error) = self.publish_event(event) {
                 tracing::error!("a message could not be encoded: {error}");
             }
         }
@@ -151,10 +151,10 @@ impl Publisher {
         self.outputs = Some(outputs);
     }
 
-    fn report(&mut self, report: Report) -> Result<(), CdrError> {
-        match report {
-            Report::Frame(frame) => {
-                self.status.take(&frame.snapshot);
+    fn publish_event(&mut self, event: LoopEvent) -> Result<(), CdrError> {
+        match event {
+            LoopEvent::Frame(frame) => {
+                self.status.observe(&frame.snapshot);
                 self.evidence.motion = MotionEvidence::of(&frame.snapshot);
                 let parts = &self.parts;
                 let began = monotonic::now();
@@ -167,16 +167,16 @@ impl Publisher {
                 let _ = self.parts.end.empty.push(frame);
                 sent
             }
-            Report::Applied {
+            LoopEvent::Applied {
                 inputs,
                 ticks,
                 commands,
             } => self.applied(&inputs, ticks, commands),
-            Report::Failed(failure, _) => {
+            LoopEvent::Failed(failure, _) => {
                 tracing::error!(
                     "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
                     failure.time,
-                    describe(&failure)
+                    words::step_failure(&failure)
                 );
                 self.status.fail(failure);
                 self.evidence.failure = Some(failure);
@@ -184,7 +184,7 @@ impl Publisher {
                 self.send_diagnostics();
                 Ok(())
             }
-            Report::Recovered => {
+            LoopEvent::Recovered => {
                 tracing::info!("the model moves again");
                 self.evidence.failure = None;
                 Ok(())
@@ -228,35 +228,37 @@ impl Publisher {
     fn send_status(&mut self) {
         let header = self.header();
         let parts = &self.parts;
-        let door = parts.door.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let conditioner = parts.conditioner.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let outputs: Vec<OutputCount<'_>> = parts.publishers.counts().collect();
         let sources = Sources {
             gauges: &parts.gauges,
-            door: &door,
+            conditioner: &conditioner,
             now: (parts.now)(),
             wall: monotonic::now(),
-            publishers: &parts.publishers,
+            outputs: &outputs,
             recording: parts.recording.as_ref(),
         };
         let status = self.status.status(header, &sources);
         self.parts.send_message(&topics::STATUS, &status, self.instant());
-        self.tell_late(&status);
+        self.log_lateness(&status);
         self.newest_status = status;
     }
 
     /// One line when the model falls out of real time, one when it is back.
-    fn tell_late(&mut self, status: &TwinStatus) {
-        let skipping = status.state == TwinStatus::RUNNING && status.real_time_factor < 0.9 && status.steps_skipped > 0;
-        if skipping && !self.told_late {
+    fn log_lateness(&mut self, status: &TwinStatus) {
+        let skipping =
+            status.state == TwinStatus::RUNNING && status.real_time_factor < FAR_BEHIND && status.steps_skipped > 0;
+        if skipping && !self.late {
             tracing::warn!(
                 "not in real time: the model gains {:.2} s per second and skips the rest; take a coarser mesh or a faster machine",
                 status.real_time_factor
             );
-        } else if self.told_late && status.real_time_factor > 0.98 {
+        } else if self.late && status.real_time_factor >= KEEPS_UP {
             tracing::info!("in real time again");
         } else {
             return;
         }
-        self.told_late = skipping;
+        self.late = skipping;
     }
 
     fn send_diagnostics(&mut self) {

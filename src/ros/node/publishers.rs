@@ -1,14 +1,15 @@
 //! One publisher per output topic, and the bag that gets the same bytes.
 
-use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use ros2_client::Node;
 use rustdds::DomainParticipant;
 
+use crate::health::status::OutputCount;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::ros::NodeError;
 use crate::ros::args::{NodeIdentity, Remapping};
-use crate::ros::publisher::{Offer, TopicCounters, TopicPublisher};
+use crate::ros::publisher::{Offer, TopicPublisher};
 use flexdrill_config::Config;
 
 /// Rate for which topics that are sent on change are sized (Hz).
@@ -66,11 +67,16 @@ impl Publishers {
         self.entry(topic).map_or(topic.name, |entry| &entry.name)
     }
 
-    /// Name and counters of every topic.
-    pub fn counters(&self) -> impl Iterator<Item = (&str, Arc<TopicCounters>)> {
-        self.entries
-            .iter()
-            .map(|entry| (entry.name.as_str(), entry.publisher.counters()))
+    /// What every topic has sent so far.
+    pub fn counts(&self) -> impl Iterator<Item = OutputCount<'_>> {
+        self.entries.iter().map(|entry| {
+            let counters = entry.publisher.counters();
+            OutputCount {
+                topic: &entry.name,
+                sent: counters.sent.load(Ordering::Relaxed),
+                dropped: counters.dropped.load(Ordering::Relaxed),
+            }
+        })
     }
 
     fn entry(&self, topic: &TopicInfo) -> Option<&Entry> {

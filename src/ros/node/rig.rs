@@ -19,12 +19,12 @@ use crate::ros::publisher::dds_topic_name;
 use flexdrill_core::inputs::{Door, InputKind, Rejection};
 use flexdrill_realtime::link::Targets;
 
-/// Samples kept for a moment in which the node is busy; each is looked at in turn, so the newest wins.
+/// Samples kept for a moment in which the node is busy; each is conditioned in turn, so the newest wins.
 const DEPTH: i32 = 10;
-/// How often the ages of the inputs are looked at.
-const LOOK: Duration = Duration::from_millis(10);
+/// How often the targets follow the ages of the inputs.
+const UPDATE_INTERVAL: Duration = Duration::from_millis(10);
 /// Least time between two log lines about refused samples of one input.
-const COMPLAIN: Duration = Duration::from_secs(2);
+const LOG_INTERVAL: Duration = Duration::from_secs(2);
 
 /// Time as the inputs' ages count it (s).
 pub type Now = Arc<dyn Fn() -> f64 + Send + Sync>;
@@ -32,7 +32,7 @@ pub type Now = Arc<dyn Fn() -> f64 + Send + Sync>;
 /// A sample as received, for the recording.
 #[derive(Debug, Clone, Copy)]
 pub struct Received {
-    /// Which input.
+    /// The input that it belongs to.
     pub kind: InputKind,
     /// In the unit of the topic.
     pub value: f64,
@@ -68,24 +68,24 @@ pub fn subscribe<M: DeserializeOwned + 'static>(
     node.create_subscription(&handle, None).map_err(failed)
 }
 
-/// What the tasks of this file share.
+/// Where the samples of the rig go: conditioned into the targets of the solver.
 #[derive(Clone)]
-pub struct Gate {
+pub struct RigInputs {
     /// Judges samples.
-    pub door: Arc<Mutex<Door>>,
+    pub conditioner: Arc<Mutex<Door>>,
     /// Where the solver takes its targets from.
     pub targets: Arc<Targets>,
     /// Time of arrival.
     pub now: Now,
 }
 
-impl Gate {
+impl RigInputs {
     /// Brings the targets up to date.
-    pub fn look(&self) {
+    pub fn update_targets(&self) {
         let now = (self.now)();
         let (inputs, quality) = {
-            let door = self.door.lock().unwrap_or_else(PoisonError::into_inner);
-            (door.targets(now), door.quality(now))
+            let conditioner = self.conditioner.lock().unwrap_or_else(PoisonError::into_inner);
+            (conditioner.targets(now), conditioner.quality(now))
         };
         self.targets.set(inputs, quality as u8);
     }
@@ -93,25 +93,25 @@ impl Gate {
     fn offer(&self, kind: InputKind, value: f64) -> Result<(), Rejection> {
         let now = (self.now)();
         let offered = self
-            .door
+            .conditioner
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .offer(kind, value, now);
-        self.look();
+        self.update_targets();
         offered
     }
 }
 
-/// Takes samples of one input for as long as it is polled.
+/// Conditions the samples of one input for as long as it is polled.
 pub async fn receive(
-    gate: Gate,
+    rig: RigInputs,
     kind: InputKind,
     subscription: Subscription<Float64>,
     record: Option<SyncSender<Received>>,
 ) {
     let mut samples = Box::pin(subscription.async_stream());
-    let mut complained: Option<Instant> = None;
-    let mut kept_quiet = 0_u64;
+    let mut logged: Option<Instant> = None;
+    let mut not_logged = 0_u64;
     while let Some(sample) = samples.next().await {
         let value = match sample {
             Ok((sample, _)) => sample.data,
@@ -124,34 +124,34 @@ pub async fn receive(
             // A full queue means that the recording is behind; it counts that itself.
             let _ = record.try_send(Received { kind, value });
         }
-        if let Err(rejection) = gate.offer(kind, value) {
-            if complained.is_none_or(|at| at.elapsed() >= COMPLAIN) {
-                let more = if kept_quiet > 0 {
-                    format!(" ({kept_quiet} more since the last line)")
+        if let Err(rejection) = rig.offer(kind, value) {
+            if logged.is_none_or(|at| at.elapsed() >= LOG_INTERVAL) {
+                let more = if not_logged > 0 {
+                    format!(" ({not_logged} more since the last line)")
                 } else {
                     String::new()
                 };
                 tracing::warn!("{rejection}{more}");
-                (complained, kept_quiet) = (Some(Instant::now()), 0);
+                (logged, not_logged) = (Some(Instant::now()), 0);
             } else {
-                kept_quiet += 1;
+                not_logged += 1;
             }
         }
     }
 }
 
 /// Keeps the targets up to date while no sample comes: ages, holds and ramps.
-pub async fn keep_looking(gate: Gate) {
-    let mut tick = tokio::time::interval(LOOK);
+pub async fn keep_targets(rig: RigInputs) {
+    let mut tick = tokio::time::interval(UPDATE_INTERVAL);
     tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
     loop {
         tick.tick().await;
-        gate.look();
+        rig.update_targets();
     }
 }
 
 /// Follows `/clock`; `newest` is in ns.
-pub async fn follow_clock(gate: Gate, subscription: Subscription<Clock>, newest: Arc<AtomicU64>) {
+pub async fn follow_clock(rig: RigInputs, subscription: Subscription<Clock>, newest: Arc<AtomicU64>) {
     let mut ticks = Box::pin(subscription.async_stream());
     while let Some(tick) = ticks.next().await {
         let Ok((Clock { clock }, _)) = tick else { continue };
@@ -162,10 +162,10 @@ pub async fn follow_clock(gate: Gate, subscription: Subscription<Clock>, newest:
                 "/clock went back by {:.3} s; the model goes on from where it is",
                 (before - time) as f64 * 1e-9
             );
-            gate.door
+            rig.conditioner
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
-                .clock_set((gate.now)());
+                .clock_set((rig.now)());
         }
     }
 }

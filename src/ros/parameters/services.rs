@@ -13,18 +13,20 @@ use ros2_client::rcl_interfaces::{
 use ros2_client::{Node, Parameter, ParameterValue};
 use rustdds::DomainParticipant;
 
+use super::refusal::Refusal;
 use super::store::ParameterStore;
+use crate::messages::to_cdr_body;
 use crate::ros::NodeError;
 use crate::ros::publisher::{Offer, TopicPublisher};
-use crate::ros::raw::encode;
 use crate::ros::service::{ServiceMapping, ServiceServer, at_once};
+use flexdrill_config::ConfigError;
 
 /// A server's work, to be run as a task.
 pub type Task = Pin<Box<dyn Future<Output = ()> + Send>>;
 
 /// Checks a set of values as a whole.
-pub type Check = dyn Fn(&ParameterStore) -> Result<(), String> + Send + Sync;
-/// Told about accepted values, in order.
+pub type Check = dyn Fn(&ParameterStore) -> Result<(), ConfigError> + Send + Sync;
+/// Called with accepted values, in order.
 pub type Applied = dyn Fn(&mut ParameterStore, &[Parameter]) + Send + Sync;
 
 /// Values, rules, and what follows from a change.
@@ -37,9 +39,8 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Takes over a store. `check` sees candidate values together, `applied` is told about each accepted change while
-    /// no other change can come between. `/parameter_events` tells others of all parameters at once now, and of every
-    /// change later.
+    /// Takes over a store. `check` sees candidate values together, `applied` is called with each accepted change while
+    /// no other change can come between. `/parameter_events` carries all parameters now, and every change later.
     ///
     /// # Errors
     /// When the events' topic cannot be created.
@@ -75,16 +76,16 @@ impl Parameters {
         Ok(Arc::new(parameters))
     }
 
-    /// Looks at the values.
-    pub fn with<T>(&self, look: impl FnOnce(&ParameterStore) -> T) -> T {
-        look(&self.store.lock().unwrap_or_else(PoisonError::into_inner))
+    /// Reads the values.
+    pub fn with<T>(&self, read: impl FnOnce(&ParameterStore) -> T) -> T {
+        read(&self.store.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Sets all of `changes` or none, tells those concerned, publishes the event.
+    /// Sets all of `changes` or none, lets them act, publishes the event.
     ///
     /// # Errors
-    /// The reason of the refusal, in words.
-    pub fn set(&self, changes: &[Parameter]) -> Result<(), String> {
+    /// Why the change is refused.
+    pub fn set(&self, changes: &[Parameter]) -> Result<(), Refusal> {
         let changed = {
             let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
             let changed = store.set_atomically(changes, |candidate| (self.check)(candidate))?;
@@ -106,7 +107,7 @@ impl Parameters {
             changed_parameters: changed.into_iter().map(Into::into).collect(),
             deleted_parameters: Vec::new(),
         };
-        if let Ok(body) = encode(&event) {
+        if let Ok(body) = to_cdr_body(&event) {
             self.events.publish(&body);
         }
     }
@@ -117,7 +118,7 @@ impl Parameters {
         if let Err(reason) = &result {
             tracing::warn!("a parameter change was refused: {reason}");
         }
-        result.into()
+        result.map_err(|refusal| refusal.to_string()).into()
     }
 }
 

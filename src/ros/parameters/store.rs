@@ -6,7 +6,9 @@ use ros2_client::parameters::{NumericRange, ParameterDescriptor, raw};
 use ros2_client::rcl_interfaces::ListParametersResult;
 use ros2_client::{Parameter, ParameterValue};
 
+use super::refusal::Refusal;
 use crate::ros::args::value::show;
+use flexdrill_config::ConfigError;
 
 /// What is declared about a parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +56,7 @@ impl ParameterStore {
         }
     }
 
-    /// Tells new limits, where they follow from other values.
+    /// Replaces the limits that are shown, where they follow from other values.
     pub fn set_range(&mut self, name: &str, range: [f64; 2]) {
         if let Some(entry) = self.entries.get_mut(name) {
             entry.range = Some(range);
@@ -81,12 +83,12 @@ impl ParameterStore {
     /// parameters' own types.
     ///
     /// # Errors
-    /// A sentence for the person who asked: which parameter, which value, which limit, what to do.
+    /// When one of them is unknown, read-only or of the wrong type, or `check` refuses them together.
     pub fn set_atomically(
         &mut self,
         changes: &[Parameter],
-        check: impl FnOnce(&ParameterStore) -> Result<(), String>,
-    ) -> Result<Vec<Parameter>, String> {
+        check: impl FnOnce(&ParameterStore) -> Result<(), ConfigError>,
+    ) -> Result<Vec<Parameter>, Refusal> {
         let mut candidate = self.clone();
         let mut accepted = Vec::with_capacity(changes.len());
         for Parameter { name, value } in changes {
@@ -157,7 +159,7 @@ impl ParameterStore {
     }
 }
 
-fn unknown(store: &ParameterStore, name: &str) -> String {
+fn unknown(store: &ParameterStore, name: &str) -> Refusal {
     let last = name.rsplit('.').next().unwrap_or(name);
     let close: Vec<&str> = store
         .names()
@@ -169,26 +171,32 @@ fn unknown(store: &ParameterStore, name: &str) -> String {
     } else {
         format!("did you mean {}?", close.join(" or "))
     };
-    format!("there is no parameter '{name}'; {hint}")
+    Refusal::Unknown {
+        name: name.to_owned(),
+        hint,
+    }
 }
 
 /// The value in the parameter's own type, if it may take it.
-fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue, String> {
-    let name = &entry.name;
+fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue, Refusal> {
+    let name = || entry.name.clone();
     if let Some(why) = &entry.read_only {
-        return Err(format!("'{name}' cannot change while the twin runs: {why}"));
+        return Err(Refusal::ReadOnly {
+            name: name(),
+            why: why.clone(),
+        });
     }
     let value = match (&entry.value, value) {
         // A whole number is a fine way to write a real one.
         (ParameterValue::Double(_), ParameterValue::Integer(whole)) => ParameterValue::Double(*whole as f64),
         (own, given) if std::mem::discriminant(own) == std::mem::discriminant(given) => given.clone(),
         (own, given) => {
-            return Err(format!(
-                "'{name}' is a {:?}, not a {:?} ({})",
-                own.to_parameter_type(),
-                given.to_parameter_type(),
-                show(given)
-            ));
+            return Err(Refusal::WrongType {
+                name: name(),
+                own: own.to_parameter_type(),
+                given: given.to_parameter_type(),
+                value: show(given),
+            });
         }
     };
     let number = match &value {
@@ -197,7 +205,10 @@ fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue
         _ => return Ok(value),
     };
     if !number.is_finite() {
-        return Err(format!("'{name}' must be a finite number, not {}", show(&value)));
+        return Err(Refusal::NotFinite {
+            name: name(),
+            value: show(&value),
+        });
     }
     Ok(value)
 }
@@ -239,7 +250,7 @@ mod tests {
             parameter("friction.inner", ParameterValue::Double(0.4)),
             parameter("friction.outer", ParameterValue::String("rough".into())),
         ];
-        let reason = store.set_atomically(&changes, |_| Ok(())).unwrap_err();
+        let reason = store.set_atomically(&changes, |_| Ok(())).unwrap_err().to_string();
         assert!(
             reason.contains("friction.outer") && reason.contains("rough"),
             "{reason}"
@@ -247,7 +258,7 @@ mod tests {
         assert_eq!(store.number("friction.inner"), Some(0.2));
         let refused = store.set_atomically(&changes[..1], |new| {
             assert_eq!(new.number("friction.inner"), Some(0.4));
-            Err("together they do not fit".into())
+            Err(ConfigError::UnknownKey { key: "friction".into() })
         });
         assert!(refused.is_err());
         assert_eq!(store.number("friction.inner"), Some(0.2));
@@ -258,7 +269,10 @@ mod tests {
     #[test]
     fn refusals_say_why() {
         let mut store = store();
-        let mut refuse = |name: &str, value| store.set_atomically(&[parameter(name, value)], |_| Ok(())).unwrap_err();
+        let mut refuse = |name: &str, value| {
+            let refused = store.set_atomically(&[parameter(name, value)], |_| Ok(()));
+            refused.unwrap_err().to_string()
+        };
         assert!(refuse("tool.links", ParameterValue::Integer(4)).contains("part of the mesh"));
         assert!(refuse("inner", ParameterValue::Double(0.1)).contains("did you mean friction.inner"));
         assert!(refuse("friction.inner", ParameterValue::String("low".into())).contains("low"));

@@ -1,6 +1,7 @@
 //! Drawing a figure as SVG.
 //!
-//! plotters places everything on whole units; so the drawing is [`SCALE`] times as large as it says, which leaves curves smooth.
+//! plotters places everything on whole units; so the drawing is [`SCALE`] times as large as it says, which leaves
+//! curves smooth.
 
 use std::sync::OnceLock;
 

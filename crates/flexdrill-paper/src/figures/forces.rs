@@ -3,6 +3,7 @@
 use super::panel::{Figure, Line, Panel};
 use crate::findings::worst_place;
 use crate::record::{Axis, Layer, Record};
+use flexdrill_core::units::n_to_kn;
 
 /// Pipe on guide, Fig. 14.
 pub(super) fn inner(record: &Record) -> Figure {
@@ -52,7 +53,7 @@ struct Text {
 
 fn contact(record: &Record, layer: &Layer, text: Text, paper: (f64, f64)) -> Figure {
     let stations = &record.stations;
-    let force = |s: usize| (stations.degrees(s), 1e-3 * layer.square[s].sqrt());
+    let force = |s: usize| (stations.degrees(s), n_to_kn(layer.square[s].sqrt()));
     let pick = |joint: bool| {
         (0..stations.len())
             .filter(|&s| stations.joint[s] == joint)
@@ -80,7 +81,7 @@ fn contact(record: &Record, layer: &Layer, text: Text, paper: (f64, f64)) -> Fig
         .time
         .iter()
         .copied()
-        .zip(layer.peak.at(worst).map(|f| 1e-3 * f))
+        .zip(layer.peak.at(worst).map(n_to_kn))
         .collect();
     Figure {
         name: text.name,

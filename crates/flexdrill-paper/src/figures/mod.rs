@@ -1,5 +1,5 @@
-//! The paper's figures, drawn from a record. A figure is plain data ([`Figure`]); [`svg`] draws it, [`png()`] renders the drawing, and
-//! [`csv()`] writes what is in it.
+//! The paper's figures, drawn from a record. A figure is plain data ([`Figure`]); [`svg`] draws it, [`png()`] renders
+//! the drawing, and [`csv()`] writes what is in it.
 
 mod draw;
 mod forces;

@@ -1,13 +1,13 @@
 //! Refinement of a point: evolution strategy with a covariance adapted per coordinate.
 //!
-//! Source: Ros, Hansen, "A simple modification in CMA-ES achieving linear time and space complexity", PPSN 2008 (sep-CMA-ES), with
-//! the constants given there. It needs no gradient, bears the scatter of chaotic runs and failed trials (it only uses the order), and
-//! with 20 parameters learns within the few hundred trials that are affordable.
+//! Source: Ros, Hansen, "A simple modification in CMA-ES achieving linear time and space complexity", PPSN 2008
+//! (sep-CMA-ES), with the constants given there. It needs no gradient, bears the scatter of chaotic runs and failed
+//! trials (it only uses the order), and with 20 parameters learns within the few hundred trials that are affordable.
 
 use super::random::Random;
 
-/// Deviation of the first generation, as a part of the whole range: with 20 coordinates a point moves by a quarter of the range, and with
-/// 0.12 hardly any came near the start's score.
+/// Deviation of the first generation, as a part of the whole range: with 20 coordinates a point moves by a quarter of
+/// the range, and with 0.12 hardly any came near the start's score.
 const FIRST_DEVIATION: f64 = 0.05;
 
 /// State between generations.

@@ -74,8 +74,8 @@ impl Outcome {
         }
     }
 
-    /// Mean closeness, as written in the table so that a search taken up goes on as it would have, and number of agreements; nothing
-    /// for a failed run.
+    /// Mean closeness, as written in the table so that a search taken up goes on as it would have, and number of
+    /// agreements; nothing for a failed run.
     pub fn score(&self) -> (f64, usize) {
         match self {
             Self::Ran { findings, .. } => {
@@ -136,10 +136,13 @@ impl Trial {
     /// When a value is refused.
     pub fn config(&self, base: &Config) -> Result<Config, ConfigError> {
         let case = case(base, &self.point)?;
-        case.config.with_values([
-            ("inputs.weight_on_bit.initial_kn", case.weight_on_bit_kn),
-            ("inputs.rotary_speed.initial_rpm", case.rotary_speed_rpm),
-        ])
+        case.config.with_values(
+            "parameter",
+            [
+                ("inputs.weight_on_bit.initial_kn", case.weight_on_bit_kn),
+                ("inputs.rotary_speed.initial_rpm", case.rotary_speed_rpm),
+            ],
+        )
     }
 
     /// A line of the table.

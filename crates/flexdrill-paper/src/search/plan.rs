@@ -1,4 +1,5 @@
-//! The seeded plan: a Latin hypercube, then descents from the best points that lie apart, then the best with the full record.
+//! The seeded plan: a Latin hypercube, then descents from the best points that lie apart, then the best with the full
+//! record.
 
 use super::descent::Descent;
 use super::outcome::{Outcome, Trial};
@@ -75,8 +76,8 @@ impl Stage {
     }
 }
 
-/// Runs the plan. `known` gives the outcome of a trial that an earlier run of the same plan has done, from its number and parameters as
-/// written; `done` is given every trial as it ends, in order.
+/// Runs the plan. `known` gives the outcome of a trial that an earlier run of the same plan has done, from its number
+/// and parameters as written; `done` is given every trial as it ends, in order.
 ///
 /// # Errors
 /// When `known` or `done` fails.
@@ -153,7 +154,8 @@ fn outcome(plan: &Plan, stage: Stage, point: &[f64]) -> Outcome {
     }
 }
 
-/// Distance of the descents' first points in the unit cube: a little more than half of that of two random points, sqrt(n / 6).
+/// Distance of the descents' first points in the unit cube: a little more than half of that of two random points,
+/// sqrt(n / 6).
 const APART: f64 = 1.0;
 
 /// From the best trials that lie apart.

@@ -199,8 +199,9 @@ const STARTS: &[(Values, Values)] = &[
     (&[("joint", 3.0)], USUAL),
     (&[("joint", 3.0), ("phase_step_deg", 1.0), ("phase_deg", 45.0)], USUAL),
     (&[], CROOKED),
-    // By hand from it, one change at a time: less clearance with softer contacts, so that the guide is pressed for longer; little weight, so
-    // that it leaves the wall and the pipe hangs at the top; the crosses turned until y leads.
+    // By hand from it, one change at a time: less clearance with softer contacts, so that the guide is pressed for
+    // longer; little weight, so that it leaves the wall and the pipe hangs at the top; the crosses turned until y
+    // leads.
     (
         &[
             ("wob_kn", 7.5),
@@ -214,8 +215,8 @@ const STARTS: &[(Values, Values)] = &[
         ],
         CROOKED,
     ),
-    // The same with hardly any friction between the pipes, so that they do not turn the guide, a stiffer guide, and the crosses a little
-    // less turned.
+    // The same with hardly any friction between the pipes, so that they do not turn the guide, a stiffer guide, and the
+    // crosses a little less turned.
     (
         &[
             ("wob_kn", 14.0),
@@ -328,7 +329,7 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
         .map(|(key, value)| (key, json!(value)))
         .chain(words.into_iter().map(|(key, value)| (key, json!(value))))
         .chain([("tool.links", json!(number("links") as u64))]);
-    let mut case = Case::new(base.with_values(values)?);
+    let mut case = Case::new(base.with_values("parameter", values)?);
     case.weight_on_bit_kn = number("wob_kn");
     case.settling_turns = 1.0;
     case.impatient = true;

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::Solver;
+use super::RealTimeLoop;
 use crate::clock::Clock;
-use crate::link::{Command, Gauges, Phase, PublisherEnd, Report, Targets, link};
+use crate::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Targets, link};
 use crate::monotonic;
-use flexdrill_core::dynamics::phases::Phase as Phases;
+use flexdrill_core::dynamics::phases::Phase;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{ToolDescription, WellSection};
 use flexdrill_core::twin::{Run, RunInputs, Schedule, Simulation, SimulationSettings};
@@ -49,7 +49,7 @@ fn tool() -> ToolDescription {
 
 /// 1 ms steps, 5 per period, every output due every 10 steps.
 struct Bench {
-    solver: Solver<ScriptedClock>,
+    solver: RealTimeLoop<ScriptedClock>,
     publisher: PublisherEnd,
     commands: rtrb::Producer<Command>,
     targets: Arc<Targets>,
@@ -78,7 +78,7 @@ impl Bench {
         let mut simulation = Simulation::new(&tool(), &settings).unwrap();
         simulation.set_clock(monotonic::now);
         let run = Run::new(simulation, Schedule::new(1e-3, |_| 100.0));
-        let solver = Solver::new(run, clock.clone(), end, 5);
+        let solver = RealTimeLoop::new(run, clock.clone(), end, 5);
         Self {
             solver,
             publisher,
@@ -95,7 +95,7 @@ impl Bench {
             .now
             .fetch_max(self.solver.pacer.deadline(), Ordering::Relaxed);
         self.clock.now.fetch_add(time, Ordering::Relaxed);
-        self.solver.turn();
+        self.solver.run_period();
     }
 
     fn speed(&self, rotary_speed: f64) {
@@ -111,14 +111,14 @@ impl Bench {
     /// What was reported since the last call, in short; frames are given back.
     fn reports(&mut self) -> Vec<String> {
         let mut told = Vec::new();
-        while let Ok(report) = self.publisher.reports.pop() {
+        while let Ok(report) = self.publisher.events.pop() {
             told.push(match report {
-                Report::Frame(frame) => {
+                LoopEvent::Frame(frame) => {
                     let text = format!("frame {} at {}", frame.snapshot.step, frame.ticks);
                     self.publisher.empty.push(frame).unwrap();
                     text
                 }
-                Report::Applied {
+                LoopEvent::Applied {
                     inputs:
                         RunInputs {
                             step,
@@ -134,8 +134,8 @@ impl Bench {
                     let reset = if reset { " reset" } else { "" };
                     format!("applied {} at {step} skipped {skipped}{reset}", inputs.rotary_speed)
                 }
-                Report::Failed(failure, ticks) => format!("{:?} at tick {ticks}", failure.cause),
-                Report::Recovered => "recovered".into(),
+                LoopEvent::Failed(failure, ticks) => format!("{:?} at tick {ticks}", failure.cause),
+                LoopEvent::Recovered => "recovered".into(),
             });
         }
         told
@@ -162,8 +162,8 @@ fn in_time_it_shows_what_is_due_and_tells_inputs_once() {
     assert_eq!(bench.reports(), ["applied 3 at 20 skipped 0"]);
     let times = bench.solver.run.simulation().phase_times();
     assert_eq!(bench.gauges.phase_times(), times);
-    assert!(Phases::ALL.iter().all(|&phase| times.of(phase) > 0));
-    assert_eq!(bench.gauges.phase(), Phase::Running);
+    assert!(Phase::ALL.iter().all(|&phase| times.of(phase) > 0));
+    assert_eq!(bench.gauges.run_state(), RunState::Running);
     assert_eq!(bench.gauges.steps_skipped.load(Ordering::Relaxed), 0);
 }
 
@@ -207,7 +207,7 @@ fn a_failed_step_freezes_the_outputs_until_the_inputs_change() {
             "NotFinite at tick 5".into()
         ]
     );
-    assert_eq!(bench.gauges.phase(), Phase::Failed);
+    assert_eq!(bench.gauges.run_state(), RunState::Failed);
     for _ in 0..10 {
         bench.period(0);
     }
@@ -230,7 +230,7 @@ fn a_failed_step_freezes_the_outputs_until_the_inputs_change() {
         bench.reports(),
         ["applied 2 at 5 skipped 60", "recovered", "frame 10 at 70"]
     );
-    assert_eq!(bench.gauges.phase(), Phase::Running);
+    assert_eq!(bench.gauges.run_state(), RunState::Running);
     assert_eq!(
         bench.gauges.steps_late.load(Ordering::Relaxed),
         0,
@@ -282,7 +282,7 @@ fn a_pause_stands_still_and_counts_as_skipped() {
     bench.speed(9.0);
     bench.period(0);
     assert!(bench.reports().is_empty());
-    assert_eq!(bench.gauges.phase(), Phase::Paused);
+    assert_eq!(bench.gauges.run_state(), RunState::Paused);
     bench.commands.push(Command::Pause(false)).unwrap();
     bench.period(0);
     assert_eq!(bench.reports(), ["applied 9 at 5 skipped 10", "frame 10 at 20"]);
@@ -323,8 +323,8 @@ fn the_loop_ends_when_told_and_follows_the_deadlines() {
     let thread = std::thread::spawn(move || solver.run());
     let mut frames = 0;
     while frames < 100 {
-        match publisher.reports.pop() {
-            Ok(Report::Frame(frame)) => {
+        match publisher.events.pop() {
+            Ok(LoopEvent::Frame(frame)) => {
                 frames += 1;
                 publisher.empty.push(frame).unwrap();
             }

@@ -13,8 +13,8 @@ pub struct Calm {
     pub worst_joint: usize,
     /// Range of that coordinate (m).
     pub position_range: f64,
-    /// Of the contact forces averaged over an interval, over the layer's range: pipe-guide, guide-wall. A station that hardly
-    /// touches has no range of its own.
+    /// Of the contact forces averaged over an interval, over the layer's range: pipe-guide, guide-wall. A station that
+    /// hardly touches has no range of its own.
     pub forces: [f64; 2],
     /// Those ranges (N).
     pub force_ranges: [f64; 2],

@@ -1,9 +1,9 @@
-//! Error of the time step: the same run at an eighth of it, compared point by point where the motion is stable ([`Calm`]) and
-//! by its statistics where it is chaotic ([`Statistics`]).
+//! Error of the time step: the same run at an eighth of it, compared point by point where the motion is stable
+//! ([`Calm`]) and by its statistics where it is chaotic ([`Statistics`]).
 //!
-//! Without bit torque small differences die out. With it they grow e-fold every 15 to 30 ms, so that after a second two runs of one
-//! step that began a hair apart have nothing in common but their statistics. How far those scatter by themselves is seen from
-//! runs with perturbed starts.
+//! Without bit torque small differences die out. With it they grow e-fold every 15 to 30 ms, so that after a second two
+//! runs of one step that began a hair apart have nothing in common but their statistics. How far those scatter by
+//! themselves is seen from runs with perturbed starts.
 
 mod calm;
 mod record;

@@ -25,7 +25,8 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// With intervals of some 20 ms that are whole numbers of `config`'s steps, and so of steps that are a whole part of them.
+    /// With intervals of some 20 ms that are whole numbers of `config`'s steps, and so of steps that are a whole part
+    /// of them.
     pub fn of(config: &Config, inputs: Inputs, duration: f64) -> Self {
         let step = config.solver.time_step;
         Self {
@@ -36,10 +37,11 @@ impl Motion {
     }
 }
 
-/// What is compared, sampled at the end of every interval. Stations of the layers: all of pipe-guide, then all of guide-wall.
+/// What is compared, sampled at the end of every interval. Stations of the layers: all of pipe-guide, then all of
+/// guide-wall.
 #[derive(Debug, Clone, Default)]
 pub struct Record {
-    /// rad/s.
+    /// Bit speed (rad/s).
     pub bit_speed: Vec<f64>,
     /// Both lateral coordinates of every joint (m).
     pub positions: Vec<Vec<f64>>,

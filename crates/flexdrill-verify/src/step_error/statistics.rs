@@ -15,8 +15,8 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Whether the ranges of the two threes overlap. Six draws of one distribution fall into two threes that lie apart in 2 of
-    /// 20 ways, so this holds for 90 % of numbers that the step does not change.
+    /// Whether the ranges of the two threes overlap. Six draws of one distribution fall into two threes that lie apart
+    /// in 2 of 20 ways, so this holds for 90 % of numbers that the step does not change.
     pub fn overlaps(&self) -> bool {
         let ends = |x: &[f64]| {
             x.iter()
@@ -32,8 +32,8 @@ impl Figure {
     }
 }
 
-/// Profiles of the RMS contact force along the tool. Distances: root sum square of the differences at all stations, over the size
-/// of the finer runs' mean profile.
+/// Profiles of the RMS contact force along the tool. Distances: root sum square of the differences at all stations,
+/// over the size of the finer runs' mean profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
     /// Between two runs of the step: least and largest.
@@ -42,8 +42,8 @@ pub struct Profile {
     pub fine: [f64; 2],
     /// Between a run and a finer one.
     pub between: [f64; 2],
-    /// What of the latter the scatter of the runs does not explain: mean square between the two kinds less the mean square
-    /// within them, and of that the root; 0 when negative.
+    /// What of the latter the scatter of the runs does not explain: mean square between the two kinds less the mean
+    /// square within them, and of that the root; 0 when negative.
     pub systematic: f64,
     /// Size of the runs' mean profile over that of the finer ones, less 1.
     pub excess: f64,
@@ -165,7 +165,8 @@ mod tests {
         let mut group = |level: f64| [(); 3].map(|()| (0..400).map(|_| level + 0.05 * scatter()).collect::<Vec<_>>());
         let (runs, fine) = (group(1.1), group(1.0));
         let profile = Profile::of(runs.each_ref().map(Vec::as_slice), fine.each_ref().map(Vec::as_slice));
-        // Distances of independent runs: sqrt(2) x 5 %, within 3 standard errors of 400 draws (0.3 %); between: sqrt(10^2 + 7.1^2) %.
+        // Distances of independent runs: sqrt(2) x 5 %, within 3 standard errors of 400 draws (0.3 %); between:
+        // sqrt(10^2 + 7.1^2) %.
         for distance in profile.runs.into_iter().chain(profile.fine) {
             assert!((distance - 0.0707).abs() < 0.01, "{profile:?}");
         }

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::bag::{BagError, Recorder, Recording, Topic};
+use super::{BagError, Recorder, Recording, Topic};
 use crate::messages::topics::{self, TopicInfo};
 
 /// Messages that may wait for the disk: at 300 per second, over 20 s.
@@ -46,7 +46,7 @@ impl RecordingHealth {
         self.failed.load(Ordering::Acquire)
     }
 
-    /// Why.
+    /// Why writing failed, for a person.
     pub fn error(&self) -> Option<String> {
         self.error.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

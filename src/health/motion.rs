@@ -1,10 +1,11 @@
 //! What the analysis says of the tool's motion, as items of `/diagnostics`: whirl, stick-slip and lateral shock.
 
-use super::diagnostics::Judgement;
+use super::judgement::Judgement;
 use crate::messages::diagnostic_msgs::DiagnosticStatus;
+use crate::messages::words;
 use flexdrill_core::motion::{Severity, ShockLevel, WhirlWarningLevel};
 use flexdrill_core::twin::Snapshot;
-use flexdrill_core::units::rad_per_s_to_rpm;
+use flexdrill_core::units::{rad_per_s_to_rpm, rad_to_deg};
 
 /// Levels of the motion with what led to them, of the newest snapshot.
 #[derive(Debug, Clone, Copy, Default)]
@@ -48,7 +49,11 @@ impl MotionEvidence {
         Judgement {
             name: "whirl",
             level: level(warning.severity),
-            message: format!("{:?}, {:?} whirl", warning.severity, warning.kind).to_lowercase(),
+            message: format!(
+                "{}, {} whirl",
+                word(warning.severity),
+                words::whirl_kind(warning.kind as u8)
+            ),
             values: vec![
                 ("whirl_ratio", format!("{:.3}", warning.whirl_ratio)),
                 ("clearance_ratio", format!("{:.3}", warning.clearance_ratio)),
@@ -80,14 +85,14 @@ impl MotionEvidence {
 
     pub(super) fn shock(&self) -> Judgement {
         let shock = &self.shock;
-        let layer = if shock.layer == 0 { "pipe-guide" } else { "guide-wall" };
+        let layer = words::layer(shock.layer);
         let [depth, inclination] = self.shock_place;
         // While all is well the place changes with every interval and says nothing.
         let place = match shock.severity {
             Severity::Ok => String::new(),
             _ => format!(
                 ", {layer} at {depth:.2} m (inclination {:.0} deg)",
-                inclination.to_degrees()
+                rad_to_deg(inclination)
             ),
         };
         Judgement {
@@ -117,12 +122,7 @@ fn level(severity: Severity) -> u8 {
 }
 
 fn word(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Ok => "ok",
-        Severity::Watch => "watch",
-        Severity::Warning => "warning",
-        Severity::Critical => "critical",
-    }
+    words::severity(severity as u8)
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
-//! Numbers and codes of the messages as words, the same for the screen and the plain output.
+//! Lines and cells of the dashboard, the same for the screen and the plain output.
 
 use std::time::{Duration, Instant};
 
 use super::board::{Board, Heartbeat};
-use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning};
+use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning, words};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
 
 pub(super) fn state(code: u8) -> &'static str {
@@ -16,24 +16,12 @@ pub(super) fn state(code: u8) -> &'static str {
     }
 }
 
-pub(super) fn input_state(code: u8) -> &'static str {
+/// The input's state; in capitals when the model no longer follows the rig.
+pub(super) fn input_state(code: u8) -> String {
+    let word = words::input_state(code);
     match code {
-        TwinStatus::INPUT_NOT_RECEIVED => "not received",
-        TwinStatus::INPUT_OK => "ok",
-        TwinStatus::INPUT_SLOW => "slow",
-        TwinStatus::INPUT_STALE => "STALE",
-        TwinStatus::INPUT_REJECTED => "REJECTED",
-        _ => "?",
-    }
-}
-
-pub(super) fn whirl_kind(code: u8) -> &'static str {
-    match code {
-        WhirlState::NONE => "none",
-        WhirlState::FORWARD => "forward",
-        WhirlState::BACKWARD => "backward",
-        WhirlState::CHAOTIC => "chaotic",
-        _ => "?",
+        TwinStatus::INPUT_STALE | TwinStatus::INPUT_REJECTED => word.to_uppercase(),
+        _ => word.to_owned(),
     }
 }
 
@@ -41,17 +29,11 @@ pub(super) fn body(code: u8) -> &'static str {
     if code == WhirlState::GUIDE { "guide" } else { "pipe" }
 }
 
-pub(super) fn severity(code: u8) -> &'static str {
-    match code {
-        WhirlWarning::OK => "OK",
-        WhirlWarning::WATCH => "WATCH",
-        WhirlWarning::WARNING => "WARNING",
-        WhirlWarning::CRITICAL => "CRITICAL",
-        _ => "?",
-    }
+pub(super) fn severity(code: u8) -> String {
+    words::severity(code).to_uppercase()
 }
 
-/// What is said about the heart, when something is to be said.
+/// Says that the twin is silent, when it is.
 pub(super) fn heartbeat(board: &Board, now: Instant) -> Option<String> {
     match board.heartbeat(now) {
         Heartbeat::Beating => None,
@@ -169,7 +151,8 @@ pub(super) fn whirl_counts(whirl: &WhirlState) -> String {
     )
 }
 
-/// Difference to the rate of rolling without slip up to which backward whirl is shown as rolling, as by default in the twin.
+/// Difference to the rate of rolling without slip up to which backward whirl is shown as rolling, as by default in the
+/// twin.
 const ROLLS: f64 = 0.15;
 
 /// One row of the whirl table.
@@ -202,7 +185,7 @@ pub(super) fn whirl_rows(whirl: &WhirlState) -> Vec<WhirlRow> {
             kind: whirl.kind[index],
             word: match (whirl.kind[index], at(&whirl.rolling_share, index)) {
                 (WhirlState::BACKWARD, share) if (share - 1.0).abs() <= ROLLS => "rolling",
-                (kind, _) => whirl_kind(kind),
+                (kind, _) => words::whirl_kind(kind),
             },
             ratio: at(&whirl.whirl_ratio, index),
             clearance_ratio: at(&whirl.clearance_ratio, index),
@@ -223,11 +206,7 @@ pub(super) fn shock(contacts: &ContactForces) -> (String, u8) {
     let level = contacts.shock_severity;
     let mut text = format!("{} {:.1} N s", severity(level), contacts.shock_impulse);
     if level != ContactForces::SHOCK_OK {
-        let layer = if contacts.shock_layer == ContactForces::OUTER {
-            "guide-wall"
-        } else {
-            "pipe-guide"
-        };
+        let layer = words::layer(usize::from(contacts.shock_layer == ContactForces::OUTER));
         text += &format!(" {layer} at {}", place(contacts, contacts.shock_station as usize));
     }
     (text, level)
@@ -237,7 +216,7 @@ pub(super) fn shock(contacts: &ContactForces) -> (String, u8) {
 pub(super) fn warning(warning: Option<&WhirlWarning>) -> String {
     match warning {
         None => "no warning yet".to_owned(),
-        Some(warning) if warning.message.is_empty() => severity(warning.severity).to_owned(),
+        Some(warning) if warning.message.is_empty() => severity(warning.severity),
         // The sentence begins with the level.
         Some(warning) => warning.message.clone(),
     }

@@ -2,7 +2,7 @@
 
 use hdrhistogram::Histogram;
 
-/// Longest step time told apart (ns); longer ones count as this.
+/// Longest step time resolved (ns); longer ones count as this.
 const LONGEST_STEP: u64 = 60_000_000_000;
 
 /// Computing times of steps since the last reading.

@@ -1,18 +1,17 @@
-//! `twin/status`: collected from the solver's gauges, the snapshots, the door, the publishers and the recorder.
+//! `twin/status`: collected from the solver's gauges, the snapshots, the inputs, the outputs and the recorder.
 
 use std::sync::atomic::Ordering;
 
-use super::meters::StepTimes;
-use crate::messages::TwinStatus;
+use super::step_times::StepTimes;
+use crate::bag::RecordingThread;
 use crate::messages::std_msgs::Header;
-use crate::ros::node::publishers::Publishers;
-use crate::ros::node::recording::RecordingThread;
-use flexdrill_core::dynamics::outcome::{EnergyAudit, FailureCause, StepFailure};
+use crate::messages::{TwinStatus, words};
+use flexdrill_core::dynamics::outcome::{EnergyAudit, StepFailure};
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::inputs::{Door, InputKind};
 use flexdrill_core::twin::{Snapshot, SolverCounters};
 use flexdrill_realtime::RealTimeFactor;
-use flexdrill_realtime::link::{Gauges, Phase};
+use flexdrill_realtime::link::{Gauges, RunState};
 
 /// Span of the real-time factor (s).
 const FACTOR_SPAN: f64 = 1.0;
@@ -40,19 +39,30 @@ pub struct StatusKeeper {
     last_failure: Option<StepFailure>,
 }
 
+/// Messages of one output topic so far.
+#[derive(Debug, Clone, Copy)]
+pub struct OutputCount<'a> {
+    /// Absolute name.
+    pub topic: &'a str,
+    /// Handed to the middleware.
+    pub sent: u64,
+    /// Refused because a reader stalls and the history is full.
+    pub dropped: u64,
+}
+
 /// Where the status is collected from.
 pub struct Sources<'a> {
     /// Of the solver's thread.
     pub gauges: &'a Gauges,
     /// Inputs.
-    pub door: &'a Door,
-    /// Present time as the door counts it (s).
+    pub conditioner: &'a Door,
+    /// Present time as the conditioner counts it (s).
     pub now: f64,
     /// Present time of the monotonic clock (ns).
     pub wall: u64,
-    /// Outputs.
-    pub publishers: &'a Publishers,
-    /// Recording.
+    /// Every output topic.
+    pub outputs: &'a [OutputCount<'a>],
+    /// The recording, if there is one.
     pub recording: Option<&'a RecordingThread>,
 }
 
@@ -81,8 +91,8 @@ impl StatusKeeper {
         })
     }
 
-    /// Takes what a snapshot tells of the solver.
-    pub fn take(&mut self, snapshot: &Snapshot) {
+    /// Keeps what a snapshot says of the solver.
+    pub fn observe(&mut self, snapshot: &Snapshot) {
         if snapshot.step < self.counters_step {
             // After a reset everything counts anew.
             self.counters_before = Default::default();
@@ -132,11 +142,11 @@ impl StatusKeeper {
         let mut status = TwinStatus {
             header,
             sequence: self.sequence,
-            state: match gauges.phase() {
-                Phase::Starting => TwinStatus::STARTING,
-                Phase::Running => TwinStatus::RUNNING,
-                Phase::Paused => TwinStatus::PAUSED,
-                Phase::Failed => TwinStatus::FAILED,
+            state: match gauges.run_state() {
+                RunState::Starting => TwinStatus::STARTING,
+                RunState::Running => TwinStatus::RUNNING,
+                RunState::Paused => TwinStatus::PAUSED,
+                RunState::Failed => TwinStatus::FAILED,
             },
             model_time: step_count as f64 * self.time_step,
             step_count,
@@ -157,7 +167,7 @@ impl StatusKeeper {
             halved_steps: self.counters.halved_steps,
             failed_steps: self.counters.failed_steps.max(self.failures),
             last_rejection_cause: rejection
-                .map(|rejection| cause(rejection.cause).to_owned())
+                .map(|rejection| words::cause(rejection.cause).to_owned())
                 .unwrap_or_default(),
             last_rejection_station: u32::try_from(station).unwrap_or(u32::MAX),
             last_rejection_measured_depth: self.depths.get(station).copied().unwrap_or_default(),
@@ -167,13 +177,13 @@ impl StatusKeeper {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             ..TwinStatus::default()
         };
-        self.tell_phases(&mut status, gauges);
-        self.tell_inputs(&mut status, sources);
-        tell_outputs(&mut status, sources);
+        self.fill_phases(&mut status, gauges);
+        self.fill_inputs(&mut status, sources);
+        fill_outputs(&mut status, sources);
         status
     }
 
-    fn tell_phases(&mut self, status: &mut TwinStatus, gauges: &Gauges) {
+    fn fill_phases(&mut self, status: &mut TwinStatus, gauges: &Gauges) {
         let now = (gauges.phase_times(), gauges.steps_taken.load(Ordering::Relaxed));
         let (before, steps_before) = std::mem::replace(&mut self.phases_before, now);
         let times = now.0.since(&before);
@@ -186,26 +196,28 @@ impl StatusKeeper {
         }
     }
 
-    fn tell_inputs(&self, status: &mut TwinStatus, sources: &Sources<'_>) {
+    fn fill_inputs(&self, status: &mut TwinStatus, sources: &Sources<'_>) {
         for kind in InputKind::ALL {
-            let door = sources.door;
+            let conditioner = sources.conditioner;
             status.input_name.push(kind.name().to_owned());
-            status.input_state.push(door.state(kind, sources.now) as u8);
-            status.input_age.push(door.age(kind, sources.now).unwrap_or(f64::NAN));
+            status.input_state.push(conditioner.state(kind, sources.now) as u8);
+            status
+                .input_age
+                .push(conditioner.age(kind, sources.now).unwrap_or(f64::NAN));
             status
                 .input_received
-                .push(door.last_good(kind).map_or(f64::NAN, |value| kind.to_si(value)));
+                .push(conditioner.last_good(kind).map_or(f64::NAN, |value| kind.to_si(value)));
             status.input_applied.push(self.applied[kind.index()]);
-            status.input_rejected.push(door.counts(kind).rejected_total());
+            status.input_rejected.push(conditioner.counts(kind).rejected_total());
         }
     }
 }
 
-fn tell_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
-    for (name, counters) in sources.publishers.counters() {
-        status.output_topic.push(name.to_owned());
-        status.output_sent.push(counters.sent.load(Ordering::Relaxed));
-        status.output_dropped.push(counters.dropped.load(Ordering::Relaxed));
+fn fill_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
+    for output in sources.outputs {
+        status.output_topic.push(output.topic.to_owned());
+        status.output_sent.push(output.sent);
+        status.output_dropped.push(output.dropped);
     }
     if let Some(recording) = sources.recording {
         let health = recording.health();
@@ -222,13 +234,4 @@ fn tell_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
 
 fn ratio(error: f64, drive: f64) -> f64 {
     if drive == 0.0 { 0.0 } else { (error / drive).abs() }
-}
-
-fn cause(cause: FailureCause) -> &'static str {
-    match cause {
-        FailureCause::NotConverged => "not_converged",
-        FailureCause::NotFinite => "not_finite",
-        FailureCause::Singular => "singular",
-        FailureCause::OutOfRange => "out_of_range",
-    }
 }

@@ -1,0 +1,166 @@
+//! `/diagnostics`: seven items judged from the status and the newest snapshot, with hysteresis.
+
+use super::items::{inputs, pacing, recording, solver};
+use super::motion::MotionEvidence;
+use crate::messages::TwinStatus;
+use crate::messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
+use flexdrill_core::dynamics::outcome::StepFailure;
+
+/// Judgements in a row that must be better before an item's level falls.
+const CALM: u32 = 3;
+
+/// A level that rises at once and falls when things have been better for a while.
+#[derive(Debug, Clone, Copy, Default)]
+struct Hysteresis {
+    level: u8,
+    better: u32,
+}
+
+impl Hysteresis {
+    fn judge(&mut self, level: u8) -> u8 {
+        if level >= self.level {
+            *self = Self { level, better: 0 };
+        } else {
+            self.better += 1;
+            if self.better >= CALM {
+                *self = Self { level, better: 0 };
+            }
+        }
+        self.level
+    }
+}
+
+/// Keeps what the next judgement needs.
+#[derive(Debug, Default)]
+pub struct Diagnostics {
+    levels: [Hysteresis; 7],
+    previous: Option<TwinStatus>,
+}
+
+/// What beside the status is judged.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Evidence {
+    /// Cause and place of the failed step, while the model stands still.
+    pub failure: Option<StepFailure>,
+    /// What the analysis says of the motion.
+    pub motion: MotionEvidence,
+}
+
+impl Diagnostics {
+    /// Judges the present status. `node` names the items: `node: pacing`.
+    pub fn judge(&mut self, node: &str, status: &TwinStatus, evidence: &Evidence) -> Vec<DiagnosticStatus> {
+        let previous = self.previous.replace(status.clone()).unwrap_or_else(|| status.clone());
+        let judgements = [
+            pacing(status, &previous),
+            solver(status, &previous, evidence),
+            inputs(status),
+            evidence.motion.whirl(),
+            evidence.motion.stick_slip(),
+            evidence.motion.shock(),
+            recording(status, &previous),
+        ];
+        judgements
+            .into_iter()
+            .zip(&mut self.levels)
+            .map(|(judgement, hysteresis)| {
+                let level = hysteresis.judge(judgement.level);
+                let message = if level > judgement.level {
+                    format!("{} (better now, was worse a moment ago)", judgement.message)
+                } else {
+                    judgement.message
+                };
+                DiagnosticStatus {
+                    level,
+                    name: format!("{node}: {}", judgement.name),
+                    message,
+                    hardware_id: "flexdrill".into(),
+                    values: judgement
+                        .values
+                        .into_iter()
+                        .map(|(key, value)| KeyValue { key: key.into(), value })
+                        .collect(),
+                }
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexdrill_core::dynamics::outcome::FailureCause;
+    use flexdrill_core::tool::Body;
+
+    fn running() -> TwinStatus {
+        TwinStatus {
+            state: TwinStatus::RUNNING,
+            real_time_factor: 1.0,
+            input_name: vec!["rotary_speed".into(), "weight_on_bit".into()],
+            input_state: vec![TwinStatus::INPUT_OK; 2],
+            input_age: vec![0.1; 2],
+            input_received: vec![1.0; 2],
+            input_applied: vec![1.0; 2],
+            input_rejected: vec![0; 2],
+            ..TwinStatus::default()
+        }
+    }
+
+    fn level(items: &[DiagnosticStatus], name: &str) -> u8 {
+        items.iter().find(|item| item.name.ends_with(name)).unwrap().level
+    }
+
+    #[test]
+    fn levels_rise_at_once_and_fall_after_a_while() {
+        let mut diagnostics = Diagnostics::default();
+        let evidence = Evidence::default();
+        assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 0);
+        let late = TwinStatus {
+            real_time_factor: 0.5,
+            ..running()
+        };
+        assert_eq!(level(&diagnostics.judge("n", &late, &evidence), "pacing"), 2);
+        assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 2);
+        assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 2);
+        assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 0);
+    }
+
+    #[test]
+    fn a_failure_is_reported_with_cause_and_place() {
+        let failure = StepFailure {
+            cause: FailureCause::NotConverged,
+            time: 1.5,
+            step: 1e-5,
+            station: 42,
+            body: Body::Guide,
+            value: 3.0,
+        };
+        let evidence = Evidence {
+            failure: Some(failure),
+            ..Evidence::default()
+        };
+        let items = Diagnostics::default().judge(
+            "n",
+            &TwinStatus {
+                state: TwinStatus::FAILED,
+                ..running()
+            },
+            &evidence,
+        );
+        let solver = items.iter().find(|item| item.name == "n: solver").unwrap();
+        assert_eq!(solver.level, DiagnosticStatus::ERROR);
+        for part in ["station 42", "guide pipe", "did not converge", "~/reset"] {
+            assert!(solver.message.contains(part), "{}", solver.message);
+        }
+    }
+
+    #[test]
+    fn the_worse_input_counts() {
+        let stale = TwinStatus {
+            input_state: vec![TwinStatus::INPUT_OK, TwinStatus::INPUT_STALE],
+            ..running()
+        };
+        let items = Diagnostics::default().judge("n", &stale, &Evidence::default());
+        assert_eq!(level(&items, "inputs"), DiagnosticStatus::ERROR);
+        assert!(items.iter().any(|item| item.message.contains("weight_on_bit stale")));
+    }
+}

@@ -1,0 +1,176 @@
+//! The items of `/diagnostics` that are judged from the status: pacing, solver, inputs, recording.
+
+use super::diagnostics::Evidence;
+use super::judgement::Judgement;
+use crate::messages::diagnostic_msgs::DiagnosticStatus;
+use crate::messages::{TwinStatus, words};
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
+
+/// An energy error above this part of the drive's work makes the motion doubtful.
+const DOUBTFUL_ENERGY: f64 = 0.02;
+/// The error means nothing before the drive has done some work (J).
+const LITTLE_WORK: f64 = 1.0;
+
+pub(super) fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
+    let factor = status.real_time_factor;
+    let skipped = status.steps_skipped.saturating_sub(previous.steps_skipped);
+    let (level, message) = match status.state {
+        TwinStatus::STARTING => (DiagnosticStatus::OK, "the tool is being brought to rest".to_owned()),
+        TwinStatus::PAUSED => (DiagnosticStatus::WARN, "paused: model time stands still".to_owned()),
+        TwinStatus::FAILED => (DiagnosticStatus::OK, "model time stands still, see solver".to_owned()),
+        _ if factor < FAR_BEHIND => (
+            DiagnosticStatus::ERROR,
+            format!(
+                "not in real time: the model gains {factor:.2} s per second; take a coarser mesh or a faster machine"
+            ),
+        ),
+        _ if factor < KEEPS_UP || skipped > 0 => (
+            DiagnosticStatus::WARN,
+            format!("late: {skipped} steps skipped since the last report, factor {factor:.3}"),
+        ),
+        _ => (DiagnosticStatus::OK, "in real time".to_owned()),
+    };
+    Judgement {
+        name: "pacing",
+        level,
+        message,
+        values: vec![
+            ("real_time_factor", format!("{factor:.4}")),
+            ("lateness (s)", format!("{:.6}", status.lateness)),
+            ("deadline_misses", status.deadline_misses.to_string()),
+            ("steps_skipped", status.steps_skipped.to_string()),
+            ("step_time_p50 (ms)", milliseconds(status.step_time_p50)),
+            ("step_time_p99 (ms)", milliseconds(status.step_time_p99)),
+            ("step_time_max (ms)", milliseconds(status.step_time_max)),
+        ],
+    }
+}
+
+pub(super) fn solver(status: &TwinStatus, previous: &TwinStatus, evidence: &Evidence) -> Judgement {
+    let halved = status.halved_steps.saturating_sub(previous.halved_steps);
+    let steps = status.step_count.saturating_sub(previous.step_count);
+    let (level, message) = if let Some(failure) = evidence.failure {
+        let message = format!(
+            "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
+            failure.time,
+            words::step_failure(&failure)
+        );
+        (DiagnosticStatus::ERROR, message)
+    } else if steps > 0 && halved * 20 > steps {
+        (
+            DiagnosticStatus::WARN,
+            format!("{halved} of the last {steps} steps had to be split"),
+        )
+    } else if status.energy_error_ratio > DOUBTFUL_ENERGY && status.energy_error.abs() > LITTLE_WORK {
+        (
+            DiagnosticStatus::WARN,
+            format!(
+                "the energy balance is off by {:.1} % of the drive's work",
+                100.0 * status.energy_error_ratio
+            ),
+        )
+    } else {
+        (DiagnosticStatus::OK, "converging".to_owned())
+    };
+    Judgement {
+        name: "solver",
+        level,
+        message,
+        values: vec![
+            (
+                "newton_iterations_mean",
+                format!("{:.2}", status.newton_iterations_mean),
+            ),
+            ("rejected_steps", status.rejected_steps.to_string()),
+            ("halved_steps", status.halved_steps.to_string()),
+            ("failed_steps", status.failed_steps.to_string()),
+            ("last_rejection_cause", status.last_rejection_cause.clone()),
+            ("last_rejection_station", status.last_rejection_station.to_string()),
+            ("energy_error (J)", format!("{:.3}", status.energy_error)),
+            ("energy_error_ratio", format!("{:.2e}", status.energy_error_ratio)),
+        ],
+    }
+}
+
+pub(super) fn inputs(status: &TwinStatus) -> Judgement {
+    let level_of = |state: u8| match state {
+        TwinStatus::INPUT_OK => DiagnosticStatus::OK,
+        TwinStatus::INPUT_STALE => DiagnosticStatus::ERROR,
+        _ => DiagnosticStatus::WARN,
+    };
+    let level = status
+        .input_state
+        .iter()
+        .map(|state| level_of(*state))
+        .max()
+        .unwrap_or(DiagnosticStatus::OK);
+    let said: Vec<String> = status
+        .input_name
+        .iter()
+        .zip(&status.input_state)
+        .map(|(name, state)| format!("{name} {}", words::input_state(*state)))
+        .collect();
+    let mut values = Vec::new();
+    for index in 0..status.input_name.len() {
+        let get = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);
+        let rejected = status.input_rejected.get(index).copied().unwrap_or_default();
+        let (received, applied) = (get(&status.input_received), get(&status.input_applied));
+        let shown = if index == 0 {
+            format!(
+                "received {:.2} r/min, applied {:.2} r/min",
+                rad_per_s_to_rpm(received),
+                rad_per_s_to_rpm(applied)
+            )
+        } else {
+            format!(
+                "received {:.2} kN, applied {:.2} kN",
+                n_to_kn(received),
+                n_to_kn(applied)
+            )
+        };
+        let key = if index == 0 { "rotary_speed" } else { "weight_on_bit" };
+        values.push((
+            key,
+            format!("{shown}, age {:.2} s, {rejected} refused", get(&status.input_age)),
+        ));
+    }
+    Judgement {
+        name: "inputs",
+        level,
+        message: said.join(", "),
+        values,
+    }
+}
+
+pub(super) fn recording(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
+    let lost = status.recording_drops.saturating_sub(previous.recording_drops);
+    let (level, message) = match status.recording_state {
+        TwinStatus::RECORDING_FAILED => (
+            DiagnosticStatus::ERROR,
+            format!(
+                "the recording to {} stopped on an error; the twin goes on",
+                status.recording_path
+            ),
+        ),
+        TwinStatus::RECORDING_ON if lost > 0 => (
+            DiagnosticStatus::WARN,
+            format!("{lost} messages lost: the disk is too slow"),
+        ),
+        TwinStatus::RECORDING_ON => (DiagnosticStatus::OK, format!("recording to {}", status.recording_path)),
+        _ => (DiagnosticStatus::OK, "not recording".to_owned()),
+    };
+    Judgement {
+        name: "recording",
+        level,
+        message,
+        values: vec![
+            ("messages", status.recording_messages.to_string()),
+            ("drops", status.recording_drops.to_string()),
+        ],
+    }
+}
+
+fn milliseconds(seconds: f64) -> String {
+    format!("{:.4}", seconds * 1e3)
+}

@@ -1,0 +1,9 @@
+//! How the twin is doing, in figures (`twin/status`) and judgements (`/diagnostics`). It knows the messages, no
+//! middleware.
+
+pub mod diagnostics;
+mod items;
+mod judgement;
+pub mod motion;
+pub mod status;
+pub mod step_times;

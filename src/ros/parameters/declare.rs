@@ -1,0 +1,120 @@
+//! What a node says of its parameters: description, unit, limits.
+
+use std::collections::BTreeMap;
+
+use ros2_client::ParameterValue;
+use serde_json::Value;
+
+use super::live::{CONFIG_FILE, USE_SIM_TIME, is_live, why_fixed};
+use super::store::{Declaration, ParameterStore};
+use crate::ros::args::value::to_parameter;
+use flexdrill_config::{Config, NumberKey};
+
+/// All parameters of a node.
+pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> ParameterStore {
+    let numbers: BTreeMap<String, NumberKey> = config
+        .numbers()
+        .into_iter()
+        .map(|number| (number.key.clone(), number))
+        .collect();
+    let mut found = Vec::new();
+    flatten("", &config.to_tree(), &mut found);
+    let fixed = |name: &str, description: &str, value| Declaration {
+        name: name.to_owned(),
+        description: description.to_owned(),
+        range: None,
+        read_only: Some(why_fixed(name)),
+        value,
+    };
+    let own = [
+        fixed(
+            USE_SIM_TIME,
+            "Whether /clock paces the model instead of the machine's clock.",
+            ParameterValue::Boolean(use_sim_time),
+        ),
+        fixed(
+            CONFIG_FILE,
+            "File that the configuration was read from.",
+            ParameterValue::String(config_file.to_owned()),
+        ),
+    ];
+    let configured = found.into_iter().map(|(name, value)| {
+        let number = numbers.get(&name);
+        let description = match number {
+            Some(NumberKey { unit: "", reason, .. }) => format!("Dimensionless; {reason}."),
+            Some(NumberKey { unit, reason, .. }) => format!("In {unit}; {reason}."),
+            None => "As in the configuration.".to_owned(),
+        };
+        let range = number
+            .map(|number| [number.low, number.high])
+            .filter(|range| range.iter().all(|bound| bound.is_finite()));
+        let read_only = (!is_live(&name)).then(|| why_fixed(&name));
+        Declaration {
+            name,
+            description,
+            range: if read_only.is_some() { None } else { range },
+            read_only,
+            value,
+        }
+    });
+    ParameterStore::new(own.into_iter().chain(configured))
+}
+
+fn flatten(prefix: &str, value: &Value, into: &mut Vec<(String, ParameterValue)>) {
+    if let Value::Object(entries) = value {
+        for (key, value) in entries {
+            let name = if prefix.is_empty() {
+                key.clone()
+            } else {
+                format!("{prefix}.{key}")
+            };
+            flatten(&name, value, into);
+        }
+    } else if let Some(value) = from_json(value) {
+        into.push((prefix.to_owned(), value));
+    }
+}
+
+/// The parameter that shows a value; all numbers of a list as floats. `None` for what ROS 2 has no type for.
+fn from_json(value: &Value) -> Option<ParameterValue> {
+    match value {
+        Value::Array(items) if !items.is_empty() => {
+            let numbers: Option<Vec<f64>> = items.iter().map(Value::as_f64).collect();
+            numbers.map(ParameterValue::DoubleArray)
+        }
+        Value::Array(_) => None,
+        scalar => to_parameter(scalar).ok(),
+    }
+}
+
+/// Replaces the limits that follow from a changed configuration.
+pub fn refresh_ranges(store: &mut ParameterStore, config: &Config) {
+    for number in config.numbers().into_iter().filter(|number| is_live(&number.key)) {
+        store.set_range(&number.key, [number.low, number.high]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn config() -> Config {
+        Config::from_text("default.yaml", include_str!("../../../config/default.yaml")).unwrap()
+    }
+
+    #[test]
+    fn all_keys_are_declared_with_unit_and_limits() {
+        let store = declare(&config(), "default.yaml", false);
+        let links = store.describe("tool.links");
+        assert!(links.read_only && links.additional_constraints.contains("geometry"));
+        let slew = store.describe("inputs.rotary_speed.slew_rpm_per_s");
+        assert!(
+            !slew.read_only && slew.description.contains("r/min per s"),
+            "{}",
+            slew.description
+        );
+        assert_eq!(slew.floating_point_range.len(), 1);
+        assert!(store.get("use_sim_time").is_some());
+        assert!(store.names().count() > 60);
+    }
+}

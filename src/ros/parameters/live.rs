@@ -1,0 +1,74 @@
+//! Which parameters may change while the node runs.
+
+/// Parameter beside the configuration: whether `/clock` paces the model.
+pub const USE_SIM_TIME: &str = "use_sim_time";
+/// Parameter beside the configuration: the file that it was read from.
+pub const CONFIG_FILE: &str = "config_file";
+
+/// Keys of parameters that may change while running: exact, or a group that ends with a dot.
+const LIVE: [&str; 12] = [
+    "contact.inner.friction_tangential",
+    "contact.inner.friction_axial",
+    "contact.outer.friction_tangential",
+    "contact.outer.friction_axial",
+    "tool.bit.friction_factor",
+    "inputs.rotary_speed.",
+    "inputs.weight_on_bit.",
+    "whirl.levels.",
+    "whirl.gate_speed_rpm",
+    "whirl.hysteresis",
+    "outputs.rates.",
+    "outputs.exaggeration",
+];
+/// Keys within those groups that only count at the start.
+const START_ONLY: [&str; 2] = ["inputs.rotary_speed.initial_rpm", "inputs.weight_on_bit.initial_kn"];
+
+/// Whether a parameter may change while running.
+pub fn is_live(key: &str) -> bool {
+    let listed = LIVE.iter().any(|live| {
+        if live.ends_with('.') {
+            key.starts_with(live)
+        } else {
+            key == *live
+        }
+    });
+    listed && !START_ONLY.contains(&key)
+}
+
+/// Why a parameter that is not live cannot change.
+pub(super) fn why_fixed(key: &str) -> String {
+    let what = match key.split('.').next().unwrap_or_default() {
+        "well" | "tool" | "masses" => "it is part of the geometry that the model is built from",
+        "solver" => "the time step and the solver's limits are fixed when the model is built",
+        "contact" | "environment" | "boundary" | "loads" => "the model is built with it",
+        "start" | "initial" | "run" | "inputs" => "it only counts at the start",
+        "whirl" | "stick_slip" | "shock" => "the analysis is built with it",
+        USE_SIM_TIME => "the clock is chosen at the start",
+        CONFIG_FILE => "the configuration is read at the start",
+        _ => "it is fixed at the start",
+    };
+    format!("{what}; start the node again with -p {key}:=VALUE or another configuration")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn live_and_fixed_parameters() {
+        for (key, live) in [
+            ("contact.inner.friction_axial", true),
+            ("contact.inner.stiffness", false),
+            ("tool.bit.friction_factor", true),
+            ("tool.links", false),
+            ("solver.time_step", false),
+            ("inputs.rotary_speed.slew_rpm_per_s", true),
+            ("inputs.rotary_speed.initial_rpm", false),
+            ("whirl.levels.warning.contact_duty", true),
+            ("outputs.rates.bit_state", true),
+            ("use_sim_time", false),
+        ] {
+            assert_eq!(is_live(key), live, "{key}");
+        }
+    }
+}
