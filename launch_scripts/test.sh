@@ -32,5 +32,6 @@ cd "$root"
 timeout "$limit" cargo test --workspace --release --locked --no-run || fail "the build failed or took more than $((limit / 60)) minutes"
 
 left=$((limit - SECONDS))
+[ "$left" -ge 60 ] || left=60
 say "step 4 of 4: cargo test --workspace --release (at most $((left / 60)) minutes)"
 exec timeout -k 30 "$left" cargo test --workspace --release --locked --no-fail-fast "$@"
