@@ -25,7 +25,7 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// The description's laws with the live parameters in force, the drive at angle 0.
+    /// The description's laws with the live parameters in force, bit torque by Eq. 1, the drive at angle 0.
     pub fn new(description: &ToolDescription, live: &LiveParameters, time: f64, weight_on_bit: f64) -> Self {
         let mut inner = GapLaw {
             surface: description.inner,

@@ -11,7 +11,7 @@ use crate::linear::{ContactBlock, Touching};
 use crate::model::{Model, Station};
 
 impl Assembler {
-    /// Finds what touches and adds its forces, Eq. 20 to 34.
+    /// Finds what touches and adds its forces, Eq. 20 to 34: the sum of Eq. 39.
     pub(super) fn contact_forces(&mut self, model: &Model, state: &State, conditions: &Conditions) {
         for (s, station) in model.stations.iter().enumerate() {
             let lateral = inner_lateral(station, state);
@@ -39,7 +39,7 @@ impl Assembler {
         }
     }
 
-    /// Fills the contacts' part of the tangent increment.
+    /// Fills the contacts' part of the tangent increment, Eq. 28 and 32.
     pub(super) fn contact_tangent(&mut self, model: &Model, factors: TangentFactors) {
         for (s, station) in model.stations.iter().enumerate() {
             self.increment.touching[s] = match (&self.inner[s], &self.outer[s]) {
@@ -72,14 +72,14 @@ impl Assembler {
     }
 }
 
-/// Lateral position (y, z) of the pipe relative to the guide, offset included (m).
+/// Eq. 20: lateral position (y, z) of the pipe relative to the guide, offset included (m).
 #[inline]
 pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
     let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
     station.offset + Vector2::new(pipe.y - state.q[station.guide + 1], pipe.z - state.q[station.guide + 2])
 }
 
-/// Local velocity of the inner gap.
+/// Local velocity of the inner gap, Eq. 23.
 #[inline]
 fn inner_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
     let pipe = node(&state.v, station.pipe_above);
@@ -94,7 +94,7 @@ fn inner_velocity(model: &Model, station: &Station, state: &State) -> GapVector 
     local
 }
 
-/// Local velocity of the outer gap.
+/// Local velocity of the outer gap, Eq. 23.
 #[inline]
 fn outer_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
     let mut local = node(&state.v, station.guide);
@@ -102,7 +102,7 @@ fn outer_velocity(model: &Model, station: &Station, state: &State) -> GapVector 
     local
 }
 
-/// Forces on the pipe node and the guide node from the local force of the inner gap.
+/// Forces on the pipe node and the guide node from the local force of the inner gap, Eq. 29.
 #[inline]
 pub fn inner_forces(model: &Model, station: &Station, force: &GapVector) -> (GapVector, GapVector) {
     let mut pipe = *force;
@@ -114,7 +114,7 @@ pub fn inner_forces(model: &Model, station: &Station, force: &GapVector) -> (Gap
     (pipe, guide)
 }
 
-/// Force on the guide node from the local force of the outer gap.
+/// Force on the guide node from the local force of the outer gap, Eq. 33.
 #[inline]
 pub fn outer_force(model: &Model, force: &GapVector) -> GapVector {
     let mut guide = *force;

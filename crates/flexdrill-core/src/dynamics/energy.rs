@@ -272,7 +272,7 @@ impl EnergyAudit {
     }
 }
 
-/// Largest violation of the joint rows: translations (m) and rotations (-).
+/// Largest violation of the joint rows, Eq. 12 and 13: translations (m) and rotations (-).
 pub fn joint_violation(model: &Model, state: &State) -> (f64, f64) {
     let mut worst = (0.0_f64, 0.0_f64);
     for (j, joint) in model.joints.iter().enumerate() {

@@ -10,7 +10,8 @@ use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 
 impl Assembler {
-    /// Adds the joints' forces and rows to the residual and linearises the rotational rows and stops.
+    /// Adds the joints' forces Phi_q^T lambda (Eq. 17) and the rows of all joints (Eq. 14) to the residual, and
+    /// linearises the rotational rows and stops.
     pub(super) fn joint_forces(&mut self, model: &Model, state: &State) {
         self.translational_rows(model, state);
         self.instructions.run(RotationalRows {

@@ -133,8 +133,8 @@ impl Newton {
         condensed.systems.push((key, system));
     }
 
-    /// Solves the step of size `h` that ends under `conditions`. `to` comes with the axial forces to use and holds the new state on success;
-    /// the assembler holds its residual with the reactions.
+    /// Solves the step of size `h` that ends under `conditions`, Eq. 40 to 44. `to` comes with the axial forces to use
+    /// and holds the new state on success; the assembler holds its residual with the reactions.
     ///
     /// # Errors
     /// Why and where no iterate was accepted; the iterations made are in the first field.
@@ -245,7 +245,7 @@ impl Newton {
         Ok(())
     }
 
-    /// Accelerations and multipliers in balance with the forces at `state`: M a + Phi_q^T lambda = F.
+    /// Accelerations and multipliers in balance with the forces at `state`, Eq. 17: M a + Phi_q^T lambda = F.
     ///
     /// # Errors
     /// When the mass matrix with the constraints is singular.

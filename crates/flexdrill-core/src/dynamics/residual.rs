@@ -12,7 +12,9 @@ use crate::simd::vector::Vector;
 use crate::tool::description::Direction;
 
 impl Assembler {
-    /// Evaluates the residual at `state`; entries of held, driven and padding unknowns are zero.
+    /// Evaluates the residual of Eq. 35 at `state`, in a step the R of Eq. 40 with the F of Eq. 42; with the rock's
+    /// torque on the bit, Eq. 1. Entries of held, driven and padding unknowns are their reactions until
+    /// [`Assembler::drop_reactions`].
     pub fn residual(&mut self, model: &Model, state: &State, conditions: &Conditions) {
         self.stopwatch.lap(Phase::Other);
         self.instructions.run(ElementForces {
@@ -65,7 +67,7 @@ impl Assembler {
     }
 }
 
-/// Sets the residual to the elements' elastic, damping, inertia and geometric forces, less gravity.
+/// Sets the residual to the elements' elastic, damping (Eq. 7), inertia and geometric forces, less gravity: Eq. 10.
 struct ElementForces<'a> {
     residual: &'a mut [f64],
     model: &'a Model,

@@ -82,7 +82,7 @@ impl Scheme {
         (1.0 - self.alpha_m) / ((1.0 - self.alpha_f) * self.beta * h * h)
     }
 
-    /// Tangent factors for step `h` (s), Eq. 41.
+    /// Tangent factors for step `h` (s), Eq. 37 and 41.
     pub fn factors(&self, h: f64) -> TangentFactors {
         TangentFactors {
             stiffness: 1.0,
@@ -91,7 +91,8 @@ impl Scheme {
         }
     }
 
-    /// Velocity and acceleration of unknown `i` after a step `h` from `from` in which it moved by `dq`.
+    /// Velocity and acceleration of unknown `i` after a step `h` from `from` in which it moved by `dq`: what Eq. 38
+    /// puts into brackets.
     pub fn rates(&self, h: f64, dq: f64, from: &State, i: usize) -> (f64, f64) {
         let (v0, l0) = (from.v[i], self.lagged(h, from)(from.lagged[i], from.a[i]));
         let l1 = (dq - h * v0) / (self.beta * h * h) - (0.5 / self.beta - 1.0) * l0;
@@ -114,7 +115,8 @@ impl Scheme {
         ((1.0 - self.alpha_m) * l1 + self.alpha_m * l0 - self.alpha_f * a0) / (1.0 - self.alpha_f)
     }
 
-    /// Predicts `to` a step `h` on, unknown by unknown, with the lagged acceleration fading to zero.
+    /// Predicts `to` a step `h` on, unknown by unknown, with the lagged acceleration fading to zero (Eq. 44 begins at
+    /// `from`), by the formulas of Eq. 38.
     pub fn predict(&self, h: f64, from: &State, to: &mut State) {
         let n = from.q.len();
         let (q0, v0, a0, kept) = (&from.q[..n], &from.v[..n], &from.a[..n], &from.lagged[..n]);

@@ -13,7 +13,7 @@ pub type NodeVector = SVector<f64, 6>;
 /// are zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Displacements, spins, tilts, multipliers.
+    /// Displacements, spins, tilts, multipliers: q_rd of Eq. 19 and lambda of Eq. 18, station by station.
     pub q: Vec<f64>,
     /// Velocities.
     pub v: Vec<f64>,

@@ -23,7 +23,7 @@ pub struct TangentFactors {
 }
 
 impl Assembler {
-    /// Assembles the whole tangent from the parts linearised by the last [`Assembler::residual`] at `state`.
+    /// Assembles the whole tangent, Eq. 41, from the parts linearised by the last [`Assembler::residual`] at `state`.
     pub fn tangent(&mut self, model: &Model, state: &State, conditions: &Conditions, factors: TangentFactors) {
         self.build_step_constant(model, conditions, factors);
         self.system.copy_from(&self.step_constant);
@@ -47,8 +47,8 @@ impl Assembler {
         system
     }
 
-    /// What contacts, joints and the bit add to the tangent: fills [`Assembler::increment`] from the parts linearised by the last
-    /// [`Assembler::residual`] at `state`.
+    /// What contacts, joints and the bit add to the tangent of Eq. 41: fills [`Assembler::increment`] from the parts
+    /// linearised by the last [`Assembler::residual`] at `state`.
     pub fn linearise(&mut self, model: &Model, state: &State, factors: TangentFactors) {
         self.contact_tangent(model, factors);
         self.stopwatch.lap(Phase::Contact);
@@ -64,6 +64,7 @@ impl Assembler {
         self.stopwatch.lap(Phase::Assembly);
     }
 
+    /// M, K and C (Eq. 7) of the K in Eq. 37, and the translational part of Phi_q, Eq. 16.
     fn build_step_constant(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
         let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
         if self.step_constant_for == Some((factors, alpha, beta)) {

@@ -12,7 +12,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::tool::section::SectionProperties;
 
-/// Displacements or forces of an element's two nodes.
+/// Displacements, Eq. 2, or forces of an element's two nodes.
 pub type ElementVector = SVector<f64, 12>;
 /// A full element matrix.
 pub type ElementMatrix = SMatrix<f64, 12, 12>;

@@ -77,7 +77,7 @@ impl Touch {
         self.on_around() * self.tangential + self.on_along() * self.axial
     }
 
-    /// Both.
+    /// Both: the nodal force of Eq. 26 but for the radii.
     #[inline]
     pub fn force(&self) -> GapVector {
         let (n, f_n, f_t, f_a) = (self.direction, self.normal, self.tangential, self.axial);
@@ -91,6 +91,7 @@ impl Touch {
         ])
     }
 
+    /// Along the normal: n through N_G, Eq. 21.
     #[inline]
     fn on_normal(&self) -> GapVector {
         let n = self.direction;
@@ -110,7 +111,7 @@ impl Touch {
         GapVector::from_column_slice(&[1.0, 0.0, 0.0, 0.0, n.y, -n.x])
     }
 
-    /// The exact derivative with factors on those in displacement and in velocity.
+    /// The exact derivative with factors on those in displacement and in velocity; its first term is Eq. 22.
     #[inline(always)]
     pub fn tangent(&self, stiffness: f64, damping: f64) -> TangentTerms {
         let lateral = |v: Vector2<f64>| GapVector::from_column_slice(&[0.0, v.x, v.y, 0.0, 0.0, 0.0]);
@@ -161,7 +162,7 @@ impl GapLaw {
     /// the gap is open.
     ///
     /// Normal force F = k d (1 + c d') >= 0 with penetration d: continuous at onset, never pulling. Friction mu F v / sqrt(v^2 + v_s^2)
-    /// separately around and along (Eq. 25).
+    /// separately around and along (Eq. 25), at the sliding speeds of Eq. 23.
     #[inline(always)]
     pub fn touch(&self, lateral: Vector2<f64>, clearance: f64, velocity: &GapVector) -> Option<Touch> {
         let distance = lateral.norm();

@@ -55,7 +55,7 @@ impl Coupling {
     }
 }
 
-/// Which stations are joints, and where each station's unknowns begin.
+/// Which stations are joints, and where each station's unknowns begin: how q_rd of Eq. 19 is stacked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     offsets: Vec<usize>,

@@ -128,7 +128,7 @@ pub struct Model {
     pub tie: Option<usize>,
     /// Numbering of the linear system.
     pub layout: Layout,
-    /// Force per unit of a scaled multiplier: translational rows (N).
+    /// Force per unit of a scaled multiplier (lambda of Eq. 18): translational rows (N).
     pub force_scale: f64,
     /// The same for rotational rows (N m).
     pub moment_scale: f64,
@@ -383,7 +383,8 @@ impl Model {
         self.unknowns() - self.padding.len()
     }
 
-    /// First multiplier of joint `joint`: three translational rows (world axes), then the rotational ones.
+    /// First multiplier (Eq. 18) of joint `joint`, and first of its rows among those of all joints, Eq. 14: three
+    /// translational ones (world axes), then the rotational ones.
     pub fn multipliers(&self, joint: usize) -> usize {
         self.layout.offset(self.joint_stations[joint]) + 18
     }
@@ -401,6 +402,7 @@ impl Model {
 }
 
 impl GuideElement {
+    /// Turns the beam's matrices into its nodes' frames, Eq. 9.
     fn new(beam: Beam, frame: Matrix3<f64>, nodes: [Matrix3<f64>; 2], down: Vector3<f64>) -> Self {
         let rotation = nodes.map(|node| frame.transpose() * node);
         let mut gamma = ElementMatrix::zeros();

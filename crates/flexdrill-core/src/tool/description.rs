@@ -245,7 +245,7 @@ pub enum Direction {
     PhiZ,
 }
 
-/// Directions held at zero.
+/// Directions held at zero, Table 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Support {
     /// Where.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::tool::description::{Material, Tube};
 
-/// Stiffness and mass per length of a beam section.
+/// Stiffness (D of Eq. 6) and mass (Eq. 5) per length of a beam section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionProperties {
     /// E A (N).

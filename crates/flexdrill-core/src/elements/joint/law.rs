@@ -14,7 +14,7 @@ use crate::tool::description::JointKind;
 pub struct RotationFunction<M> {
     /// Value.
     pub value: M,
-    /// First derivatives.
+    /// First derivatives: of a row, its part of Phi_q, Eq. 16.
     pub gradient: [M; 6],
     /// Second derivatives, symmetric.
     pub hessian: [[M; 6]; 6],
@@ -169,8 +169,9 @@ impl<M> JointLaw<M> {
         out
     }
 
-    /// The stop at rotations `q` and rates `rate`: M = k (angle - limit)(1 + c angle') >= 0, which is continuous at onset. Returns whether
-    /// it is shut (for some joint of `T`); where not, as nearly always, `stop` is left as it is.
+    /// Eq. 13, third row read as a limit: the stop at rotations `q` and rates `rate`,
+    /// M = k (angle - limit)(1 + c angle') >= 0, which is continuous at onset. Returns whether it is shut (for some
+    /// joint of `T`); where not, as nearly always, `stop` is left as it is.
     #[inline(always)]
     pub fn stop<T: Number<Memory = M>>(&self, q: &[T; 6], rate: &[T; 6], stop: &mut Stop<M>) -> bool {
         let relative = self.relative::<T>();

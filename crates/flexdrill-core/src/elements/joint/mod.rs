@@ -28,7 +28,7 @@ pub type Rotations = [f64; 6];
 /// One joint.
 #[derive(Debug, Clone, Copy)]
 pub struct Joint {
-    /// Frame of the link above, columns in the world.
+    /// Frame of the link above, columns in the world: with the turn of the node the Lambda of Eq. 11.
     pub upper: Matrix3<f64>,
     /// Frame of the link below.
     pub lower: Matrix3<f64>,

@@ -139,6 +139,7 @@ impl<T: Number> Tilted<T> {
 }
 
 /// The node's x axis (the link's own axis after bending), in the link frame: (1 - b s, a z, -a y) with s = y^2 + z^2.
+/// Part of the Lambda of Eq. 11, as [`transverse_axis`].
 #[inline(always)]
 pub fn shaft_axis<T: Number>(y: T, z: T) -> DirectionJet<T> {
     let s = y * y + z * z;

@@ -258,8 +258,8 @@ pub fn six<V: Vector, const C: usize>(a: &mut PaddedColumns, b: &mut [[f64; 8]; 
 
 #[cfg(test)]
 mod tests {
-    use super::crate::linear::block::solve_columns;
     use super::*;
+    use crate::linear::block::solve_columns;
     use crate::simd::vector::Portable;
 
     fn random(seed: &mut u64) -> f64 {
