@@ -1,0 +1,84 @@
+//! Elements of both pipes: beams with their matrices in the frames of their nodes, Eq. 7 to 9.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::station::{Bore, Station};
+use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
+use crate::tool::description::ToolDescription;
+use crate::tool::section::SectionProperties;
+use crate::tool::well::frame_along;
+
+/// A pipe element, in its link's frame.
+#[derive(Debug, Clone)]
+pub struct PipeElement {
+    /// Beam.
+    pub beam: Beam,
+    /// G.
+    pub geometric: ElementMatrix,
+    /// Consistent forces of gravity (N).
+    pub weight: ElementVector,
+}
+
+/// A guide element, between station frames.
+#[derive(Debug, Clone)]
+pub struct GuideElement {
+    /// Beam in its chord's frame.
+    pub beam: Beam,
+    /// Node frames to the chord frame, Eq. 8.
+    pub rotation: [Matrix3<f64>; 2],
+    /// Consistent forces of gravity on the nodes, in their frames (N).
+    pub weight: ElementVector,
+    /// Gamma^T K Gamma, Eq. 9.
+    pub stiffness: ElementMatrix,
+    /// Gamma^T M Gamma.
+    pub mass: ElementMatrix,
+    /// Gamma^T G Gamma.
+    pub geometric: ElementMatrix,
+}
+
+impl PipeElement {
+    pub(super) fn new(d: &ToolDescription, bore: &Bore, e: usize) -> Self {
+        let link = e / d.elements_per_link;
+        let beam = Beam {
+            section: SectionProperties::of(d.pipe_sections[e % d.elements_per_link], d.material, 1.0),
+            length: bore.chord(link) / d.elements_per_link as f64,
+        };
+        Self {
+            beam,
+            geometric: beam.geometric(),
+            weight: beam.weight((bore.link_frames[link].transpose() * gravity(d)).into()),
+        }
+    }
+}
+
+impl GuideElement {
+    /// Between two stations, whose frames it takes into its chord's: Gamma of Eq. 8.
+    pub(super) fn new(d: &ToolDescription, above: &Station, below: &Station) -> Self {
+        let span = below.position - above.position;
+        let beam = Beam {
+            section: SectionProperties::of(d.guide_section, d.material, d.guide_bending_factor),
+            length: span.norm(),
+        };
+        let frame = frame_along(span.normalize());
+        let rotation = [above.frame, below.frame].map(|node| frame.transpose() * node);
+        let mut gamma = ElementMatrix::zeros();
+        for (n, r) in rotation.iter().enumerate() {
+            gamma.fixed_view_mut::<3, 3>(6 * n, 6 * n).copy_from(r);
+            gamma.fixed_view_mut::<3, 3>(6 * n + 3, 6 * n + 3).copy_from(r);
+        }
+        let turned = |m: ElementMatrix| gamma.transpose() * m * gamma;
+        Self {
+            rotation,
+            weight: gamma.transpose() * beam.weight((frame.transpose() * gravity(d)).into()),
+            stiffness: turned(beam.stiffness()),
+            mass: turned(beam.mass()),
+            geometric: turned(beam.geometric()),
+            beam,
+        }
+    }
+}
+
+/// Gravity in the world (m/s2).
+fn gravity(d: &ToolDescription) -> Vector3<f64> {
+    Vector3::z() * d.gravity
+}
