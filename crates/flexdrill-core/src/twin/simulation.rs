@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Snapshot;
 use super::checkpoint::{self, CheckpointError, Identity};
 use super::observe::Observer;
 use super::settings::SimulationSettings;
 use super::snapshot::Applied;
 use super::validation::validate_slew;
-use super::{Snapshot, SolverCounters};
 use crate::dynamics::newton::Tolerances;
 use crate::dynamics::outcome::StepOutcome;
 use crate::dynamics::phases::{Clock, Phase, PhaseTimes};
@@ -42,8 +42,8 @@ pub struct Simulation {
     settings: SimulationSettings,
     stepper: Stepper,
     start: State,
-    observer: Observer,
-    applied: Applied,
+    pub(super) observer: Observer,
+    pub(super) applied: Applied,
     step: u64,
     identity: Identity,
 }
@@ -174,16 +174,7 @@ impl Simulation {
         out.time = self.time();
         out.applied = self.applied;
         out.energy = *self.stepper.audit();
-        let counters = self.stepper.counters();
-        out.solver = SolverCounters {
-            newton_iterations: counters.iterations,
-            last_iterations: self.observer.last_iterations(),
-            rejected: counters.rejected,
-            halved_steps: counters.halved_steps,
-            deepest_halving: counters.deepest_halving,
-            failed_steps: counters.failed_steps,
-            last_rejection: counters.last_rejection,
-        };
+        out.solver = self.solver_counters();
         self.observer.fill(&self.stepper, &self.applied, out);
     }
 
