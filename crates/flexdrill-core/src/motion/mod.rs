@@ -29,7 +29,7 @@ mod whirl;
 
 pub use contact_statistics::{ContactStatistics, RootMeanSquare};
 pub use hysteresis::{Alarm, AlarmThresholds};
-pub use incidents::{Incident, IncidentKind, IncidentLog, IncidentPlace, Observation};
+pub use incidents::{Incident, IncidentKind, IncidentLocation, IncidentLog, Observation};
 pub use report::{Severity, ShockLevel, WhirlKind, WhirlReport, WhirlWarningLevel};
 pub use settings::{InputTrust, LevelThresholds, WhirlSettings};
 pub use shock::{ShockSettings, ShockWatch, Shocks};

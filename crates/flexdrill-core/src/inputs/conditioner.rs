@@ -1,4 +1,4 @@
-//! The door that every sample from the rig comes through.
+//! Input conditioning: every sample from the rig is taken or refused here, ages, and becomes a target.
 
 use super::{InputKind, InputRule, InputRules, InputState, Rejection, RejectionReason};
 use crate::inputs::Inputs;
@@ -7,7 +7,7 @@ use crate::inputs::Inputs;
 ///
 /// Times are seconds on any one clock that the caller chooses; they need not begin at 0.
 #[derive(Debug, Clone)]
-pub struct Door {
+pub struct Conditioner {
     rules: InputRules,
     channels: [Channel; 2],
 }
@@ -43,8 +43,8 @@ struct Sample {
     time: f64,
 }
 
-impl Door {
-    /// A door that has seen no sample.
+impl Conditioner {
+    /// Without any sample yet.
     pub fn new(rules: InputRules) -> Self {
         Self {
             rules,
