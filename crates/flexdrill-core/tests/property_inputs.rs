@@ -185,7 +185,11 @@ proptest! {
 
     /// Between samples the target never moves away from the safe value and never faster than the ramp.
     #[test]
-    fn the_way_to_safe_is_monotone_and_bounded(value in 0.0..120.0f64, from in 0.0..100.0f64, step in 0.0..10.0f64) {
+    fn the_way_to_safe_is_monotone_and_bounded(
+        value in 0.0..120.0f64,
+        from in 0.0..100.0f64,
+        step in 0.0..10.0f64,
+    ) {
         let mut conditioner = conditioner();
         conditioner.offer(RotarySpeed, value, 0.0).unwrap();
         let (before, after) = (conditioner.target(RotarySpeed, from), conditioner.target(RotarySpeed, from + step));

@@ -137,8 +137,8 @@ impl Conditioner {
         self.channels[kind.index()].last_rejection
     }
 
-    /// What is asked for at `now` (s), in the unit of the samples: the last good value, held while it ages, then brought
-    /// to the safe value; the start value before the first sample. Always within the limits.
+    /// What is asked for at `now` (s), in the unit of the samples: the last good value, held while it ages, then
+    /// brought to the safe value; the start value before the first sample. Always within the limits.
     pub fn target(&self, kind: InputKind, now: f64) -> f64 {
         let rule = self.rule(kind);
         let value = match self.channels[kind.index()].good {

@@ -1,7 +1,7 @@
 //! Inputs from the rig: units, limits, age and state. Pure: time is handed in, nothing allocates.
 //!
-//! [`Conditioner`] takes samples in the driller's units as the topics, bags and field logs carry them, refuses what cannot be
-//! right, and says at any instant what the twin is asked for in SI.
+//! [`Conditioner`] takes samples in the driller's units as the topics, bags and field logs carry them, refuses what
+//! cannot be right, and says at any instant what the twin is asked for in SI.
 
 mod conditioner;
 mod kind;

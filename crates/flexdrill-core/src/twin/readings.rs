@@ -1,5 +1,6 @@
 //! What can be read off a simulation at any time, by name. Single values allocate nothing; [`Simulation::joints`],
-//! [`Simulation::contacts`] and [`Simulation::bit`] make a snapshot of their own, so fill a [`Snapshot`] instead where that matters.
+//! [`Simulation::contacts`] and [`Simulation::bit`] make a snapshot of their own, so fill a [`Snapshot`] instead where
+//! that matters.
 //!
 //! Stations count from 0 at the top. Where a station is not on the tool the answer is `None`.
 //!
@@ -125,8 +126,8 @@ impl Simulation {
         Some(in_bore(at, body, &self.stepper().state().a).into())
     }
 
-    /// Displacement of a node (m or rad) in its own frame: that of its link for the pipe (at a joint: of the link above), that of the
-    /// station for the guide.
+    /// Displacement of a node (m or rad) in its own frame: that of its link for the pipe (at a joint: of the link
+    /// above), that of the station for the guide.
     pub fn displacement(&self, station: usize, body: Body, direction: Direction) -> Option<f64> {
         Some(self.stepper().state().q[self.unknown(station, body, direction)?])
     }
@@ -146,7 +147,8 @@ impl Simulation {
         self.new_snapshot().joints
     }
 
-    /// Gaps and forces of both contact layers now, peaks and root mean squares since the last snapshot that ended an interval.
+    /// Gaps and forces of both contact layers now, peaks and root mean squares since the last snapshot that ended an
+    /// interval.
     pub fn contacts(&self) -> Contacts {
         self.new_snapshot().contacts
     }
