@@ -144,7 +144,7 @@ fn run(case: &Case) -> anyhow::Result<Orbit> {
         inclination: rad_to_deg(whirl.inclination[entry]),
         ratio: whirl.whirl_ratio[entry],
         confidence: whirl.confidence[entry],
-        clearance: simulation.stepper().model().stations[station].inner_clearance,
+        clearance: simulation.clearance(station, Body::Pipe).unwrap_or(f64::NAN),
         position: history.iter().map(|at| at[station]).collect(),
     })
 }

@@ -13,7 +13,7 @@ use flexdrill::field_log::{
     FieldLogError, InputSequence, IssueKind, Mapping, Position, Range, Report, read, read_range,
 };
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::inputs::{Conditioner, InputKind};
 use proptest::prelude::*;
 
 fn config_file(name: &str) -> PathBuf {
@@ -108,10 +108,10 @@ fn the_demo_log_shows_everything() {
 #[test]
 fn the_demo_log_passes_the_door() {
     let config = Config::load(config_file("default.yaml")).unwrap();
-    let mut door = Door::new(config.inputs.rules());
+    let mut conditioner = Conditioner::new(config.inputs.rules());
     let (sequence, _) = read(config_file("field_logs/demo.csv"), &rig_mapping()).unwrap();
     for input in &sequence.inputs {
-        door.offer(input.kind, input.value, input.time).unwrap();
+        conditioner.offer(input.kind, input.value, input.time).unwrap();
     }
     assert!(sequence.duration > 175.0);
 }
@@ -291,11 +291,11 @@ fn the_real_rig_log_reads_as_its_description_says() {
     let missing = places(&report, IssueKind::Missing);
     assert!(missing.contains(&(38_001, 38_129, 129)), "{missing:?}");
     assert!(missing.contains(&(40_001, 41_329, 1329)), "{missing:?}");
-    let mut door = Door::new(Config::load(config_file("default.yaml")).unwrap().inputs.rules());
+    let mut conditioner = Conditioner::new(Config::load(config_file("default.yaml")).unwrap().inputs.rules());
     let refused = sequence
         .inputs
         .iter()
-        .filter(|input| door.offer(input.kind, input.value, input.time).is_err());
+        .filter(|input| conditioner.offer(input.kind, input.value, input.time).is_err());
     assert_eq!(refused.count(), 0);
     // The steady stretch that the description gives: rows 6343 to 7899 at 49.1 r/min.
     let range = Range {

@@ -8,7 +8,7 @@ use crate::messages::std_msgs::Header;
 use crate::messages::{TwinStatus, words};
 use flexdrill_core::dynamics::outcome::{EnergyAudit, StepFailure};
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
-use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::twin::{Snapshot, SolverCounters};
 use flexdrill_realtime::RealTimeFactor;
 use flexdrill_realtime::link::{Gauges, RunState};
@@ -55,7 +55,7 @@ pub struct Sources<'a> {
     /// Of the solver's thread.
     pub gauges: &'a Gauges,
     /// Inputs.
-    pub conditioner: &'a Door,
+    pub conditioner: &'a Conditioner,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
     /// Present time of the monotonic clock (ns).

@@ -1,4 +1,5 @@
-//! A cantilever and a clamped rod against their closed forms: how a description is built by hand, and how right the elements are.
+//! A cantilever and a clamped rod against their closed forms: how a description is built by hand, and how right the
+//! elements are.
 //!
 //!     cargo run --release -p flexdrill-core --example beam
 

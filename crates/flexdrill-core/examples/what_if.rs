@@ -1,5 +1,5 @@
-//! What if there were more weight on the bit? A run is saved after three seconds and continued twice, as it was and with twice the
-//! weight; both continuations begin from the same bits.
+//! What if there were more weight on the bit? A run is saved after three seconds and continued twice, as it was and
+//! with twice the weight; both continuations begin from the same bits.
 //!
 //!     cargo run --release -p flexdrill-core --example what_if
 

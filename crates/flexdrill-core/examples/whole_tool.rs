@@ -1,5 +1,5 @@
-//! The paper's tool at 40 r/min and 10 kN: ten seconds, a line per second, and a picture of how the bit turns, how one joint moves in
-//! its gap and where the pipes touch.
+//! The paper's tool at 40 r/min and 10 kN: ten seconds, a line per second, and a picture of how the bit turns, how one
+//! joint moves in its gap and where the pipes touch.
 //!
 //!     cargo run --release -p flexdrill-core --example whole_tool -- whole_tool.svg
 

@@ -1,14 +1,15 @@
-//! The mechanics of a flexible drilling tool in an ultrashort-radius well (Lin et al., Scientific Reports 2024), and what its motion
-//! means. Numbers in, numbers out: nothing here knows of files, clocks, logs or middleware.
+//! The mechanics of a flexible drilling tool in an ultrashort-radius well (Lin et al., Scientific Reports 2024), and
+//! what its motion means. Numbers in, numbers out: nothing here knows of files, clocks, logs or middleware.
 //!
 //! # The tool
-//! A flexible, rotating pipe of rigidly straight *links* and *joints* turns inside a continuous *guide pipe*, which lies in a curved
-//! *hole*. Beams of both pipes meet at *stations*, numbered from 0 at the top; two layers of gap elements, pipe in guide and guide in
-//! hole, carry contact and friction. The drive turns the top, weight and the bit's torque act at the bottom.
+//! A flexible, rotating pipe of rigidly straight *links* and *joints* turns inside a continuous *guide pipe*, which
+//! lies in a curved *hole*. Beams of both pipes meet at *stations*, numbered from 0 at the top; two layers of gap
+//! elements, pipe in guide and guide in hole, carry contact and friction. The drive turns the top, weight and the bit's
+//! torque act at the bottom.
 //!
 //! # In twenty lines
-//! A [`tool::ToolDescription`] says what is modelled, [`twin::SimulationSettings`] how it is stepped, a [`twin::Simulation`] steps it,
-//! and a [`twin::Snapshot`] says what is known at an instant.
+//! A [`tool::ToolDescription`] says what is modelled, [`twin::SimulationSettings`] how it is stepped, a
+//! [`twin::Simulation`] steps it, and a [`twin::Snapshot`] says what is known at an instant.
 //!
 //! ```
 //! use flexdrill_core::inputs::Inputs;
@@ -41,18 +42,21 @@
 //! # Layout
 //! - [`tool`]: what is modelled, as plain structs, and its checks.
 //! - [`twin`]: simulation, settings, snapshots, checkpoints, the schedule of outputs.
-//! - [`motion`]: from motion to whirl, stick-slip, shock, their levels and a table of incidents. Usable alone, on measured orbits.
+//! - [`motion`]: from motion to whirl, stick-slip, shock, their levels and a table of incidents. Usable alone, on
+//!   measured orbits.
 //! - [`inputs`]: from samples of a rig to inputs of a step: limits, ages, safe values.
 //! - [`dynamics`]: residual, time scheme, Newton, steps; `elements`, `model`, `linear`, `simd` below it.
 //! - [`units`]: the only conversions.
 //!
 //! # Conventions
-//! SI inside, angles in radians. World: X horizontal in the direction of build, Y horizontal, Z down. Station frame: x down the hole,
-//! y horizontal, z towards the low side, so that a positive rotary speed turns y towards z. Equations are those of the paper.
+//! SI inside, angles in radians. World: X horizontal in the direction of build, Y horizontal, Z down. Station frame: x
+//! down the hole, y horizontal, z towards the low side, so that a positive rotary speed turns y towards z. Equations
+//! are those of the paper.
 //!
 //! # Guarantees
 //! - The same build, description, settings and inputs give the same bits, on AVX2 and AVX-512 machines alike.
-//! - After [`twin::Simulation::new`], [`twin::Simulation::advance`] and [`twin::Simulation::snapshot`] allocate nothing.
+//! - After [`twin::Simulation::new`], [`twin::Simulation::advance`] and [`twin::Simulation::snapshot`] allocate
+//!   nothing.
 //! - A step that cannot be taken changes nothing but counters and says why. Nothing panics on a number.
 
 pub mod dynamics;

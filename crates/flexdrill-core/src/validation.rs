@@ -1,7 +1,8 @@
-//! What the core asks of its input: one error type and the few kinds of bounds, for [`crate::tool`] and [`crate::twin`].
+//! What the core asks of its input: one error type and the few kinds of bounds, for [`crate::tool`] and
+//! [`crate::twin`].
 //!
-//! These bounds are those without which the mechanics cannot compute: a mass above zero, a step above zero, lists of the right length.
-//! What is sensible in practice is narrower and stands with the YAML schema.
+//! These bounds are those without which the mechanics cannot compute: a mass above zero, a step above zero, lists of
+//! the right length. What is sensible in practice is narrower and stands with the YAML schema.
 
 use crate::tool::description::Location;
 
@@ -32,7 +33,8 @@ pub enum ValidationError {
     },
     /// A location outside the tool.
     #[error(
-        "{field} = {location:?}: not on the tool, which has stations 0 to {last_station} and {joints} joints, counted from 0"
+        "{field} = {location:?}: not on the tool, which has stations 0 to {last_station} and {joints} joints, \
+         counted from 0"
     )]
     Location {
         /// Path of the field.

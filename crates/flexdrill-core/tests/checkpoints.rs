@@ -1,5 +1,5 @@
-//! A checkpoint goes back only to the tool and settings that it was made with, and only whole. Each of these was restored silently
-//! before checkpoints carried an identity and a checksum.
+//! A checkpoint goes back only to the tool and settings that it was made with, and only whole. Each of these was
+//! restored silently before checkpoints carried an identity and a checksum.
 
 mod support;
 

@@ -1,4 +1,5 @@
-//! `docs/equations.md` has every numbered equation of the paper and both tables once, and every file and item it names is there.
+//! `docs/equations.md` has every numbered equation of the paper and both tables once, and every file and item it names
+//! is there.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,5 @@
-//! Balances that any mechanics must keep: reactions carry the loads, masses add up, the static start is at rest, joints stay closed.
+//! Balances that any mechanics must keep: reactions carry the loads, masses add up, the static start is at rest, joints
+//! stay closed.
 
 mod support;
 
@@ -77,7 +78,8 @@ fn nothing_moves_after_the_static_start() {
 
 #[test]
 fn joints_stay_closed_and_both_solvers_agree() {
-    // A hundredth of the usual tolerances, an order above rounding: what is compared is the solution, not where the iterations stop.
+    // A hundredth of the usual tolerances, an order above rounding: what is compared is the solution, not where the
+    // iterations stop.
     let tolerances = Tolerances {
         force: 1e-5,
         moment: 1e-6,
@@ -94,7 +96,8 @@ fn joints_stay_closed_and_both_solvers_agree() {
             weight_on_bit: [10e3; 2],
         };
         speed = next;
-        // From rest, and in every hundredth of the steps under way, when there is contact in both layers between the joints too.
+        // From rest, and in every hundredth of the steps under way, when there is contact in both layers between the
+        // joints too.
         let compared = step < 10 || step % 100 == 99;
         if compared {
             reference.start_from(fast.state(), 10e3);

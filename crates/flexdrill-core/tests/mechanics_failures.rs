@@ -1,4 +1,5 @@
-//! Every way in which a step or a start can fail, provoked from outside, is reported with its cause and changes nothing.
+//! Every way in which a step or a start can fail, provoked from outside, is reported with its cause and changes
+//! nothing.
 
 mod support;
 

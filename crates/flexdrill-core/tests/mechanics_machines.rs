@@ -1,4 +1,5 @@
-//! A machine with AVX2 and one with AVX-512 compute the same to the bit, so that a bag recorded on one replays on the other.
+//! A machine with AVX2 and one with AVX-512 compute the same to the bit, so that a bag recorded on one replays on the
+//! other.
 
 mod support;
 
@@ -45,7 +46,8 @@ fn machines_agree_to_the_bit() {
             let (q, _) = run(tool, instructions, 100);
             let scale = plain.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             for (i, (x, expected)) in q.iter().zip(&plain).enumerate() {
-                // Newton leaves 1e-6 of the forces, the motion multiplies differences by e every 15 ms: 28 times in 50 ms.
+                // Newton leaves 1e-6 of the forces, the motion multiplies differences by e every 15 ms: 28 times in 50
+                // ms.
                 assert!(
                     (x - expected).abs() < 1e-4 * scale,
                     "{name}, {instructions:?}: q[{i}] = {x} against {expected}"

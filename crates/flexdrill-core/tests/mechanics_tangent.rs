@@ -1,5 +1,5 @@
-//! The assembled tangent is the derivative of the assembled residual, for every term: stiffness, damping and mass, with contacts, friction,
-//! stops and all joint kinds at work.
+//! The assembled tangent is the derivative of the assembled residual, for every term: stiffness, damping and mass, with
+//! contacts, friction, stops and all joint kinds at work.
 
 mod support;
 
@@ -14,7 +14,8 @@ use flexdrill_core::model::Model;
 use flexdrill_core::tool::{JointKind, ToolDescription, WobPath};
 use support::{Random, small};
 
-/// A state with every term active: tilts, spins, contacts in both layers, stops, multipliers, axial forces. Deterministic.
+/// A state with every term active: tilts, spins, contacts in both layers, stops, multipliers, axial forces.
+/// Deterministic.
 fn lively_state(model: &Model) -> State {
     let mut state = State::at_rest(model);
     let mut generator = Random(12345);
@@ -99,7 +100,8 @@ fn check(tool: &ToolDescription) {
             let multiplier = model.joints.len() * 6 > 0
                 && (0..model.joints.len()).any(|j| (model.multipliers(j)..model.multipliers(j) + 6).contains(&column))
                 || model.tie == Some(column);
-            // Constraint rows and multipliers keep their entries whatever the factors; they are tested with the stiffness.
+            // Constraint rows and multipliers keep their entries whatever the factors; they are tested with the
+            // stiffness.
             if multiplier && name != "stiffness" {
                 continue;
             }
@@ -125,7 +127,8 @@ fn check(tool: &ToolDescription) {
                 }
                 let difference = (high[row] - low[row]) / (2.0 * h);
                 let error = (difference - tangent[row + column * n]).abs();
-                // 1e-6 of the column's largest entry, as promised; differences of forces of 1e5 N at steps of 1e-8 round to 1e-3 N per unit.
+                // 1e-6 of the column's largest entry, as promised; differences of forces of 1e5 N at steps of 1e-8
+                // round to 1e-3 N per unit.
                 assert!(
                     error < 1e-6 * scale + 1e-2,
                     "{name}: d R[{row}] / d q[{column}] = {} against {difference}",

@@ -9,8 +9,8 @@ use flexdrill_core::twin::{Simulation, SimulationSettings};
 use flexdrill_core::units::rpm_to_rad_per_s;
 use support::{coarse, hard_settings};
 
-/// The tool at 120 r/min and 30 kN with `max_iterations` and `max_halvings`, in steps of 2 ms, eight times what converges well: joints
-/// strike their stops and the pipe strikes the guide within a step.
+/// The tool at 120 r/min and 30 kN with `max_iterations` and `max_halvings`, in steps of 2 ms, eight times what
+/// converges well: joints strike their stops and the pipe strikes the guide within a step.
 fn hard(max_iterations: u32, max_halvings: u32) -> (Simulation, Inputs) {
     let settings = SimulationSettings {
         rotary_speed_slew: rpm_to_rad_per_s(120.0),

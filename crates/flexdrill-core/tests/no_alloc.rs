@@ -66,7 +66,8 @@ fn advance_and_snapshot_allocate_nothing() {
 
 #[test]
 fn steps_that_are_halved_or_fail_allocate_nothing() {
-    // Large steps and two corrections per sub-step: too few for a collision, so that steps are halved, and fail in the end.
+    // Large steps and two corrections per sub-step: too few for a collision, so that steps are halved, and fail in the
+    // end.
     let mut simulation = Simulation::new(&coarse(), &hard_settings(2, 3)).unwrap();
     simulation.set_clock(clock);
     let inputs = Inputs {

@@ -1,13 +1,13 @@
-//! The door: what it refuses, how states age, and that its targets are always within the limits.
+//! Input conditioning: what it refuses, how states age, and that its targets are always within the limits.
 
-use flexdrill_core::inputs::{Door, InputKind, InputRule, InputState, RejectionReason};
+use flexdrill_core::inputs::{Conditioner, InputKind, InputRule, InputState, RejectionReason};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use proptest::prelude::*;
 
 use InputKind::{RotarySpeed, WeightOnBit};
 
 /// Rules like those of `config/default.yaml`.
-fn door() -> Door {
+fn conditioner() -> Conditioner {
     let rotary_speed = InputRule {
         min: 0.0,
         max: 120.0,
@@ -25,32 +25,32 @@ fn door() -> Door {
         safe_ramp: 1.0,
         ..rotary_speed
     };
-    Door::new([rotary_speed, weight_on_bit])
+    Conditioner::new([rotary_speed, weight_on_bit])
 }
 
 #[test]
 fn before_the_first_sample_the_start_value_acts() {
-    let door = door();
-    assert_eq!(door.state(RotarySpeed, 1e9), InputState::NotReceived);
-    assert_eq!(door.targets(1e9).rotary_speed, 0.0);
-    assert_eq!(door.age(RotarySpeed, 5.0), None);
+    let conditioner = conditioner();
+    assert_eq!(conditioner.state(RotarySpeed, 1e9), InputState::NotReceived);
+    assert_eq!(conditioner.targets(1e9).rotary_speed, 0.0);
+    assert_eq!(conditioner.age(RotarySpeed, 5.0), None);
 }
 
 #[test]
 fn good_samples_act_in_si() {
-    let mut door = door();
-    door.offer(RotarySpeed, 40.0, 1.0).unwrap();
-    door.offer(WeightOnBit, 10.0, 1.0).unwrap();
-    let targets = door.targets(1.5);
+    let mut conditioner = conditioner();
+    conditioner.offer(RotarySpeed, 40.0, 1.0).unwrap();
+    conditioner.offer(WeightOnBit, 10.0, 1.0).unwrap();
+    let targets = conditioner.targets(1.5);
     assert_eq!(targets.rotary_speed, rpm_to_rad_per_s(40.0));
     assert_eq!(targets.weight_on_bit, kn_to_n(10.0));
-    assert_eq!(door.quality(1.5), InputState::Ok);
+    assert_eq!(conditioner.quality(1.5), InputState::Ok);
 }
 
 #[test]
 fn each_reason_is_told_and_counted() {
-    let mut door = door();
-    door.offer(WeightOnBit, 5.0, 10.0).unwrap();
+    let mut conditioner = conditioner();
+    conditioner.offer(WeightOnBit, 5.0, 10.0).unwrap();
     let cases = [
         (
             f64::NAN,
@@ -75,14 +75,14 @@ fn each_reason_is_told_and_counted() {
         (6.0, 9.5, "its time is 0.5 s before that of the last good sample"),
     ];
     for (value, time, words) in cases {
-        let sentence = door.offer(WeightOnBit, value, time).unwrap_err().to_string();
+        let sentence = conditioner.offer(WeightOnBit, value, time).unwrap_err().to_string();
         assert!(sentence.contains(words), "{sentence}");
     }
-    assert_eq!(door.counts(WeightOnBit).rejected, [2, 1, 0, 1, 1]);
-    assert_eq!(door.counts(WeightOnBit).rejected_total(), 5);
-    assert_eq!(door.counts(WeightOnBit).accepted, 1);
-    assert_eq!(door.last_good(WeightOnBit), Some(5.0));
-    let sentence = door.offer(RotarySpeed, -1.0, 0.0).unwrap_err().to_string();
+    assert_eq!(conditioner.counts(WeightOnBit).rejected, [2, 1, 0, 1, 1]);
+    assert_eq!(conditioner.counts(WeightOnBit).rejected_total(), 5);
+    assert_eq!(conditioner.counts(WeightOnBit).accepted, 1);
+    assert_eq!(conditioner.last_good(WeightOnBit), Some(5.0));
+    let sentence = conditioner.offer(RotarySpeed, -1.0, 0.0).unwrap_err().to_string();
     assert!(
         sentence.contains("rig/rotary_speed_rpm: -1 r/min refused: below the minimum of 0 r/min"),
         "{sentence}"
@@ -91,62 +91,62 @@ fn each_reason_is_told_and_counted() {
 
 #[test]
 fn an_imperfect_tare_counts_as_zero() {
-    let mut door = door();
-    door.offer(WeightOnBit, -0.4, 0.0).unwrap();
-    assert_eq!(door.last_good(WeightOnBit), Some(0.0));
+    let mut conditioner = conditioner();
+    conditioner.offer(WeightOnBit, -0.4, 0.0).unwrap();
+    assert_eq!(conditioner.last_good(WeightOnBit), Some(0.0));
 }
 
 #[test]
 fn states_follow_age_and_refusals() {
-    let mut door = door();
-    door.offer(RotarySpeed, 40.0, 100.0).unwrap();
-    assert_eq!(door.state(RotarySpeed, 102.4), InputState::Ok);
-    assert_eq!(door.state(RotarySpeed, 102.5), InputState::Slow);
-    assert_eq!(door.state(RotarySpeed, 105.0), InputState::Stale);
-    door.offer(RotarySpeed, 500.0, 106.0).unwrap_err();
-    assert_eq!(door.state(RotarySpeed, 106.0), InputState::Rejected);
-    assert_eq!(door.state(RotarySpeed, 111.0), InputState::Stale);
-    door.offer(RotarySpeed, 41.0, 112.0).unwrap();
-    assert_eq!(door.state(RotarySpeed, 112.0), InputState::Ok);
+    let mut conditioner = conditioner();
+    conditioner.offer(RotarySpeed, 40.0, 100.0).unwrap();
+    assert_eq!(conditioner.state(RotarySpeed, 102.4), InputState::Ok);
+    assert_eq!(conditioner.state(RotarySpeed, 102.5), InputState::Slow);
+    assert_eq!(conditioner.state(RotarySpeed, 105.0), InputState::Stale);
+    conditioner.offer(RotarySpeed, 500.0, 106.0).unwrap_err();
+    assert_eq!(conditioner.state(RotarySpeed, 106.0), InputState::Rejected);
+    assert_eq!(conditioner.state(RotarySpeed, 111.0), InputState::Stale);
+    conditioner.offer(RotarySpeed, 41.0, 112.0).unwrap();
+    assert_eq!(conditioner.state(RotarySpeed, 112.0), InputState::Ok);
 }
 
 /// A log of 1 Hz with steps of up to 2 s and 0.3 s of jitter on the network is never called slow.
 #[test]
 fn a_jittering_1_hz_log_is_ok() {
-    let mut door = door();
+    let mut conditioner = conditioner();
     for step in 0..100 {
         let time = 2.0 * f64::from(step) + if step % 2 == 0 { 0.0 } else { 0.3 };
-        assert!(step == 0 || door.state(RotarySpeed, time) == InputState::Ok);
-        door.offer(RotarySpeed, 40.0, time).unwrap();
+        assert!(step == 0 || conditioner.state(RotarySpeed, time) == InputState::Ok);
+        conditioner.offer(RotarySpeed, 40.0, time).unwrap();
     }
 }
 
 #[test]
 fn stale_is_held_then_brought_to_safe() {
-    let mut door = door();
-    door.offer(RotarySpeed, 40.0, 0.0).unwrap();
-    assert_eq!(door.target(RotarySpeed, 15.0), 40.0);
-    assert_eq!(door.target(RotarySpeed, 17.0), 30.0);
-    assert_eq!(door.target(RotarySpeed, 1000.0), 0.0);
+    let mut conditioner = conditioner();
+    conditioner.offer(RotarySpeed, 40.0, 0.0).unwrap();
+    assert_eq!(conditioner.target(RotarySpeed, 15.0), 40.0);
+    assert_eq!(conditioner.target(RotarySpeed, 17.0), 30.0);
+    assert_eq!(conditioner.target(RotarySpeed, 1000.0), 0.0);
 }
 
 #[test]
-fn a_clock_that_starts_over_does_not_lock_the_door() {
-    let mut door = door();
-    door.offer(RotarySpeed, 40.0, 1000.0).unwrap();
-    door.clock_set(0.0);
-    assert_eq!(door.state(RotarySpeed, 0.0), InputState::Ok);
-    door.offer(RotarySpeed, 41.0, 0.5).unwrap();
+fn a_clock_that_starts_over_does_not_lock_the_input() {
+    let mut conditioner = conditioner();
+    conditioner.offer(RotarySpeed, 40.0, 1000.0).unwrap();
+    conditioner.clock_set(0.0);
+    assert_eq!(conditioner.state(RotarySpeed, 0.0), InputState::Ok);
+    conditioner.offer(RotarySpeed, 41.0, 0.5).unwrap();
 }
 
 #[test]
 fn an_old_sample_that_comes_late_does_not_make_the_input_rejected() {
-    let mut door = door();
-    door.offer(RotarySpeed, 40.0, 10.0).unwrap();
-    let rejection = door.offer(RotarySpeed, 41.0, 9.0).unwrap_err();
+    let mut conditioner = conditioner();
+    conditioner.offer(RotarySpeed, 40.0, 10.0).unwrap();
+    let rejection = conditioner.offer(RotarySpeed, 41.0, 9.0).unwrap_err();
     assert_eq!(rejection.reason, RejectionReason::TimeBackwards { by: 1.0 });
-    assert_eq!(door.state(RotarySpeed, 10.0), InputState::Ok);
-    assert_eq!(door.last_rejection(RotarySpeed), Some(rejection));
+    assert_eq!(conditioner.state(RotarySpeed, 10.0), InputState::Ok);
+    assert_eq!(conditioner.last_rejection(RotarySpeed), Some(rejection));
 }
 
 fn any_value() -> impl Strategy<Value = f64> {
@@ -161,35 +161,39 @@ proptest! {
         samples in prop::collection::vec((any::<bool>(), any_value(), any_value()), 0..50),
         now in any_value(),
     ) {
-        let mut door = door();
+        let mut conditioner = conditioner();
         for (speed, value, time) in samples {
             let kind = if speed { RotarySpeed } else { WeightOnBit };
-            let _ = door.offer(kind, value, time);
+            let _ = conditioner.offer(kind, value, time);
             for kind in InputKind::ALL {
-                let target = door.target(kind, now);
-                prop_assert!(target >= door.rule(kind).min && target <= door.rule(kind).max, "{kind}: {target}");
+                let target = conditioner.target(kind, now);
+                prop_assert!(target >= conditioner.rule(kind).min && target <= conditioner.rule(kind).max, "{kind}: {target}");
             }
-            let _ = door.quality(now);
+            let _ = conditioner.quality(now);
         }
     }
 
     #[test]
     fn every_sample_is_counted_once(samples in prop::collection::vec((any_value(), 0.0..1e3f64), 0..50)) {
-        let mut door = door();
+        let mut conditioner = conditioner();
         for (value, time) in &samples {
-            let _ = door.offer(WeightOnBit, *value, *time);
+            let _ = conditioner.offer(WeightOnBit, *value, *time);
         }
-        let counts = door.counts(WeightOnBit);
+        let counts = conditioner.counts(WeightOnBit);
         prop_assert_eq!(counts.accepted + counts.rejected_total(), samples.len() as u64);
     }
 
     /// Between samples the target never moves away from the safe value and never faster than the ramp.
     #[test]
-    fn the_way_to_safe_is_monotone_and_bounded(value in 0.0..120.0f64, from in 0.0..100.0f64, step in 0.0..10.0f64) {
-        let mut door = door();
-        door.offer(RotarySpeed, value, 0.0).unwrap();
-        let (before, after) = (door.target(RotarySpeed, from), door.target(RotarySpeed, from + step));
+    fn the_way_to_safe_is_monotone_and_bounded(
+        value in 0.0..120.0f64,
+        from in 0.0..100.0f64,
+        step in 0.0..10.0f64,
+    ) {
+        let mut conditioner = conditioner();
+        conditioner.offer(RotarySpeed, value, 0.0).unwrap();
+        let (before, after) = (conditioner.target(RotarySpeed, from), conditioner.target(RotarySpeed, from + step));
         prop_assert!(after <= before);
-        prop_assert!(before - after <= door.rule(RotarySpeed).safe_ramp * step + 1e-9);
+        prop_assert!(before - after <= conditioner.rule(RotarySpeed).safe_ramp * step + 1e-9);
     }
 }

@@ -1,5 +1,5 @@
-//! Whatever number a field of the description or the settings is set to: it is refused with the field's name, or the twin runs or says
-//! why it cannot. Nothing panics.
+//! Whatever number a field of the description or the settings is set to: it is refused with the field's name, or the
+//! twin runs or says why it cannot. Nothing panics.
 
 mod support;
 
@@ -85,7 +85,8 @@ fn numbers(value: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-/// Copies of `original` with each number in turn replaced by each of `values`; those that are no such type (-1 for a count) left out.
+/// Copies of `original` with each number in turn replaced by each of `values`; those that are no such type (-1 for a
+/// count) left out.
 fn changed<T: Serialize + DeserializeOwned>(original: &T, values: &[f64]) -> Vec<(String, f64, T)> {
     let tree = serde_json::to_value(original).unwrap();
     let mut pointers = Vec::new();

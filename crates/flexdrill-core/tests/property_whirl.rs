@@ -40,7 +40,8 @@ proptest! {
         if ratio.abs() * (6.0 * speed / TAU).min(4.0) < 1.3 {
             return Ok(());
         }
-        // A window that does not hold whole turns sees an ellipse off its centre: 10 % below one whirl turn per tool turn.
+        // A window that does not hold whole turns sees an ellipse off its centre: 10 % below one whirl turn per tool
+        // turn.
         let tolerance = if ratio.abs() < 1.0 || flat < 0.7 { 0.1 } else { 0.03 };
         prop_assert!((bench.ratio() / ratio - 1.0).abs() < tolerance, "ratio {} for {}", bench.ratio(), ratio);
         let radius = bench.report.orbit_radius[0];
@@ -235,8 +236,8 @@ fn kind_changes(mut motion: impl FnMut(f64) -> [f64; 2]) -> u32 {
 /// Reach over clearance, force (N) and share of samples in contact at a time (s).
 type Dithering<'a> = dyn Fn(f64) -> (f64, f64, f64) + 'a;
 
-/// Changes of level after the first has been reached, in 100 s of rolling backward whirl with the given reach, force and
-/// share of samples in contact.
+/// Changes of level after the first has been reached, in 100 s of rolling backward whirl with the given reach, force
+/// and share of samples in contact.
 fn level_changes(settings: &WhirlSettings, mut at: impl FnMut(f64) -> (f64, f64, f64)) -> u32 {
     let mut bench = Bench::with(settings);
     let (mut contact, mut changes, mut last) = (0.0, 0, Severity::Ok);
@@ -259,8 +260,8 @@ fn level_changes(settings: &WhirlSettings, mut at: impl FnMut(f64) -> (f64, f64,
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Values that dither by 5 % around a threshold of the kind, at any pace: one change at most, since the hysteresis is
-    /// 15 %.
+    /// Values that dither by 5 % around a threshold of the kind, at any pace: one change at most, since the hysteresis
+    /// is 15 %.
     #[test]
     fn kinds_do_not_flap_at_a_threshold(
         pace in 0.1f64..6.0, phase in 0.0f64..6.0, backward: bool, other in 0.1f64..0.5,
@@ -295,8 +296,8 @@ proptest! {
             [0.5 * CLEARANCE * f64::cos(angle), 0.5 * CLEARANCE * f64::sin(angle)]
         };
         prop_assert!(kind_changes(slow) <= 1, "fewest turns");
-        // Rocking with a line of 3.2 times the speed, which is elsewhere after one turn, one and a half and two: the larger it
-        // is, the less repeats itself.
+        // Rocking with a line of 3.2 times the speed, which is elsewhere after one turn, one and a half and two: the
+        // larger it is, the less repeats itself.
         let rocking = |time: f64| {
             let angle = 1.5 * (2.0 * SPEED * time).sin();
             let [y, z] = rotor(other * CLEARANCE * dither(time), 3.2 * SPEED)(time);
@@ -478,9 +479,9 @@ fn serialised_state_continues_bit_for_bit() {
     assert_eq!(one.report, other.report);
 }
 
-/// 2,000 generated orbits of each of five seeds, with noise 20 dB below the motion. Thresholds were set with other seeds
-/// (2024, 1, 2, 3). Prints the table that `docs/whirl.md` shows
-/// (`cargo test --release --test property_whirl confusion -- --nocapture`).
+/// 2,000 generated orbits of each of five seeds, with noise 20 dB below the motion. Thresholds were set with other
+/// seeds (2024, 1, 2, 3). Prints the table that `docs/whirl.md` shows (`cargo test --release --test property_whirl
+/// confusion -- --nocapture`).
 #[test]
 fn confusion_table_of_generated_orbits() {
     const COUNT: usize = 2000;
@@ -535,8 +536,8 @@ fn confusion_table_of_generated_orbits() {
     assert!(worst >= 0.99, "{worst}");
 }
 
-/// Time per sample of 64 stations, half of which orbit with two lines and half of which rest, as the pipe's and the guide's do.
-/// Prints the figure of `docs/whirl.md`; a quiet core is needed for it.
+/// Time per sample of 64 stations, half of which orbit with two lines and half of which rest, as the pipe's and the
+/// guide's do. Prints the figure of `docs/whirl.md`; a quiet core is needed for it.
 #[test]
 #[ignore = "a measurement: cargo test --release --test property_whirl cost -- --ignored --nocapture"]
 fn cost_of_a_sample() {

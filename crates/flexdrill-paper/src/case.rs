@@ -80,7 +80,7 @@ pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, Pape
     };
     let dt = settings.time_step;
     let per_sample = (1.0 / (case.sample_rate * dt)).round().max(1.0) as u64;
-    let mut recorder = Recorder::new(simulation.stepper().model(), inputs.rotary_speed, dt, per_sample);
+    let mut recorder = Recorder::new(&simulation, inputs.rotary_speed, dt, per_sample);
     let [begin, end] = case.times().map(|time| (time / dt).round() as u64);
     // Whole samples.
     let end = begin + (end - begin) / per_sample * per_sample;
@@ -89,7 +89,7 @@ pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, Pape
             return Err(PaperError::Step { failure });
         }
         let step = simulation.step();
-        let iterations = simulation.stepper().counters().iterations;
+        let iterations = simulation.solver_counters().newton_iterations;
         if case.impatient && step >= PATIENCE && iterations > ITERATION_LIMIT * step {
             return Err(PaperError::Slow {
                 iterations,

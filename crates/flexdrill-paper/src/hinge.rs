@@ -32,7 +32,7 @@ impl Hinge {
     /// When it cannot be built or a step fails.
     pub fn run() -> Result<Self, PaperError> {
         let mut bench = Bench::new("hinged_beam_in_tube")?;
-        let joint = bench.simulation.stepper().model().joint_stations[0];
+        let joint = bench.simulation.joint_stations()[0];
         let end = 0.8;
         let mut out = Self {
             beam: HingedBeam::of(&bench),

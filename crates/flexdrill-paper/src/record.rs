@@ -1,12 +1,8 @@
 //! What the figures need of a run: sampled series at every station, and sums over every step.
 
 use flexdrill_core::dynamics::outcome::EnergyAudit;
-use flexdrill_core::dynamics::state::translation;
-use flexdrill_core::dynamics::stepper::Stepper;
-use flexdrill_core::elements::gap::Touch;
-use flexdrill_core::model::Model;
 use flexdrill_core::tool::{Body, Direction};
-use flexdrill_core::twin::{Simulation, SolverCounters};
+use flexdrill_core::twin::{Simulation, SolverCounters, StationGeometry};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 /// One number per sample and station.
@@ -72,20 +68,22 @@ pub struct Stations {
 }
 
 impl Stations {
-    /// Of a model.
-    pub fn of(model: &Model) -> Self {
-        let all = || model.stations.iter();
+    /// Of a tool.
+    pub fn of(simulation: &Simulation) -> Self {
+        let all: Vec<StationGeometry> = simulation.stations().collect();
+        let last = all.last();
         Self {
-            depth: all().map(|s| s.depth).collect(),
-            inclination: all().map(|s| s.inclination).collect(),
-            joint: all().map(|s| s.joint.is_some()).collect(),
-            position: all().map(|s| [s.position.x, s.position.z]).collect(),
-            low_side: all().map(|s| [s.frame[(0, 2)], s.frame[(2, 2)]]).collect(),
-            offset: all().map(|s| [s.offset.x, s.offset.y]).collect(),
-            inner_clearance: all().map(|s| s.inner_clearance).collect(),
-            outer_clearance: model.outer_clearance,
-            pipe_diameter: all().map(|s| 2.0 * s.pipe_radius).collect(),
-            guide_diameter: 2.0 * model.guide_radii[1],
+            depth: all.iter().map(|s| s.measured_depth).collect(),
+            inclination: all.iter().map(|s| s.inclination).collect(),
+            joint: all.iter().map(|s| s.joint.is_some()).collect(),
+            position: all.iter().map(|s| [s.position[0], s.position[2]]).collect(),
+            low_side: all.iter().map(|s| [s.low_side[0], s.low_side[2]]).collect(),
+            offset: all.iter().map(|s| s.offset).collect(),
+            inner_clearance: all.iter().map(|s| s.clearance[0]).collect(),
+            // The guide is the same everywhere.
+            outer_clearance: last.map_or(f64::NAN, |s| s.clearance[1]),
+            pipe_diameter: all.iter().map(|s| s.diameter[0]).collect(),
+            guide_diameter: last.map_or(f64::NAN, |s| s.diameter[1]),
         }
     }
 
@@ -208,8 +206,8 @@ struct Sums {
 impl Recorder {
     /// For samples every `per_sample` steps of `time_step` (s) of a tool that the drive turns at `rotary_speed`
     /// (rad/s).
-    pub fn new(model: &Model, rotary_speed: f64, time_step: f64, per_sample: u64) -> Self {
-        let stations = Stations::of(model);
+    pub fn new(simulation: &Simulation, rotary_speed: f64, time_step: f64, per_sample: u64) -> Self {
+        let stations = Stations::of(simulation);
         let n = stations.len();
         let zeros = || vec![0.0; n];
         let three = || [zeros(), zeros(), zeros()];
@@ -252,14 +250,11 @@ impl Recorder {
 
     /// Adds the state after a step.
     pub fn after_step(&mut self, simulation: &Simulation) {
-        let stepper = simulation.stepper();
-        let forces = &stepper.newton().assembler;
-        self.inner.add(&mut self.record.inner, &forces.inner);
-        self.outer.add(&mut self.record.outer, &forces.outer);
-        let (model, a) = (stepper.model(), &stepper.state().a);
-        for (s, station) in model.stations.iter().enumerate() {
-            let pipe = station.pipe_to_station * translation(a, station.pipe_above);
-            let guide = translation(a, station.guide);
+        self.inner.add(&mut self.record.inner, simulation, Body::Pipe);
+        self.outer.add(&mut self.record.outer, simulation, Body::Guide);
+        for s in 0..self.record.stations.len() {
+            let acceleration = |body| simulation.acceleration_in_bore(s, body).unwrap_or([f64::NAN; 3]);
+            let (pipe, guide) = (acceleration(Body::Pipe), acceleration(Body::Guide));
             for k in 0..3 {
                 extreme(&mut self.pipe[k][s], pipe[k]);
                 extreme(&mut self.guide[k][s], guide[k]);
@@ -269,31 +264,26 @@ impl Recorder {
         }
         self.steps += 1;
         if self.steps.is_multiple_of(self.per_sample) {
-            self.sample(simulation.time(), stepper);
+            self.sample(simulation);
         }
     }
 
-    fn sample(&mut self, time: f64, stepper: &Stepper) {
-        let (model, state) = (stepper.model(), stepper.state());
+    fn sample(&mut self, simulation: &Simulation) {
         let record = &mut self.record;
-        record.time.push(time);
-        record.drive_torque.push(stepper.drive_torque());
-        let pipe = |k: usize| {
-            model.stations.iter().map(move |s| {
-                let at = s.pipe_to_station * translation(&state.q, s.pipe_above);
-                at[k] + s.offset[k - 1]
-            })
+        record.time.push(simulation.time());
+        record.drive_torque.push(simulation.applied().drive_torque);
+        let stations = 0..record.stations.len();
+        let lateral = |body: Body, k: usize| {
+            let at = move |s| simulation.lateral(s, body).map_or(f64::NAN, |lateral| lateral[k]);
+            stations.clone().map(at)
         };
-        record.pipe.y.push(pipe(1));
-        record.pipe.z.push(pipe(2));
-        let guide = |k: usize| model.stations.iter().map(move |s| state.q[s.guide + k]);
-        record.guide.y.push(guide(Direction::V as usize));
-        record.guide.z.push(guide(Direction::W as usize));
+        record.pipe.y.push(lateral(Body::Pipe, 0));
+        record.pipe.z.push(lateral(Body::Pipe, 1));
+        record.guide.y.push(lateral(Body::Guide, 0));
+        record.guide.z.push(lateral(Body::Guide, 1));
         let spin = |body: Body| {
-            model.stations.iter().map(move |s| match body {
-                Body::Pipe => state.v[s.pipe_above + Direction::Psi as usize],
-                Body::Guide => state.v[s.guide + Direction::Psi as usize],
-            })
+            let at = move |s| simulation.velocity(s, body, Direction::Psi).unwrap_or(f64::NAN);
+            stations.clone().map(at)
         };
         record.pipe.spin.push(spin(Body::Pipe));
         record.guide.spin.push(spin(Body::Guide));
@@ -318,17 +308,10 @@ impl Recorder {
         for axis in [&mut self.record.pipe, &mut self.record.guide] {
             axis.acceleration_square.iter_mut().for_each(scale);
         }
-        let stepper = simulation.stepper();
-        let counters = stepper.counters();
-        self.record.energy = *stepper.audit();
+        self.record.energy = *simulation.energy();
         self.record.solver = SolverCounters {
-            newton_iterations: counters.iterations,
-            rejected: counters.rejected,
-            halved_steps: counters.halved_steps,
-            deepest_halving: counters.deepest_halving,
-            failed_steps: counters.failed_steps,
-            last_rejection: counters.last_rejection,
-            ..SolverCounters::default()
+            last_iterations: 0,
+            ..simulation.solver_counters()
         };
         self.record.steps = simulation.step();
         self.record
@@ -336,12 +319,16 @@ impl Recorder {
 }
 
 impl Sums {
-    fn add(&mut self, layer: &mut Layer, touches: &[Option<Touch>]) {
-        for (s, touch) in touches.iter().enumerate() {
-            let Some(touch) = touch else { continue };
-            self.sum[s] += touch.normal;
-            self.peak[s] = self.peak[s].max(touch.normal);
-            layer.square[s] += touch.normal * touch.normal;
+    /// Adds the forces on `body` after a step.
+    fn add(&mut self, layer: &mut Layer, simulation: &Simulation, body: Body) {
+        for s in 0..self.sum.len() {
+            if simulation.in_contact(s, body) != Some(true) {
+                continue;
+            }
+            let normal = simulation.normal_force(s, body).unwrap_or(f64::NAN);
+            self.sum[s] += normal;
+            self.peak[s] = self.peak[s].max(normal);
+            layer.square[s] += normal * normal;
             layer.contact[s] += 1.0;
         }
     }

@@ -119,30 +119,24 @@ impl Bench {
 
     /// Displacement (m or rad) of the node at `station`; at a joint, of the link above.
     pub fn displacement(&self, station: usize, body: Body, direction: Direction) -> f64 {
-        self.simulation.stepper().state().q[self.unknown(station, body) + direction as usize]
+        self.simulation
+            .displacement(station, body, direction)
+            .unwrap_or(f64::NAN)
     }
 
     /// Velocity (m/s or rad/s), as [`Bench::displacement`].
     pub fn velocity(&self, station: usize, body: Body, direction: Direction) -> f64 {
-        self.simulation.stepper().state().v[self.unknown(station, body) + direction as usize]
+        self.simulation.velocity(station, body, direction).unwrap_or(f64::NAN)
     }
 
     /// Last station.
     pub fn last(&self) -> usize {
-        self.simulation.stepper().model().last()
+        self.simulation.last_station()
     }
 
     /// Normal force in the inner gap at `station` (N).
     pub fn inner_normal(&self, station: usize) -> f64 {
-        self.simulation.stepper().newton().assembler.inner[station].map_or(0.0, |touch| touch.normal)
-    }
-
-    fn unknown(&self, station: usize, body: Body) -> usize {
-        let station = &self.simulation.stepper().model().stations[station];
-        match body {
-            Body::Pipe => station.pipe_above,
-            Body::Guide => station.guide,
-        }
+        self.simulation.normal_force(station, Body::Pipe).unwrap_or(f64::NAN)
     }
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::bench::Bench;
 use super::{Row, VerifyError};
+use flexdrill_core::tool::section::SectionProperties;
 use flexdrill_core::tool::{Body, Direction};
 
 pub(super) fn mass_onto_gap() -> Result<Vec<Row>, VerifyError> {
@@ -27,8 +28,9 @@ pub(super) fn mass_onto_gap() -> Result<Vec<Row>, VerifyError> {
         what: "the rebound",
     })?;
     let tool = bench.config.tool();
-    let model = bench.simulation.stepper().model();
-    let mass = model.pipe[0].beam.section.mass * model.pipe[0].beam.length;
+    let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
+    let elements = (tool.links * tool.elements_per_link) as f64;
+    let mass = section.mass * bench.config.well.length() / elements;
     let duration = PI * (mass / (2.0 * tool.inner.stiffness)).sqrt();
     Ok(vec![
         Row::relative(

@@ -30,8 +30,7 @@ fn ratio(b: f64, psi: f64) -> f64 {
 }
 
 fn bend(bench: &Bench) -> f64 {
-    let model = bench.simulation.stepper().model();
-    (model.joints[0].upper.column(0).dot(&model.joints[0].lower.column(0))).acos()
+    bench.simulation.bend_as_built(0).unwrap_or(f64::NAN)
 }
 
 pub(super) fn single() -> Result<Vec<Row>, VerifyError> {
@@ -63,7 +62,7 @@ pub(super) fn chain() -> Result<Vec<Row>, VerifyError> {
     let case = "hooke_chain";
     let mut bench = Bench::new(case)?;
     let b = bend(&bench);
-    let joints = bench.simulation.stepper().model().joints.len();
+    let joints = bench.simulation.joint_stations().len();
     let turn = last_turn(&mut bench)?;
     let n = i32::try_from(joints).unwrap_or(i32::MAX);
     let (high, low) = (b.cos().powi(-n), b.cos().powi(n));

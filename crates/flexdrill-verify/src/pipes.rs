@@ -146,7 +146,7 @@ pub(super) fn hinged_beam() -> Result<Vec<Row>, VerifyError> {
     let case = "hinged_beam_in_tube";
     let mut bench = Bench::new(case)?;
     let tool = bench.config.tool();
-    let joint = bench.simulation.stepper().model().joint_stations[0];
+    let joint = bench.simulation.joint_stations()[0];
     let beam = HingedBeam::of(&bench);
     let (limit, touch) = (beam.limit_load(), beam.touch_load());
     let mut rows = Vec::new();
@@ -178,13 +178,12 @@ pub(super) fn hinged_beam() -> Result<Vec<Row>, VerifyError> {
 impl HingedBeam {
     /// Of the case `hinged_beam_in_tube`.
     pub fn of(bench: &Bench) -> Self {
-        let model = bench.simulation.stepper().model();
-        let joint = model.joint_stations[0];
+        let joint = bench.simulation.joint_stations()[0];
         Self {
             bending: section(bench).bending,
             length: 0.5 * bench.config.well.length(),
             limit: bench.config.tool().joint.limit,
-            gap: model.stations[joint].inner_clearance,
+            gap: bench.simulation.clearance(joint, Body::Pipe).unwrap_or(f64::NAN),
         }
     }
 }
@@ -192,10 +191,11 @@ impl HingedBeam {
 pub(super) fn curved_guide() -> Result<Vec<Row>, VerifyError> {
     let case = "curved_guide";
     let bench = Bench::new(case)?;
-    let stepper = bench.simulation.stepper();
-    let model = stepper.model();
-    let wall = &stepper.newton().assembler.outer;
-    let touching: Vec<usize> = (0..wall.len()).filter(|&s| wall[s].is_some()).collect();
+    let stations: Vec<_> = bench.simulation.stations().collect();
+    let wall = |s: usize| bench.simulation.normal_force(s, Body::Guide).unwrap_or(0.0);
+    let touching: Vec<usize> = (0..stations.len())
+        .filter(|&s| bench.simulation.in_contact(s, Body::Guide) == Some(true))
+        .collect();
     let (Some(&first), Some(&last)) = (touching.first(), touching.last()) else {
         return Err(VerifyError::Missing {
             case,
@@ -205,12 +205,12 @@ pub(super) fn curved_guide() -> Result<Vec<Row>, VerifyError> {
     // The middle half of the part that rests on the wall: its ends carry what the free parts bend into it.
     let quarter = (last - first) / 4;
     let (from, to) = (first + quarter, last - quarter);
-    let carried: f64 = (from..=to).map(|s| wall[s].map_or(0.0, |touch| touch.normal)).sum();
-    let spacing = model.stations[1].depth - model.stations[0].depth;
+    let carried: f64 = (from..=to).map(wall).sum();
+    let spacing = stations[1].measured_depth - stations[0].measured_depth;
     let got = carried / (spacing * (to - from + 1) as f64);
     let force = bench.config.simulation().initial_inputs.weight_on_bit;
-    let turned = model.stations[to].inclination - model.stations[from].inclination;
-    let expected = force * turned / (model.stations[to].depth - model.stations[from].depth);
+    let turned = stations[to].inclination - stations[from].inclination;
+    let expected = force * turned / (stations[to].measured_depth - stations[from].measured_depth);
     // N / R holds where the guide follows the wall; its own bending shifts some of it between neighbours.
     Ok(vec![Row::relative(
         case,

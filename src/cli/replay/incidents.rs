@@ -165,7 +165,7 @@ pub(super) fn write_json(path: &Path, incidents: &[Incident], joints: &Joints) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_core::motion::IncidentPlace;
+    use flexdrill_core::motion::IncidentLocation;
     use flexdrill_core::tool::Body;
 
     fn rolling() -> Incident {
@@ -175,7 +175,7 @@ mod tests {
             start: 12.5,
             duration: 3.25,
             lasting: true,
-            place: IncidentPlace {
+            place: IncidentLocation {
                 station: 150,
                 body: Body::Pipe,
                 measured_depth: 4.57,
@@ -223,7 +223,7 @@ mod tests {
         let stick = Incident {
             kind: IncidentKind::StickSlip,
             stations: [165; 2],
-            place: IncidentPlace {
+            place: IncidentLocation {
                 station: 165,
                 ..rolling().place
             },

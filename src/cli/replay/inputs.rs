@@ -7,7 +7,7 @@ use crate::cli::progress::Progress;
 use crate::cli::source::Sample;
 use crate::messages::topics::TopicInfo;
 use flexdrill_config::Config;
-use flexdrill_core::inputs::Door;
+use flexdrill_core::inputs::Conditioner;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_realtime::INPUT_PERIOD;
 
@@ -29,7 +29,7 @@ pub(super) fn replay(
     let span = duration.map_or(span, |duration| duration.min(span));
     let steps = (span / time_step).round() as u64;
     let per_period = ((INPUT_PERIOD / time_step).round() as u64).max(1);
-    let mut conditioner = Door::new(config.inputs.rules());
+    let mut conditioner = Conditioner::new(config.inputs.rules());
     let mut player = Player::new(config, first.time, out, |topic: &TopicInfo| {
         if topic.name.starts_with('/') {
             topic.name.to_owned()

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
-use flexdrill_core::motion::{Incident, IncidentLog, IncidentPlace, Observation};
+use flexdrill_core::motion::{Incident, IncidentLocation, IncidentLog, Observation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::rad_to_deg;
@@ -94,7 +94,7 @@ impl Tally {
             .filter(|(angle, limit)| angle >= limit)
             .count();
         self.joints_at_limit = self.joints_at_limit.max(at_limit);
-        self.incidents.take(&Observation {
+        self.incidents.push(&Observation {
             time,
             whirl: &snapshot.whirl,
             stick_slip: (snapshot.bit.stick_slip, snapshot.bit.stick_slip_index),
@@ -208,7 +208,7 @@ impl Tally {
 }
 
 /// The bit: the last station.
-fn bit_location(snapshot: &Snapshot) -> IncidentPlace {
+fn bit_location(snapshot: &Snapshot) -> IncidentLocation {
     location(
         snapshot,
         snapshot.contacts.measured_depth.len().saturating_sub(1),
@@ -217,7 +217,7 @@ fn bit_location(snapshot: &Snapshot) -> IncidentPlace {
 }
 
 /// The station that was struck.
-fn shock_location(snapshot: &Snapshot) -> IncidentPlace {
+fn shock_location(snapshot: &Snapshot) -> IncidentLocation {
     let body = if snapshot.shock.layer == 0 {
         Body::Pipe
     } else {
@@ -226,9 +226,9 @@ fn shock_location(snapshot: &Snapshot) -> IncidentPlace {
     location(snapshot, snapshot.shock.station, body)
 }
 
-fn location(snapshot: &Snapshot, station: usize, body: Body) -> IncidentPlace {
+fn location(snapshot: &Snapshot, station: usize, body: Body) -> IncidentLocation {
     let at = |values: &[f64]| values.get(station).copied().unwrap_or_default();
-    IncidentPlace {
+    IncidentLocation {
         station,
         body,
         measured_depth: at(&snapshot.contacts.measured_depth),

@@ -32,7 +32,7 @@ use crate::bag::{Recording, RecordingThread};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::twin::{BuildError, Run, Simulation};
 use flexdrill_realtime::clock::{SimulatedClock, WallClock};
 use flexdrill_realtime::link::{Gauges, Targets, link};
@@ -135,7 +135,7 @@ async fn run_in(
     let targets = Targets::new(settings.initial_inputs);
     let gauges = Arc::new(Gauges::default());
     let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
-    let conditioner = Arc::new(Mutex::new(Door::new(config.inputs.rules())));
+    let conditioner = Arc::new(Mutex::new(Conditioner::new(config.inputs.rules())));
     let rig_inputs = RigInputs {
         conditioner: Arc::clone(&conditioner),
         targets,

@@ -19,7 +19,7 @@ use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr, words};
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Door, InputKind};
+use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
@@ -44,7 +44,7 @@ pub struct PublisherParts {
     /// Of the solver.
     pub gauges: Arc<Gauges>,
     /// Inputs.
-    pub conditioner: Arc<Mutex<Door>>,
+    pub conditioner: Arc<Mutex<Conditioner>>,
     /// Time as the conditioner counts it.
     pub now: Now,
     /// Present instant on the rig's clock (ns since 1970).

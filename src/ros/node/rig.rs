@@ -16,7 +16,7 @@ use crate::messages::std_msgs::Float64;
 use crate::messages::topics::TopicInfo;
 use crate::ros::NodeError;
 use crate::ros::publisher::dds_topic_name;
-use flexdrill_core::inputs::{Door, InputKind, Rejection};
+use flexdrill_core::inputs::{Conditioner, InputKind, Rejection};
 use flexdrill_realtime::link::Targets;
 
 /// Samples kept for a moment in which the node is busy; each is conditioned in turn, so the newest wins.
@@ -72,7 +72,7 @@ pub fn subscribe<M: DeserializeOwned + 'static>(
 #[derive(Clone)]
 pub struct RigInputs {
     /// Judges samples.
-    pub conditioner: Arc<Mutex<Door>>,
+    pub conditioner: Arc<Mutex<Conditioner>>,
     /// Where the solver takes its targets from.
     pub targets: Arc<Targets>,
     /// Time of arrival.

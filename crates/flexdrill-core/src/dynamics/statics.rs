@@ -10,14 +10,16 @@ use crate::linear::Singular;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum StartError {
     /// The mass matrix with the constraints is singular.
-    #[error("station {}: the accelerations at the start have no solution (pivot {:e}); a body without mass, or a joint whose nodes are both held?", .0.station, .0.pivot)]
+    #[error("station {}: the accelerations at the start have no solution (pivot {:e}); \
+         a body without mass, or a joint whose nodes are both held?", .0.station, .0.pivot)]
     Singular(Singular),
     /// No step size brought the tool closer to rest.
     #[error("the tool did not come to rest: {} after {:.3} s of settling", .0, .0.time)]
     Step(#[source] StepFailure),
     /// Still moving after all steps.
     #[error(
-        "the tool did not come to rest within {steps} steps: fastest node still moves at {speed:e} m/s (limit {limit:e}); is it supported in every direction?"
+        "the tool did not come to rest within {steps} steps: fastest node still moves at {speed:e} m/s (limit {limit:e}); \
+         is it supported in every direction?"
     )]
     Moving {
         /// Steps made.
@@ -33,7 +35,8 @@ pub enum StartError {
 const SETTLING_ALPHA: f64 = 30.0;
 /// First and largest pseudo time step (s).
 const STEPS: [f64; 2] = [1e-3, 5.0];
-/// At rest when nothing moves faster (m/s, rad/s) over steps of the largest size: ten times what Newton's tolerance lets through there.
+/// At rest when nothing moves faster (m/s, rad/s) over steps of the largest size: ten times what Newton's tolerance
+/// lets through there.
 const REST: f64 = 1e-6;
 /// Steps before giving up.
 const MOST_STEPS: u32 = 2000;
@@ -72,8 +75,8 @@ impl Stepper {
         Ok(())
     }
 
-    /// Brings the tool to rest under gravity and `weight_on_bit` by damped steps of growing size. Friction and bit torque of the regularised
-    /// laws vanish at rest, so it is left out on the way.
+    /// Brings the tool to rest under gravity and `weight_on_bit` by damped steps of growing size. Friction and bit
+    /// torque of the regularised laws vanish at rest, so it is left out on the way.
     ///
     /// # Errors
     /// When steps fail at the smallest size or the tool keeps moving.

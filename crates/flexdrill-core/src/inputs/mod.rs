@@ -1,16 +1,16 @@
 //! Inputs from the rig: units, limits, age and state. Pure: time is handed in, nothing allocates.
 //!
-//! [`Door`] takes samples in the driller's units as the topics, bags and field logs carry them, refuses what cannot be
-//! right, and says at any instant what the twin is asked for in SI.
+//! [`Conditioner`] takes samples in the driller's units as the topics, bags and field logs carry them, refuses what
+//! cannot be right, and says at any instant what the twin is asked for in SI.
 
-mod door;
+mod conditioner;
 mod kind;
 mod rejection;
 mod rule;
 mod state;
 mod wanted;
 
-pub use door::{Counts, Door};
+pub use conditioner::{Conditioner, Counts};
 pub use kind::InputKind;
 pub use rejection::{Rejection, RejectionReason};
 pub use rule::{InputRule, InputRules};

@@ -26,7 +26,8 @@ pub(super) struct View {
     pub(super) lines: Lines,
     /// Phase rate (rad/s) from the turns about the centre, where the swept area and the strongest line disagree.
     pub(super) turning: Option<f64>,
-    /// How much the motion repeats itself after one turn of the tool, one and a half or two; 0 where it was not looked at.
+    /// How much the motion repeats itself after one turn of the tool, one and a half or two; 0 where it was not looked
+    /// at.
     pub(super) repetition: f64,
     /// s.
     pub(super) duration: f64,
@@ -152,8 +153,8 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, sense: f64
     }
     let direction = view.lines.direction;
     if !gates.is_directed(&view.lines) {
-        // A pipe that rocks up both sides of the hole, or is thrown about in the same way at every turn, has no direction
-        // either, but there is nothing chaotic in it.
+        // A pipe that rocks up both sides of the hole, or is thrown about in the same way at every turn, has no
+        // direction either, but there is nothing chaotic in it.
         return if view.repetition >= gates.repetition {
             verdict(WhirlKind::None, 0.0, view.repetition)
         } else {

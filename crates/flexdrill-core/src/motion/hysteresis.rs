@@ -24,8 +24,8 @@ pub(super) enum Change {
 }
 
 impl Hysteresis {
-    /// Over `elapsed` (s), conditions have been met that raise the level to `raised` and hold it at `held`. It falls, to `held`, after
-    /// `hold_off` (s) without them, unless it is `latched`.
+    /// Over `elapsed` (s), conditions have been met that raise the level to `raised` and hold it at `held`. It falls,
+    /// to `held`, after `hold_off` (s) without them, unless it is `latched`.
     pub(super) fn update(
         &mut self,
         elapsed: f64,

@@ -25,7 +25,7 @@ pub enum IncidentKind {
 
 /// Where it happened.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct IncidentPlace {
+pub struct IncidentLocation {
     /// Station index from the top.
     pub station: usize,
     /// Which pipe moved.
@@ -50,7 +50,7 @@ pub struct Incident {
     /// Whether it stood when the run ended.
     pub lasting: bool,
     /// Where it was worst.
-    pub place: IncidentPlace,
+    pub place: IncidentLocation,
     /// First and last station from the top that took part.
     pub stations: [usize; 2],
     /// Whirl rate over rotary speed at the worst moment; 0 for other kinds.
@@ -79,11 +79,11 @@ pub struct Observation<'a> {
     /// Level and index of the bit's stick-slip.
     pub stick_slip: (Severity, f64),
     /// The bit's place.
-    pub bit: IncidentPlace,
+    pub bit: IncidentLocation,
     /// Level of the shock watch.
     pub shock: ShockLevel,
     /// Where that shock was.
-    pub shock_place: IncidentPlace,
+    pub shock_place: IncidentLocation,
 }
 
 /// Makes the table. Allocates, so it is not for the solver's step.
@@ -99,7 +99,7 @@ pub struct IncidentLog {
 
 impl IncidentLog {
     /// Takes the next instant; when time goes back (a reset), what stands has ended.
-    pub fn take(&mut self, at: &Observation<'_>) {
+    pub fn push(&mut self, at: &Observation<'_>) {
         let places = at.whirl.kind.len();
         if self.open.len() != places + 2 || at.time < self.time {
             self.close_all(false);
@@ -265,7 +265,7 @@ fn join(one: &mut Incident, other: Incident) {
     };
 }
 
-fn incident(kind: IncidentKind, time: f64, place: IncidentPlace) -> Incident {
+fn incident(kind: IncidentKind, time: f64, place: IncidentLocation) -> Incident {
     Incident {
         kind,
         severity: Severity::Ok,
@@ -293,7 +293,7 @@ fn whirl_incident(at: &Observation<'_>, index: usize) -> Incident {
         // A level needs a kind; none is left only between a restart of the windows and the end of the hold-off.
         (WhirlKind::Chaotic | WhirlKind::None, _) => IncidentKind::ChaoticWhirl,
     };
-    let place = IncidentPlace {
+    let place = IncidentLocation {
         station: whirl.station[index],
         body: whirl.body[index],
         measured_depth: whirl.measured_depth[index],
@@ -314,8 +314,8 @@ fn whirl_incident(at: &Observation<'_>, index: usize) -> Incident {
 mod tests {
     use super::*;
 
-    fn place(station: usize) -> IncidentPlace {
-        IncidentPlace {
+    fn place(station: usize) -> IncidentLocation {
+        IncidentLocation {
             station,
             body: Body::Pipe,
             measured_depth: station as f64,
@@ -346,7 +346,7 @@ mod tests {
     }
 
     fn observe(log: &mut IncidentLog, time: f64, whirl: &WhirlReport, shock: Severity) {
-        log.take(&Observation {
+        log.push(&Observation {
             time,
             whirl,
             stick_slip: (Severity::Ok, 0.0),

@@ -2,11 +2,14 @@
 //!
 //! # Layout
 //! - [`WhirlAnalysis`] takes samples of every watched station and keeps a [`WhirlReport`] and a [`WhirlWarningLevel`].
-//!   - `watched_station`: one of them. `orbit_window`: its last seconds. `orbit`: centre, axes, radius and phase rate of the
+//!   - `watched_station`: one of them. `orbit_window`: its last seconds. `orbit`: centre, axes, radius and phase rate
+//!     of the
 //!     motion in a window. `full_spectrum`: its forward and backward lines.
-//!   - `classify`: from these to a kind of whirl. `severity`: from kind, reach and contact to a level. `tool_level`: from
+//!   - `classify`: from these to a kind of whirl. `severity`: from kind, reach and contact to a level. `tool_level`:
+//!     from
 //!     the stations' levels to the one warning.
-//! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact; `hysteresis`: how they rise and fall.
+//! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact; `hysteresis`: how they rise and
+//!   fall.
 //! - [`IncidentLog`] makes a table of all this over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] sum up what happens between two outputs.
 //! - [`settings`]: every threshold, with its reason.
@@ -29,7 +32,7 @@ mod whirl;
 
 pub use contact_statistics::{ContactStatistics, RootMeanSquare};
 pub use hysteresis::{Alarm, AlarmThresholds};
-pub use incidents::{Incident, IncidentKind, IncidentLog, IncidentPlace, Observation};
+pub use incidents::{Incident, IncidentKind, IncidentLocation, IncidentLog, Observation};
 pub use report::{Severity, ShockLevel, WhirlKind, WhirlReport, WhirlWarningLevel};
 pub use settings::{InputTrust, LevelThresholds, WhirlSettings};
 pub use shock::{ShockSettings, ShockWatch, Shocks};

@@ -17,8 +17,8 @@ pub(super) struct Orbit {
 }
 
 /// Takes the centre (and, with `detrend`, its straight drift) out of the points and measures the orbit. Unless it is
-/// smaller than `min_radius` or flatter than `min_axis_ratio`, the points are stretched so that the orbit becomes a unit
-/// circle, and the rates are measured.
+/// smaller than `min_radius` or flatter than `min_axis_ratio`, the points are stretched so that the orbit becomes a
+/// unit circle, and the rates are measured.
 ///
 /// The rate is dA/dt / sqrt(det C), with A the swept area and C the covariance: for any ellipse that is exactly its
 /// angular rate, since stretching an ellipse to a circle changes area and sqrt(det C) alike. White noise adds no area

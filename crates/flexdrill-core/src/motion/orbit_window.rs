@@ -19,15 +19,15 @@ const BLOCK: f64 = 0.016;
 /// Lanes of the reductions over blocks: fixed, so that the sums are the same on every machine.
 const LANES: usize = 8;
 
-/// Samples and blocks of one station. Single precision is a ten-millionth of a clearance and halves the memory that each
-/// evaluation walks through.
+/// Samples and blocks of one station. Single precision is a ten-millionth of a clearance and halves the memory that
+/// each evaluation walks through.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct OrbitWindow {
     samples_per_block: usize,
     /// The newest samples (y, z).
     samples: Ring<[f32; 2]>,
-    /// Of the same blocks: mean position, largest square of the distance from the gap's centre, largest force, mean part of
-    /// the time in contact.
+    /// Of the same blocks: mean position, largest square of the distance from the gap's centre, largest force, mean
+    /// part of the time in contact.
     position: Ring<[f32; 2]>,
     reach_square: Ring<f32>,
     force: Ring<f32>,

@@ -155,8 +155,8 @@ pub struct ShockLevel {
     pub layer: usize,
     /// Station index from the top.
     pub station: usize,
-    /// Impulse above the resting force (N s): the largest since the level was reached; of the last interval while all is
-    /// well.
+    /// Impulse above the resting force (N s): the largest since the level was reached; of the last interval while all
+    /// is well.
     pub impulse: f64,
     /// Model time at which the level was reached (s).
     pub since: f64,

@@ -19,8 +19,8 @@ pub struct WhirlSettings {
     /// whirl turns: the new direction leads once it fills more than half of the window. Shorter windows take chance for
     /// whirl: at 1.6 turns one broad-band motion in ten is misnamed, at 2 one in twenty.
     pub short_window_turns: f64,
-    /// Longest time between two evaluations of the same station (s); a tool faster than 40 r/min is looked at 30 times per
-    /// turn. Places take turns, so that the cost is spread over the samples.
+    /// Longest time between two evaluations of the same station (s); a tool faster than 40 r/min is looked at 30 times
+    /// per turn. Places take turns, so that the cost is spread over the samples.
     pub evaluation_interval: f64,
     /// Evaluations in a row that must agree before the kind changes.
     pub confirmations: u32,
@@ -41,8 +41,8 @@ pub struct WhirlSettings {
     /// scatters by about 0.2 around 0.
     pub steady_direction: f64,
     /// How much a motion without direction must repeat itself, after one turn of the tool, one and a half or two, to be
-    /// no chaos: correlation from which it counts as the same motion again. Periodic motion with noise 20 dB below it has
-    /// 0.99, broad-band motion scatters by 0.2 around 0.
+    /// no chaos: correlation from which it counts as the same motion again. Periodic motion with noise 20 dB below it
+    /// has 0.99, broad-band motion scatters by 0.2 around 0.
     pub min_repetition: f64,
     /// Part of a threshold by which a value must fall below it to count as left, 0 to 1.
     pub hysteresis: f64,
@@ -72,17 +72,17 @@ pub struct WhirlSettings {
     pub latch: f64,
 }
 
-/// Factors on the confidence, 0 to 1, when an input is not as it should be; fresh inputs have 1. The twin goes on with the
-/// last good value, so its motion is that of a tool driven so; whether the real one still is, is the less certain the
-/// older the value.
+/// Factors on the confidence, 0 to 1, when an input is not as it should be; fresh inputs have 1. The twin goes on with
+/// the last good value, so its motion is that of a tool driven so; whether the real one still is, is the less certain
+/// the older the value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct InputTrust {
     /// Late by a sample or two: hardly a doubt.
     pub slow: f64,
     /// The newest sample was refused, the one before is held: something is wrong, but it is recent.
     pub rejected: f64,
-    /// Held for seconds or already on the way to the safe value: with 0.6, only a motion of confidence 0.84 still raises
-    /// a level.
+    /// Held for seconds or already on the way to the safe value: with 0.6, only a motion of confidence 0.84 still
+    /// raises a level.
     pub stale: f64,
     /// The configured start values act.
     pub not_received: f64,

@@ -32,8 +32,9 @@ pub(super) struct StationSeverity {
 }
 
 impl StationSeverity {
-    /// Takes the evidence at model time `time` (s), `elapsed` (s) after the one before. `input_trust`, 0 to 1, is how far the
-    /// inputs behind the motion can be trusted: what they make doubtful raises no level, but does not end one either.
+    /// Takes the evidence at model time `time` (s), `elapsed` (s) after the one before. `input_trust`, 0 to 1, is how
+    /// far the inputs behind the motion can be trusted: what they make doubtful raises no level, but does not end one
+    /// either.
     pub(super) fn update(
         &mut self,
         time: f64,

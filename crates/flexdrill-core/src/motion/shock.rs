@@ -1,8 +1,8 @@
 //! Lateral shock: what a collision puts into the pipes beyond the load that they rest with.
 //!
-//! The measure is the impulse of the normal force within a short interval, less what the mean force of the last tenth of a second
-//! would have given in it: a pipe that lies on the wall is not struck, however heavy it is. Over the mass that takes part
-//! it is the jump of the lateral speed.
+//! The measure is the impulse of the normal force within a short interval, less what the mean force of the last tenth
+//! of a second would have given in it: a pipe that lies on the wall is not struck, however heavy it is. Over the mass
+//! that takes part it is the jump of the lateral speed.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,14 +12,14 @@ use super::{Severity, ShockLevel};
 /// How shocks are measured and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ShockSettings {
-    /// Interval over which the force is summed up (s). Longer than a collision, pi sqrt(m / k) = 1.7 ms of a link on the
-    /// default contact with its rebounds, and shorter than a quarter turn of a rolling whirl (0.1 s at 40 r/min).
+    /// Interval over which the force is summed up (s). Longer than a collision, pi sqrt(m / k) = 1.7 ms of a link on
+    /// the default contact with its rebounds, and shorter than a quarter turn of a rolling whirl (0.1 s at 40 r/min).
     pub interval: f64,
-    /// Time over which the resting force is averaged (s): several intervals, yet short enough to follow a pipe that is pressed
-    /// against the wall by a slow whirl.
+    /// Time over which the resting force is averaged (s): several intervals, yet short enough to follow a pipe that is
+    /// pressed against the wall by a slow whirl.
     pub mean_time: f64,
-    /// Impulses (N s) of the levels. 5.5 N s turn round a link of 2.8 kg that strikes with 1 m/s. The paper's largest force, 44
-    /// kN, as half a sine of 1.7 ms is 48 N s. Between them their geometric mean.
+    /// Impulses (N s) of the levels. 5.5 N s turn round a link of 2.8 kg that strikes with 1 m/s. The paper's largest
+    /// force, 44 kN, as half a sine of 1.7 ms is 48 N s. Between them their geometric mean.
     pub thresholds: AlarmThresholds,
 }
 
@@ -123,8 +123,8 @@ impl ShockWatch {
         }
     }
 
-    /// Takes the normal force (N) of a touching station over a step of `dt` (s); `layer` 0 is the pipe in the guide, 1 the
-    /// guide in the hole.
+    /// Takes the normal force (N) of a touching station over a step of `dt` (s); `layer` 0 is the pipe in the guide, 1
+    /// the guide in the hole.
     pub fn push(&mut self, layer: usize, station: usize, dt: f64, normal: f64) {
         self.layers[layer].push(station, normal * dt);
     }

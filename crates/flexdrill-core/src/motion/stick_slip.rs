@@ -17,10 +17,11 @@ const STUCK: f64 = 0.1;
 pub struct StickSlipSettings {
     /// s. Two turns at 40 r/min hold four periods of the joints' ripple.
     pub window: f64,
-    /// Mean speed of the drive below which the index is 0 (rad/s): near standstill the quotient means nothing. A quarter of 40
-    /// r/min.
+    /// Mean speed of the drive below which the index is 0 (rad/s): near standstill the quotient means nothing. A
+    /// quarter of 40 r/min.
     pub gate_speed: f64,
-    /// Index of the levels: 1 is a bit that just stops once per period, half of it and four fifths are on the way there.
+    /// Index of the levels: 1 is a bit that just stops once per period, half of it and four fifths are on the way
+    /// there.
     pub thresholds: AlarmThresholds,
 }
 
@@ -42,8 +43,8 @@ impl Default for StickSlipSettings {
 /// sticks.
 ///
 /// Extremes are those of the bit's speed less the drive's, so that a change of the set speed is no stick-slip; at a
-/// steady drive that is the same. A bit that stands still while the drive turns counts as 1 at least: its own speed would
-/// give nothing over nothing.
+/// steady drive that is the same. A bit that stands still while the drive turns counts as 1 at least: its own speed
+/// would give nothing over nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StickSlip {
     settings: StickSlipSettings,

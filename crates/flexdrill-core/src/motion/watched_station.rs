@@ -32,8 +32,8 @@ pub struct WatchedStation {
 }
 
 impl WatchedStation {
-    /// Whirl rate over rotary speed of rolling without slip, `-d / (D - d)`. The guide is not driven, so its rate is not
-    /// tied to the rotary speed.
+    /// Whirl rate over rotary speed of rolling without slip, `-d / (D - d)`. The guide is not driven, so its rate is
+    /// not tied to the rotary speed.
     pub fn rolling_ratio(&self) -> Option<f64> {
         (self.body == Body::Pipe && self.clearance > 0.0).then(|| -self.body_diameter / (2.0 * self.clearance))
     }

@@ -121,8 +121,8 @@ impl WhirlAnalysis {
         }
     }
 
-    /// How far the inputs behind the motion can be trusted, 0 to 1: lowers the confidence of what is reported from now on, and
-    /// what it makes doubtful raises no level.
+    /// How far the inputs behind the motion can be trusted, 0 to 1: lowers the confidence of what is reported from now
+    /// on, and what it makes doubtful raises no level.
     pub fn set_input_trust(&mut self, trust: f64) {
         let trust = trust.clamp(0.0, 1.0);
         if trust != self.input_trust {
@@ -208,8 +208,8 @@ impl WhirlAnalysis {
         self.watches.iter_mut().for_each(|watch| watch.severity.acknowledge());
     }
 
-    /// Forgets everything but the settings and the inputs' trust; the warnings' sequence goes on, so that listeners see the
-    /// change.
+    /// Forgets everything but the settings and the inputs' trust; the warnings' sequence goes on, so that listeners see
+    /// the change.
     pub fn reset(&mut self) {
         let sequence = self.level.sequence;
         self.restart_windows();

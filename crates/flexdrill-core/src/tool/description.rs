@@ -128,8 +128,8 @@ pub enum HingeAngle {
     /// 90 degrees: links that are in line at rest.
     #[default]
     Straight,
-    /// What it is where the undeflected tool lies in the well at spin zero: links that keep the well's bend and carry it along as they
-    /// turn.
+    /// What it is where the undeflected tool lies in the well at spin zero: links that keep the well's bend and carry
+    /// it along as they turn.
     AsBuilt,
 }
 

@@ -1,8 +1,9 @@
-//! The paper's case: Lin, Luo, Wang, Xiu, Li, "Research on the dynamic behavior of flexible drilling tools in ultrashort-radius radial
-//! horizontal wells", Scientific Reports 2024.
+//! The paper's case: Lin, Luo, Wang, Xiu, Li, "Research on the dynamic behavior of flexible drilling tools in
+//! ultrashort-radius radial horizontal wells", Scientific Reports 2024.
 //!
-//! The paper prints the well (R = 3.2 m, 0 to 90 degrees), five elements per link, eta = 0.235 and the bit's 118 mm. All else is
-//! assumed; the reasons stand beside the same numbers in `config/default.yaml`, and a test holds the two together.
+//! The paper prints the well (R = 3.2 m, 0 to 90 degrees), five elements per link, eta = 0.235 and the bit's 118 mm.
+//! All else is assumed; the reasons stand beside the same numbers in `config/default.yaml`, and a test holds the two
+//! together.
 
 use super::description::{
     BitDescription, Body, Direction, GapDescription, HingeAngle, JointDescription, JointKind, Location, Material,
@@ -93,8 +94,9 @@ impl ToolDescription {
         }
     }
 
-    /// The same tool of `links` links with `elements_per_link` elements each, all elements with the section of the first and all
-    /// stations with the contact diameter of the first: the lists per element and per station get the lengths they need.
+    /// The same tool of `links` links with `elements_per_link` elements each, all elements with the section of the
+    /// first and all stations with the contact diameter of the first: the lists per element and per station get the
+    /// lengths they need.
     #[must_use]
     pub fn with_mesh(mut self, links: usize, elements_per_link: usize) -> Self {
         let pipe = self.pipe_sections.first().copied().unwrap_or_default();
@@ -124,7 +126,8 @@ impl Material {
     };
 }
 
-/// Table 1 of the paper: u, v, w of both pipes held at the top, v, w of both at the bottom, where the text lets the end move axially.
+/// Table 1 of the paper: u, v, w of both pipes held at the top, v, w of both at the bottom, where the text lets the end
+/// move axially.
 fn table_1() -> Vec<Support> {
     use Direction::{U, V, W};
     let mut supports = Vec::new();

@@ -12,8 +12,8 @@ const MOST_STATIONS: usize = 20_000;
 type Checked = Result<(), ValidationError>;
 
 impl ToolDescription {
-    /// Checks every field: finite, of the right sign, lists as long as the mesh needs, locations on the tool, nothing that
-    /// contradicts something else. [`crate::twin::Simulation::new`] does it too.
+    /// Checks every field: finite, of the right sign, lists as long as the mesh needs, locations on the tool, nothing
+    /// that contradicts something else. [`crate::twin::Simulation::new`] does it too.
     ///
     /// # Errors
     /// The first field that does not hold, with its value, bound and unit.

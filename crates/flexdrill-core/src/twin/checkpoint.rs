@@ -5,9 +5,9 @@
 //! ```
 //!
 //! Integers are little-endian. The identity is the SHA-256 of the tool description and the settings as given to
-//! [`super::Simulation::new`], bit by bit: all that determines the motion from a state on. Left out are the limits on iterations and
-//! halvings, which say when a step is given up, so that a run that failed can go on with others. What may change while running (live
-//! parameters, slew limits, whirl thresholds) is part of the state and is restored.
+//! [`super::Simulation::new`], bit by bit: all that determines the motion from a state on. Left out are the limits on
+//! iterations and halvings, which say when a step is given up, so that a run that failed can go on with others. What
+//! may change while running (live parameters, slew limits, whirl thresholds) is part of the state and is restored.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -29,12 +29,14 @@ const HEADER: usize = MAGIC.len() + size_of::<u32>() + HASH;
 pub enum CheckpointError {
     /// Other bytes, or a checkpoint from before there were format numbers.
     #[error(
-        "checkpoint: these bytes are no checkpoint of flexdrill, or one older than format 1; start without it and save a new one"
+        "checkpoint: these bytes are no checkpoint of flexdrill, or one older than format 1; \
+         start without it and save a new one"
     )]
     NotACheckpoint,
     /// Of another format.
     #[error(
-        "checkpoint: format {found}, this build reads format {FORMAT}; restore it with the build that wrote it, or start without it"
+        "checkpoint: format {found}, this build reads format {FORMAT}; \
+         restore it with the build that wrote it, or start without it"
     )]
     Format {
         /// Format number found.
@@ -50,8 +52,8 @@ pub enum CheckpointError {
     },
     /// Of another tool, or of the same with other settings.
     #[error(
-        "checkpoint: saved with another tool or other settings ({found} instead of {expected}); restore it with the configuration it was \
-         saved with, or start without it"
+        "checkpoint: saved with another tool or other settings ({found} instead of {expected}); \
+         restore it with the configuration it was saved with, or start without it"
     )]
     OtherTool {
         /// First digits of the identity found.

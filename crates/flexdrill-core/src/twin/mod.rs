@@ -13,6 +13,7 @@ mod snapshot;
 mod validation;
 
 pub use checkpoint::CheckpointError;
+pub use readings::StationGeometry;
 pub use run::{Frame, Run, RunInputs};
 pub use schedule::{Due, Output, Schedule, Timeline};
 pub use settings::SimulationSettings;

@@ -1,10 +1,41 @@
-//! What can be read off a simulation at any time, by name. For the hot path fill a [`Snapshot`] instead: the functions here that give
-//! lists allocate them.
+//! What can be read off a simulation at any time, by name. Single values allocate nothing; [`Simulation::joints`],
+//! [`Simulation::contacts`] and [`Simulation::bit`] make a snapshot of their own, so fill a [`Snapshot`] instead where
+//! that matters.
+//!
+//! Stations count from 0 at the top. Where a station is not on the tool the answer is `None`.
+//!
+//! [`Snapshot`]: super::Snapshot
+
+use nalgebra::Vector3;
 
 use super::simulation::Simulation;
-use super::snapshot::{Bit, Contacts, Joints, Snapshot, SolverCounters};
+use super::snapshot::{Applied, Bit, Contacts, Joints, SolverCounters};
 use crate::dynamics::outcome::EnergyAudit;
+use crate::dynamics::state::translation;
+use crate::elements::gap::Touch;
+use crate::model::Station;
 use crate::tool::description::{Body, Direction};
+
+/// Where a station lies and what room it has; the same however the tool moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StationGeometry {
+    /// Along the path from the kick-off (m).
+    pub measured_depth: f64,
+    /// Of the bore, 0 is straight down (rad).
+    pub inclination: f64,
+    /// Point on the bore's axis (m, world).
+    pub position: [f64; 3],
+    /// The station frame's z in the world, unit.
+    pub low_side: [f64; 3],
+    /// Where the undeflected pipe lies beside the bore's axis, y and z (m): the link's chord against the arc.
+    pub offset: [f64; 2],
+    /// Number of the joint here, from the top.
+    pub joint: Option<usize>,
+    /// Clearance of the pipe in the guide, Eq. 27, and of the guide in the hole, Eq. 31 (m).
+    pub clearance: [f64; 2],
+    /// Outer diameter of the pipe where it meets the guide, and of the guide (m).
+    pub diameter: [f64; 2],
+}
 
 impl Simulation {
     /// Last station; the first is 0. Link `k` begins at station `k` times [`elements_per_link`].
@@ -29,7 +60,22 @@ impl Simulation {
         self.stepper().model().mass()
     }
 
-    /// Clearance at a station (m): of the pipe in the guide, Eq. 27, or of the guide in the hole, Eq. 31. `None` outside the tool.
+    /// Every station, top to bottom.
+    pub fn stations(&self) -> impl ExactSizeIterator<Item = StationGeometry> {
+        let model = self.stepper().model();
+        model.stations.iter().map(|at| StationGeometry {
+            measured_depth: at.depth,
+            inclination: at.inclination,
+            position: at.position.into(),
+            low_side: at.frame.column(2).into_owned().into(),
+            offset: at.offset.into(),
+            joint: at.joint,
+            clearance: [at.inner_clearance, model.outer_clearance],
+            diameter: [2.0 * at.pipe_radius, 2.0 * model.guide_radii[1]],
+        })
+    }
+
+    /// Clearance at a station (m): of the pipe in the guide, Eq. 27, or of the guide in the hole, Eq. 31.
     pub fn clearance(&self, station: usize, body: Body) -> Option<f64> {
         let model = self.stepper().model();
         let at = model.stations.get(station)?;
@@ -39,8 +85,49 @@ impl Simulation {
         })
     }
 
-    /// Displacement of a node (m or rad) in its own frame: that of its link for the pipe (at a joint: of the link above), that of the
-    /// station for the guide. `None` outside the tool.
+    /// Bend angle of the undeflected tool at a joint, from the top (rad).
+    pub fn bend_as_built(&self, joint: usize) -> Option<f64> {
+        let joint = self.stepper().model().joints.get(joint)?;
+        Some((joint.upper.column(0).dot(&joint.lower.column(0))).acos())
+    }
+
+    /// Normal force now (N): of the guide on the pipe, or of the wall on the guide; 0 without contact.
+    pub fn normal_force(&self, station: usize, body: Body) -> Option<f64> {
+        Some(self.touch(station, body)?.map_or(0.0, |touch| touch.normal))
+    }
+
+    /// Whether a gap is closed now: pipe on guide, or guide on wall. Its force can be 0 then, as the bodies part.
+    pub fn in_contact(&self, station: usize, body: Body) -> Option<bool> {
+        Some(self.touch(station, body)?.is_some())
+    }
+
+    fn touch(&self, station: usize, body: Body) -> Option<Option<&Touch>> {
+        let forces = &self.stepper().newton().assembler;
+        let touches = match body {
+            Body::Pipe => &forces.inner,
+            Body::Guide => &forces.outer,
+        };
+        touches.get(station).map(Option::as_ref)
+    }
+
+    /// Distance of a pipe's axis from the bore's, horizontally and towards the low side (m).
+    pub fn lateral(&self, station: usize, body: Body) -> Option<[f64; 2]> {
+        let at = self.stepper().model().stations.get(station)?;
+        let moved = in_bore(at, body, &self.stepper().state().q);
+        Some(match body {
+            Body::Pipe => [moved.y + at.offset.x, moved.z + at.offset.y],
+            Body::Guide => [moved.y, moved.z],
+        })
+    }
+
+    /// Acceleration of a node in the station's frame: down the hole, horizontally, towards the low side (m/s2).
+    pub fn acceleration_in_bore(&self, station: usize, body: Body) -> Option<[f64; 3]> {
+        let at = self.stepper().model().stations.get(station)?;
+        Some(in_bore(at, body, &self.stepper().state().a).into())
+    }
+
+    /// Displacement of a node (m or rad) in its own frame: that of its link for the pipe (at a joint: of the link
+    /// above), that of the station for the guide.
     pub fn displacement(&self, station: usize, body: Body, direction: Direction) -> Option<f64> {
         Some(self.stepper().state().q[self.unknown(station, body, direction)?])
     }
@@ -60,7 +147,8 @@ impl Simulation {
         self.new_snapshot().joints
     }
 
-    /// Gaps and forces of both contact layers now, peaks and root mean squares since the last snapshot that ended an interval.
+    /// Gaps and forces of both contact layers now, peaks and root mean squares since the last snapshot that ended an
+    /// interval.
     pub fn contacts(&self) -> Contacts {
         self.new_snapshot().contacts
     }
@@ -75,10 +163,23 @@ impl Simulation {
         self.stepper().audit()
     }
 
+    /// Drive and load as they act now, after slew limits.
+    pub fn applied(&self) -> &Applied {
+        &self.applied
+    }
+
     /// What the solver has done since the start.
     pub fn solver_counters(&self) -> SolverCounters {
-        let Snapshot { solver, .. } = self.new_snapshot();
-        solver
+        let counters = self.stepper().counters();
+        SolverCounters {
+            newton_iterations: counters.iterations,
+            last_iterations: self.observer.last_iterations(),
+            rejected: counters.rejected,
+            halved_steps: counters.halved_steps,
+            deepest_halving: counters.deepest_halving,
+            failed_steps: counters.failed_steps,
+            last_rejection: counters.last_rejection,
+        }
     }
 
     fn unknown(&self, station: usize, body: Body, direction: Direction) -> Option<usize> {
@@ -88,5 +189,13 @@ impl Simulation {
             Body::Guide => at.guide,
         };
         Some(node + direction as usize)
+    }
+}
+
+/// What `values` hold for a node's translation, in the station's frame.
+fn in_bore(at: &Station, body: Body, values: &[f64]) -> Vector3<f64> {
+    match body {
+        Body::Pipe => at.pipe_to_station * translation(values, at.pipe_above),
+        Body::Guide => translation(values, at.guide),
     }
 }

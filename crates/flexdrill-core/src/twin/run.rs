@@ -86,8 +86,8 @@ impl Run {
         }
     }
 
-    /// Lets `applied` act from the next step on. Its `step` is not looked at: it acts now. The values are those of a checked
-    /// configuration and are not checked again; coefficients that are no numbers make the next step fail.
+    /// Lets `applied` act from the next step on. Its `step` is not looked at: it acts now. The values are those of a
+    /// checked configuration and are not checked again; coefficients that are no numbers make the next step fail.
     pub fn apply(&mut self, applied: &RunInputs) {
         if applied.reset {
             self.before_reset += self.simulation.step();

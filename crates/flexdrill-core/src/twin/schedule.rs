@@ -41,8 +41,8 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// A schedule for rates in Hz; a rate of 0 switches an output off. Rates are rounded to a whole number of steps, and
-    /// none is higher than one message per step.
+    /// A schedule for rates in Hz; a rate of 0 switches an output off. Rates are rounded to a whole number of steps,
+    /// and none is higher than one message per step.
     pub fn new(time_step: f64, rate: impl Fn(Output) -> f64) -> Self {
         Self {
             every: Output::ALL.map(|output| match rate(output) {

@@ -38,8 +38,8 @@ pub struct SimulationSettings {
 }
 
 impl Default for SimulationSettings {
-    /// Those of `config/default.yaml`, where the reasons stand; a test holds the two together. It starts without speed and without
-    /// weight on bit.
+    /// Those of `config/default.yaml`, where the reasons stand; a test holds the two together. It starts without speed
+    /// and without weight on bit.
     fn default() -> Self {
         Self {
             time_step: 0.5e-3,

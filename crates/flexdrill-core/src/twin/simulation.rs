@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Snapshot;
 use super::checkpoint::{self, CheckpointError, Identity};
 use super::observe::Observer;
 use super::settings::SimulationSettings;
 use super::snapshot::Applied;
 use super::validation::validate_slew;
-use super::{Snapshot, SolverCounters};
 use crate::dynamics::newton::Tolerances;
 use crate::dynamics::outcome::StepOutcome;
 use crate::dynamics::phases::{Clock, Phase, PhaseTimes};
@@ -42,8 +42,8 @@ pub struct Simulation {
     settings: SimulationSettings,
     stepper: Stepper,
     start: State,
-    observer: Observer,
-    applied: Applied,
+    pub(super) observer: Observer,
+    pub(super) applied: Applied,
     step: u64,
     identity: Identity,
 }
@@ -60,7 +60,8 @@ struct Saved<S, O> {
 }
 
 impl Simulation {
-    /// Builds the tool and, with [`ToolDescription::static_start`], brings it to rest under gravity and the initial weight on bit.
+    /// Builds the tool and, with [`ToolDescription::static_start`], brings it to rest under gravity and the initial
+    /// weight on bit.
     ///
     /// # Errors
     /// When description or settings cannot be computed with, or the static start does not converge.
@@ -117,8 +118,8 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Advances by one step of [`SimulationSettings::time_step`] towards `inputs`, as fast as the slew limits allow. When the step
-    /// fails, nothing changes but the counters.
+    /// Advances by one step of [`SimulationSettings::time_step`] towards `inputs`, as fast as the slew limits allow.
+    /// When the step fails, nothing changes but the counters.
     pub fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
         let dt = self.settings.time_step;
         let speed = self.applied.rotary_speed;
@@ -158,8 +159,8 @@ impl Simulation {
         out
     }
 
-    /// Fills `out` without allocating. With `end_interval`, the peak and root-mean-square statistics of the contact forces and
-    /// bit accelerations start anew.
+    /// Fills `out` without allocating. With `end_interval`, the peak and root-mean-square statistics of the contact
+    /// forces and bit accelerations start anew.
     pub fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
         self.stepper.stopwatch().start();
         self.fill(out);
@@ -174,16 +175,7 @@ impl Simulation {
         out.time = self.time();
         out.applied = self.applied;
         out.energy = *self.stepper.audit();
-        let counters = self.stepper.counters();
-        out.solver = SolverCounters {
-            newton_iterations: counters.iterations,
-            last_iterations: self.observer.last_iterations(),
-            rejected: counters.rejected,
-            halved_steps: counters.halved_steps,
-            deepest_halving: counters.deepest_halving,
-            failed_steps: counters.failed_steps,
-            last_rejection: counters.last_rejection,
-        };
+        out.solver = self.solver_counters();
         self.observer.fill(&self.stepper, &self.applied, out);
     }
 
@@ -272,7 +264,8 @@ impl Simulation {
     /// Back to the state after the start, live parameters and slew limits as they are.
     pub fn reset(&mut self) {
         let inputs = self.settings.initial_inputs;
-        // A tool that starts from rest stands still and is then run up; one that is given as moving is driven at its speed at once.
+        // A tool that starts from rest stands still and is then run up; one that is given as moving is driven at its
+        // speed at once.
         let rotary_speed = if self.stepper.model().description.static_start {
             0.0
         } else {
@@ -304,8 +297,8 @@ impl Simulation {
         checkpoint::write(&self.identity, &saved)
     }
 
-    /// Goes on from a checkpoint of the same tool and settings: state, live parameters, slew limits and whirl thresholds are then those
-    /// at which it was made. On an error nothing has changed.
+    /// Goes on from a checkpoint of the same tool and settings: state, live parameters, slew limits and whirl
+    /// thresholds are then those at which it was made. On an error nothing has changed.
     ///
     /// # Errors
     /// When the bytes are no checkpoint, of another format, damaged, or of another tool or other settings.
@@ -324,8 +317,8 @@ impl Simulation {
     }
 }
 
-/// `from` moved towards `target` by at most `most`, and not at all if that is negative or NaN. From a target that is NaN comes NaN, so
-/// that the step reports it.
+/// `from` moved towards `target` by at most `most`, and not at all if that is negative or NaN. From a target that is
+/// NaN comes NaN, so that the step reports it.
 fn towards(from: f64, target: f64, most: f64) -> f64 {
     let most = most.max(0.0);
     from + (target - from).clamp(-most, most)

@@ -59,8 +59,8 @@ pub struct Joints {
     pub inclination: Vec<f64>,
     /// Angle between the axes of the two links (rad, >= 0).
     pub bend_angle: Vec<f64>,
-    /// Toolface of the bend: direction in which the lower link turns away, from the high side (rad, clockwise looking down the hole,
-    /// -pi..pi).
+    /// Toolface of the bend: direction in which the lower link turns away, from the high side (rad, clockwise looking
+    /// down the hole, -pi..pi).
     pub bend_direction: Vec<f64>,
     /// rad.
     pub limit_angle: Vec<f64>,

@@ -3,8 +3,8 @@
 use super::{NUDGES, StepErrorFailure};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::outcome::StepOutcome;
-use flexdrill_core::dynamics::state::translation;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::Simulation;
 use flexdrill_core::units::n_to_kn;
 
@@ -72,7 +72,8 @@ impl Record {
         let per_interval = (motion.interval / step).round() as usize;
         let intervals = (motion.duration / motion.interval).round() as usize;
         let whirl_every = (WHIRL_EVERY / motion.interval).round().max(1.0) as usize;
-        let gaps = 2 * simulation.stepper().model().stations.len();
+        let stations = simulation.last_station() + 1;
+        let gaps = 2 * stations;
         let mut record = Self {
             rms: vec![0.0; gaps],
             ..Self::default()
@@ -90,10 +91,10 @@ impl Record {
                 if let StepOutcome::Failed(failure) = simulation.advance(&inputs) {
                     return Err(StepErrorFailure::Step { step, failure });
                 }
-                let gaps = &simulation.stepper().newton().assembler;
-                for (k, touch) in gaps.inner.iter().chain(&gaps.outer).enumerate() {
-                    let normal = touch.map_or(0.0, |touch| touch.normal);
-                    mean[k] += normal / per_interval as f64;
+                for (k, mean) in mean.iter_mut().enumerate() {
+                    let body = if k < stations { Body::Pipe } else { Body::Guide };
+                    let normal = simulation.normal_force(k % stations, body).unwrap_or(f64::NAN);
+                    *mean += normal / per_interval as f64;
                     if !run_up {
                         record.rms[k] += normal * normal / (per_interval * (intervals - intervals / 4)) as f64;
                     }
@@ -109,9 +110,9 @@ impl Record {
         }
         record.whirl_ratio = ratios.0 / f64::from(ratios.1.max(1));
         record.rms.iter_mut().for_each(|square| *square = square.sqrt());
-        record.energy_error = simulation.stepper().audit().error;
-        record.drive_work = simulation.stepper().audit().drive;
-        record.iterations = simulation.stepper().counters().iterations as f64 / motion.duration;
+        record.energy_error = simulation.energy().error;
+        record.drive_work = simulation.energy().drive;
+        record.iterations = simulation.solver_counters().newton_iterations as f64 / motion.duration;
         Ok(record)
     }
 
@@ -125,14 +126,15 @@ impl Record {
     }
 
     fn sample(&mut self, simulation: &Simulation, forces: Vec<f64>) {
-        let (model, state) = (simulation.stepper().model(), simulation.stepper().state());
-        let bit = model.stations[model.last()].pipe_above;
-        self.bit_speed.push(state.v[bit + 3]);
-        let joints = model
-            .joint_stations
-            .iter()
-            .map(|&s| translation(&state.q, model.stations[s].pipe_above));
-        self.positions.push(joints.flat_map(|at| [at.y, at.z]).collect());
+        let bit = simulation.velocity(simulation.last_station(), Body::Pipe, Direction::Psi);
+        self.bit_speed.push(bit.unwrap_or(f64::NAN));
+        let position = |s: usize, direction| simulation.displacement(s, Body::Pipe, direction).unwrap_or(f64::NAN);
+        let joints = simulation.joint_stations().iter();
+        self.positions.push(
+            joints
+                .flat_map(|&s| [position(s, Direction::V), position(s, Direction::W)])
+                .collect(),
+        );
         self.forces.push(forces);
     }
 

@@ -1,4 +1,4 @@
-//! The door that every sample from the rig comes through.
+//! Input conditioning: every sample from the rig is taken or refused here, ages, and becomes a target.
 
 use super::{InputKind, InputRule, InputRules, InputState, Rejection, RejectionReason};
 use crate::inputs::Inputs;
@@ -7,7 +7,7 @@ use crate::inputs::Inputs;
 ///
 /// Times are seconds on any one clock that the caller chooses; they need not begin at 0.
 #[derive(Debug, Clone)]
-pub struct Door {
+pub struct Conditioner {
     rules: InputRules,
     channels: [Channel; 2],
 }
@@ -43,8 +43,8 @@ struct Sample {
     time: f64,
 }
 
-impl Door {
-    /// A door that has seen no sample.
+impl Conditioner {
+    /// Without any sample yet.
     pub fn new(rules: InputRules) -> Self {
         Self {
             rules,
@@ -137,8 +137,8 @@ impl Door {
         self.channels[kind.index()].last_rejection
     }
 
-    /// What is asked for at `now` (s), in the unit of the samples: the last good value, held while it ages, then brought
-    /// to the safe value; the start value before the first sample. Always within the limits.
+    /// What is asked for at `now` (s), in the unit of the samples: the last good value, held while it ages, then
+    /// brought to the safe value; the start value before the first sample. Always within the limits.
     pub fn target(&self, kind: InputKind, now: f64) -> f64 {
         let rule = self.rule(kind);
         let value = match self.channels[kind.index()].good {
