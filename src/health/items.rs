@@ -53,8 +53,7 @@ pub(super) fn solver(status: &TwinStatus, previous: &TwinStatus, failure: Option
     let (level, message) = if let Some(failure) = failure {
         let message = format!(
             "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
-            failure.time,
-            words::step_failure(&failure)
+            failure.time, failure
         );
         (DiagnosticStatus::ERROR, message)
     } else if steps > 0 && halved * 20 > steps {
