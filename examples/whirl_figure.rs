@@ -123,7 +123,7 @@ fn run(case: &Case) -> anyhow::Result<Orbit> {
     ensure!(steps / every > window, "the run is shorter than the window");
     for number in 1..=steps {
         if let StepOutcome::Failed(failure) = simulation.advance(&inputs) {
-            bail!("a step failed: {failure:?}");
+            bail!("a step failed: {failure}");
         }
         if number % every == 0 && (steps - number) / every < window {
             simulation.snapshot(&mut snapshot, false);

@@ -52,7 +52,7 @@ impl Diagnostics {
         let previous = self.previous.replace(status.clone()).unwrap_or_else(|| status.clone());
         let judgements = [
             pacing(status, &previous),
-            solver(status, &previous, evidence),
+            solver(status, &previous, evidence.failure),
             inputs(status),
             evidence.motion.whirl(),
             evidence.motion.stick_slip(),

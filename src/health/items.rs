@@ -1,9 +1,9 @@
 //! The items of `/diagnostics` that are judged from the status: pacing, solver, inputs, recording.
 
-use super::diagnostics::Evidence;
 use super::judgement::Judgement;
 use crate::messages::diagnostic_msgs::DiagnosticStatus;
 use crate::messages::{TwinStatus, words};
+use flexdrill_core::dynamics::outcome::StepFailure;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
 
@@ -47,14 +47,13 @@ pub(super) fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
     }
 }
 
-pub(super) fn solver(status: &TwinStatus, previous: &TwinStatus, evidence: &Evidence) -> Judgement {
+pub(super) fn solver(status: &TwinStatus, previous: &TwinStatus, failure: Option<StepFailure>) -> Judgement {
     let halved = status.halved_steps.saturating_sub(previous.halved_steps);
     let steps = status.step_count.saturating_sub(previous.step_count);
-    let (level, message) = if let Some(failure) = evidence.failure {
+    let (level, message) = if let Some(failure) = failure {
         let message = format!(
             "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
-            failure.time,
-            words::step_failure(&failure)
+            failure.time, failure
         );
         (DiagnosticStatus::ERROR, message)
     } else if steps > 0 && halved * 20 > steps {

@@ -49,11 +49,7 @@ impl MotionEvidence {
         Judgement {
             name: "whirl",
             level: level(warning.severity),
-            message: format!(
-                "{}, {} whirl",
-                word(warning.severity),
-                words::whirl_kind(warning.kind as u8)
-            ),
+            message: format!("{}, {} whirl", warning.severity, words::whirl_kind(warning.kind as u8)),
             values: vec![
                 ("whirl_ratio", format!("{:.3}", warning.whirl_ratio)),
                 ("clearance_ratio", format!("{:.3}", warning.clearance_ratio)),
@@ -72,8 +68,7 @@ impl MotionEvidence {
             level: level(self.stick_slip),
             message: format!(
                 "{}, index {:.2} of the bit's speed, 1 is a bit that just stops",
-                word(self.stick_slip),
-                self.stick_slip_index
+                self.stick_slip, self.stick_slip_index
             ),
             values: vec![
                 ("stick_slip_index", format!("{:.3}", self.stick_slip_index)),
@@ -98,7 +93,7 @@ impl MotionEvidence {
         Judgement {
             name: "shock",
             level: level(shock.severity),
-            message: format!("{}, {:.1} N s{place}", word(shock.severity), shock.impulse),
+            message: format!("{}, {:.1} N s{place}", shock.severity, shock.impulse),
             values: vec![
                 ("impulse", format!("{:.2} N s", shock.impulse)),
                 ("layer", layer.to_owned()),
@@ -119,10 +114,6 @@ fn level(severity: Severity) -> u8 {
         Severity::Watch | Severity::Warning => DiagnosticStatus::WARN,
         Severity::Critical => DiagnosticStatus::ERROR,
     }
-}
-
-fn word(severity: Severity) -> &'static str {
-    words::severity(severity as u8)
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use std::sync::atomic::Ordering;
 
 use super::step_times::StepTimes;
 use crate::bag::RecordingThread;
+use crate::messages::TwinStatus;
 use crate::messages::std_msgs::Header;
-use crate::messages::{TwinStatus, words};
 use flexdrill_core::dynamics::outcome::{EnergyAudit, StepFailure};
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::inputs::{Conditioner, InputKind};
@@ -167,7 +167,7 @@ impl StatusKeeper {
             halved_steps: self.counters.halved_steps,
             failed_steps: self.counters.failed_steps.max(self.failures),
             last_rejection_cause: rejection
-                .map(|rejection| words::cause(rejection.cause).to_owned())
+                .map(|rejection| rejection.cause.name().to_owned())
                 .unwrap_or_default(),
             last_rejection_station: u32::try_from(station).unwrap_or(u32::MAX),
             last_rejection_measured_depth: self.depths.get(station).copied().unwrap_or_default(),

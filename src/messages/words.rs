@@ -1,21 +1,18 @@
-//! Codes of the messages and causes of failures as words for a person, the same in messages, tables and dashboards.
+//! Codes of the messages as words for a person, the same in messages, tables and dashboards. What the core has a name
+//! for has that name.
 
-use super::{TwinStatus, WhirlState, WhirlWarning};
-use flexdrill_core::dynamics::outcome::{FailureCause, StepFailure};
+use super::{TwinStatus, WhirlState};
+use flexdrill_core::motion::Severity;
 use flexdrill_core::tool::Body;
 
 /// What stands for a code that this version does not know.
 const UNKNOWN: &str = "?";
 
-/// A warning's severity: `ok`, `watch`, `warning` or `critical`. All messages share the codes of [`WhirlWarning`].
+/// A warning's severity: `ok`, `watch`, `warning` or `critical`. All messages share the codes.
 pub fn severity(code: u8) -> &'static str {
-    match code {
-        WhirlWarning::OK => "ok",
-        WhirlWarning::WATCH => "watch",
-        WhirlWarning::WARNING => "warning",
-        WhirlWarning::CRITICAL => "critical",
-        _ => UNKNOWN,
-    }
+    let known = [Severity::Ok, Severity::Watch, Severity::Warning, Severity::Critical];
+    let found = known.into_iter().find(|severity| *severity as u8 == code);
+    found.map_or(UNKNOWN, Severity::name)
 }
 
 /// The kind of whirl in one word.
@@ -29,7 +26,7 @@ pub fn whirl_kind(code: u8) -> &'static str {
     }
 }
 
-/// `pipe` or `guide`.
+/// `pipe` or `guide`, where there is no room for the whole name.
 pub fn body(body: Body) -> &'static str {
     match body {
         Body::Pipe => "pipe",
@@ -52,32 +49,4 @@ pub fn input_state(code: u8) -> &'static str {
         TwinStatus::INPUT_REJECTED => "rejected",
         _ => UNKNOWN,
     }
-}
-
-/// The cause of a rejected step as `TwinStatus.last_rejection_cause` says it.
-pub fn cause(cause: FailureCause) -> &'static str {
-    match cause {
-        FailureCause::NotConverged => "not_converged",
-        FailureCause::NotFinite => "not_finite",
-        FailureCause::Singular => "singular",
-        FailureCause::OutOfRange => "out_of_range",
-    }
-}
-
-/// Cause and place of a failed step: `Newton's iterations did not converge (station 42 of the guide pipe, ...)`.
-pub fn step_failure(failure: &StepFailure) -> String {
-    let cause = match failure.cause {
-        FailureCause::NotConverged => "Newton's iterations did not converge",
-        FailureCause::NotFinite => "a number is not finite",
-        FailureCause::Singular => "the linear system is singular",
-        FailureCause::OutOfRange => "a displacement or tilt left the model's range",
-    };
-    let body = match failure.body {
-        Body::Pipe => "pipe",
-        Body::Guide => "guide pipe",
-    };
-    format!(
-        "{cause} (station {} of the {body}, worst value {:.3e}, sub-step {:.3e} s)",
-        failure.station, failure.value, failure.step
-    )
 }

@@ -110,7 +110,7 @@ pub enum VerifyError {
         source: BuildError,
     },
     /// A step failed.
-    #[error("verification case {case}: step failed: {failure:?}")]
+    #[error("verification case {case}: step failed: {failure}")]
     Step {
         /// Name of the verification case.
         case: &'static str,

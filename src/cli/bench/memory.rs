@@ -27,7 +27,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         }
     })?;
     if let Some(failure) = measured.failure {
-        anyhow::bail!("a step failed at model time {} s: {failure:?}", failure.time);
+        anyhow::bail!("a step failed at model time {} s: {failure}", failure.time);
     }
     let (Some(&first), Some(&largest)) = (samples.first(), samples.iter().max()) else {
         anyhow::bail!("--duration {duration}: at least {EVERY} s, the time between two samples");

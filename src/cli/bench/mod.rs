@@ -18,7 +18,6 @@ use clap::{Args, ValueEnum};
 use self::document::Table;
 use self::measure::{Load, Measured, percentiles};
 use super::WrongUse;
-use crate::messages::words;
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
@@ -220,11 +219,7 @@ fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
         let measured = measure::run(&config, load, duration, |_| {})?;
         print!("{}", figures_of(&measured).text());
         if let Some(failure) = measured.failure {
-            anyhow::bail!(
-                "a step failed at model time {:.4} s: {}",
-                failure.time,
-                words::step_failure(&failure)
-            );
+            anyhow::bail!("a step failed at model time {:.4} s: {}", failure.time, failure);
         }
     }
     Ok(())

@@ -3,7 +3,6 @@
 use super::cases::CASES;
 use super::document::Table;
 use super::measure::{Load, Measured, percentiles, run};
-use crate::messages::words;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::phases::Phase;
 
@@ -46,9 +45,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         if let Some(failure) = measured.failure {
             failures.push_str(&format!(
                 "\nFailed: {}, at model time {:.3} s: {}.\n",
-                case.name,
-                failure.time,
-                words::step_failure(&failure)
+                case.name, failure.time, failure
             ));
         }
     }

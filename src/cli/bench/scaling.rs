@@ -27,7 +27,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         eprintln!("{links} links: {duration} s of model time");
         let measured = run(&config.with_links(links)?, load, duration, |_| {})?;
         if let Some(failure) = measured.failure {
-            anyhow::bail!("{links} links: a step failed: {failure:?}");
+            anyhow::bail!("{links} links: a step failed: {failure}");
         }
         let mean = measured.step_time();
         let [p50, p99, ..] = percentiles(&measured.step_times);

@@ -7,7 +7,7 @@ use anyhow::Context as _;
 use serde::Serialize;
 
 use crate::messages::words;
-use flexdrill_core::motion::{Incident, IncidentKind, Severity};
+use flexdrill_core::motion::{Incident, IncidentKind, Severity, WhirlKind};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
 
 /// Most rows that are printed; the JSON has all.
@@ -42,10 +42,10 @@ impl Joints {
 
 fn kind(kind: IncidentKind) -> &'static str {
     match kind {
-        IncidentKind::ForwardWhirl => "forward whirl",
-        IncidentKind::BackwardWhirl => "backward whirl",
+        IncidentKind::ForwardWhirl => WhirlKind::Forward.name(),
+        IncidentKind::BackwardWhirl => WhirlKind::Backward.name(),
         IncidentKind::RollingWhirl => "rolling whirl",
-        IncidentKind::ChaoticWhirl => "chaotic whirl",
+        IncidentKind::ChaoticWhirl => WhirlKind::Chaotic.name(),
         IncidentKind::StickSlip => "stick-slip",
         IncidentKind::Shock => "shock",
     }
@@ -53,7 +53,7 @@ fn kind(kind: IncidentKind) -> &'static str {
 
 /// The severity's word; in capitals when something is to be done.
 fn severity(severity: Severity) -> String {
-    let word = words::severity(severity as u8);
+    let word = severity.name();
     if severity >= Severity::Warning {
         word.to_uppercase()
     } else {

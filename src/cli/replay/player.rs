@@ -9,7 +9,6 @@ use crate::bag::{BagError, Recorder, Recording, Topic};
 use crate::messages::CdrError;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
-use crate::messages::words;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::outcome::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Run, RunInputs, Simulation};
@@ -143,7 +142,7 @@ impl Player {
                 "step {} at model time {:.4} s failed: {}; what was replayed until then is in the bag",
                 self.step(),
                 failure.time,
-                words::step_failure(&failure)
+                failure
             );
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::copy;
 use crate::messages::std_msgs::Header;
-use crate::messages::{WhirlState, WhirlWarning, words};
+use crate::messages::{WhirlState, WhirlWarning};
 use flexdrill_core::motion::{Severity, WhirlKind, WhirlWarningLevel};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
@@ -69,10 +69,10 @@ fn sentence(warning: &WhirlWarning, level: &WhirlWarningLevel, body: Body) -> St
     if level.severity == Severity::Ok {
         return "No whirl that needs attention.".to_owned();
     }
-    let severity = capitalized(words::severity(warning.severity));
+    let severity = capitalized(level.severity.name());
     let kind = match level.kind {
-        WhirlKind::None => "large lateral motion".to_owned(),
-        kind => format!("{} whirl", words::whirl_kind(kind as u8)),
+        WhirlKind::None => "large lateral motion",
+        kind => kind.name(),
     };
     let body = match body {
         Body::Pipe => "flexible pipe",

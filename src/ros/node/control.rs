@@ -47,7 +47,7 @@ pub enum ControlError {
     /// There is no state yet.
     #[error("the model is still being built")]
     Starting,
-    /// The solver is in a step that takes longer than [`CHECKPOINT_WAIT`].
+    /// The solver is in a step that takes too long.
     #[error("the solver did not answer in time")]
     NoAnswer,
     /// The state could not be put into bytes.

@@ -17,7 +17,7 @@ use crate::messages::diagnostic_msgs::DiagnosticArray;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
-use crate::messages::{CdrError, Message, TwinStatus, to_cdr, words};
+use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::twin::RunInputs;
@@ -176,7 +176,7 @@ impl Publisher {
                 tracing::error!(
                     "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
                     failure.time,
-                    words::step_failure(&failure)
+                    failure
                 );
                 self.status.fail(failure);
                 self.evidence.failure = Some(failure);

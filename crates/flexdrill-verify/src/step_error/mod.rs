@@ -33,7 +33,7 @@ pub enum StepErrorFailure {
     #[error("comparison of steps: {0}")]
     Build(#[from] BuildError),
     /// A step failed.
-    #[error("comparison of steps, at {step} s: a step failed: {failure:?}")]
+    #[error("comparison of steps, at {step} s: a step failed: {failure}")]
     Step {
         /// Time step of the run (s).
         step: f64,
