@@ -4,14 +4,15 @@
 //! joins it to the rig.
 //!
 //! # Layout
-//! Each folder may use those below it and, on its own line, those to its right; never those above.
+//! What touches the world. Each folder may use those below it; never those above.
 //!
 //! - [`cli`]: the subcommands, a file or folder each.
-//! - [`ros`]: the only module that knows ros2-client.
-//! - [`health`]: status and diagnostics. [`bag`]: the only module that knows MCAP. [`field_log`]: CSV rig logs.
+//! - [`ros`]: the only module that knows ros2-client. [`bag`]: the only one that knows MCAP. [`field_log`]: CSV rig
+//!   logs. [`health`]: what is said of the node's state.
 //! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
-//! - The crates: `flexdrill-paper`, `flexdrill-verify`, [`flexdrill_realtime`], [`flexdrill_config`],
-//!   [`flexdrill_core`].
+//!
+//! Below them, as crates of their own: `flexdrill-paper`, `flexdrill-verify`, [`flexdrill_config`],
+//! [`flexdrill_realtime`] and [`flexdrill_core`], the mechanics. `docs/architecture.md` draws the house.
 
 pub mod bag;
 pub mod cli;

@@ -1,6 +1,6 @@
 //! The law of a joint, for one joint (`T` = f64) or eight at a time: rotational rows of Eq. 13 and the limit stop.
 //!
-//! `M` is a number as kept in memory ([`Number::Memory`]): what a residual linearises is kept until the tangent needs it.
+//! `M` is a number as kept in memory (`Number::Memory`): what a residual linearises is kept until the tangent needs it.
 
 use std::f64::consts::FRAC_PI_2;
 

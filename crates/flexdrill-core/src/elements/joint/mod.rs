@@ -8,7 +8,7 @@
 //! | rows | the rotational rows of Eq. 13, zero where they hold |
 //! | bend angle | between the two links' axes at the joint (rad, >= 0) |
 //!
-//! The law is written once, in [`law`], over [`Number`](crate::simd::number::Number): for one joint, and for eight at a time in
+//! The law is written once, in [`law`], over `Number`: for one joint, and for eight at a time in
 //! [`group`].
 
 pub mod group;
