@@ -4,6 +4,8 @@ pub mod assembly;
 pub mod conditions;
 pub mod contacts;
 pub mod energy;
+#[cfg(test)]
+mod motion_tangent;
 pub mod joints;
 pub mod newton;
 pub mod outcome;
