@@ -228,7 +228,7 @@ fn tool_run(rpm: f64, inner_friction: f64) -> Vec<Watched> {
         .map(|entry| {
             let station = reports[0].station[entry];
             let path: Vec<[f64; 2]> = positions.iter().map(|at| at[station]).collect();
-            let clearance = simulation.stepper().model().stations[station].inner_clearance;
+            let clearance = simulation.clearance(station, Body::Pipe).unwrap();
             let (winding, area) = wound(&path);
             Watched {
                 forward: part(entry, WhirlKind::Forward),

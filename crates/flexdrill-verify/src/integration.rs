@@ -2,6 +2,7 @@
 
 use super::bench::Bench;
 use super::{Row, VerifyError};
+use flexdrill_core::tool::section::SectionProperties;
 use flexdrill_core::tool::{Body, Direction};
 
 const CASE: &str = "free_vibration";
@@ -32,11 +33,13 @@ pub(super) fn free_vibration() -> Result<Vec<Row>, VerifyError> {
 
     // 1e5 periods at five steps each: nothing of the energy may go or come.
     let mut bench = with_step(0.01)?;
-    let beam = bench.simulation.stepper().model().pipe[0].beam;
+    let tool = bench.config.tool();
+    let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
+    let length = bench.config.well.length() / (tool.links * tool.elements_per_link) as f64;
     let speed = bench.velocity(bench.last(), Body::Pipe, Direction::W);
     // First frequency of the cantilever, 3.516 sqrt(EI / rho A L^4) / 2 pi.
-    let frequency = 3.516 / std::f64::consts::TAU * (beam.section.bending / beam.section.mass).sqrt();
-    let start = 0.5 * beam.section.mass * beam.length * speed * speed;
+    let frequency = 3.516 / std::f64::consts::TAU * (section.bending / section.mass).sqrt();
+    let start = 0.5 * section.mass * length * speed * speed;
     let before = bench.simulation.energy().stored;
     bench.run_to(1e5 / frequency)?;
     let drift = bench.simulation.energy().stored - before;

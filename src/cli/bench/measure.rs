@@ -6,11 +6,11 @@ use super::super::progress::Progress;
 use super::figures::Figures;
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
+use flexdrill_core::dynamics::SolverKind;
 use flexdrill_core::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
-use flexdrill_core::dynamics::stepper::{Counters, SolverKind};
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::twin::{Simulation, Snapshot};
+use flexdrill_core::twin::{Simulation, Snapshot, SolverCounters};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_realtime::monotonic;
 
@@ -46,7 +46,7 @@ pub(super) struct Measured {
     pub step_times: Histogram<u64>,
     pub frame_times: Histogram<u64>,
     pub phases: PhaseTimes,
-    pub counters: Counters,
+    pub counters: SolverCounters,
     pub most_iterations: u32,
     pub energy: EnergyAudit,
     pub figures: Figures,
@@ -68,7 +68,7 @@ impl Measured {
 
     /// Newton iterations per step.
     pub(super) fn iterations(&self) -> f64 {
-        self.counters.iterations as f64 / self.steps.max(1) as f64
+        self.counters.newton_iterations as f64 / self.steps.max(1) as f64
     }
 
     /// Energy error over the drive's work (%).
@@ -170,7 +170,7 @@ pub(super) fn run(
     progress.done();
     Ok(Measured {
         start,
-        unknowns: simulation.stepper().model().degrees_of_freedom(),
+        unknowns: simulation.degrees_of_freedom(),
         time_step,
         steps,
         wall: seconds(busy),
@@ -178,9 +178,9 @@ pub(super) fn run(
         step_times,
         frame_times,
         phases: simulation.phase_times(),
-        counters: *simulation.stepper().counters(),
+        counters: simulation.solver_counters(),
         most_iterations,
-        energy: *simulation.stepper().audit(),
+        energy: *simulation.energy(),
         figures,
         last,
         failure,

@@ -88,7 +88,7 @@ impl Player {
 
     /// Stations of the joints, top to bottom.
     pub(super) fn joint_stations(&self) -> &[usize] {
-        &self.run.simulation().stepper().model().joint_stations
+        self.run.simulation().joint_stations()
     }
 
     /// What drives the run now.
