@@ -13,7 +13,7 @@
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use flexdrill_config::Config;
-use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::dynamics::phases::Phase;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::Simulation;

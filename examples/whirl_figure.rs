@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use anyhow::{Context as _, bail, ensure};
 use flexdrill_config::{Config, ConfigError};
-use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::motion::WhirlKind;
 use flexdrill_core::tool::Body;

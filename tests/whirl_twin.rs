@@ -12,7 +12,7 @@ use flexdrill::messages::fill;
 use flexdrill::messages::outputs::schedule;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill_config::Config;
-use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::InputState;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::motion::{Severity, WhirlKind};

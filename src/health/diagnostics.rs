@@ -4,7 +4,7 @@ use super::items::{inputs, pacing, recording, solver};
 use super::motion::MotionEvidence;
 use crate::messages::TwinStatus;
 use crate::messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
-use flexdrill_core::dynamics::outcome::StepFailure;
+use flexdrill_core::dynamics::StepFailure;
 
 /// Judgements in a row that must be better before an item's level falls.
 const CALM: u32 = 3;
@@ -88,7 +88,7 @@ impl Diagnostics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_core::dynamics::outcome::FailureCause;
+    use flexdrill_core::dynamics::FailureCause;
     use flexdrill_core::tool::Body;
 
     fn running() -> TwinStatus {

@@ -3,7 +3,7 @@
 use super::judgement::Judgement;
 use crate::messages::diagnostic_msgs::DiagnosticStatus;
 use crate::messages::{TwinStatus, words};
-use flexdrill_core::dynamics::outcome::StepFailure;
+use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
-use flexdrill_core::dynamics::scheme::Scheme;
+use flexdrill_core::dynamics::Scheme;
 
 /// Time scheme with Newton-Raphson, Eq. 36 to 44.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 //! A wrong configuration is refused with file, line, key, value, bound and unit.
 
 use flexdrill_config::{Config, ConfigError, TimeScheme};
-use flexdrill_core::dynamics::scheme::Scheme;
+use flexdrill_core::dynamics::Scheme;
 use proptest::prelude::*;
 
 const GOOD: &str = "\

@@ -60,10 +60,10 @@
 //! - A step that cannot be taken changes nothing but counters and says why. Nothing panics on a number.
 
 pub mod dynamics;
-pub mod elements;
+mod elements;
 pub mod inputs;
 mod linear;
-pub mod model;
+mod model;
 pub mod motion;
 mod simd;
 pub mod tool;
@@ -72,3 +72,9 @@ pub mod units;
 pub mod validation;
 
 pub use simd::Instructions;
+
+#[cfg(test)]
+extern crate self as flexdrill_core;
+#[cfg(test)]
+#[path = "../tests/support/mod.rs"]
+mod support;

@@ -2,8 +2,8 @@
 
 mod support;
 
-use flexdrill_core::dynamics::outcome::{FailureCause, StepOutcome};
-use flexdrill_core::dynamics::state::State;
+use flexdrill_core::dynamics::State;
+use flexdrill_core::dynamics::{FailureCause, StepOutcome};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{Simulation, SimulationSettings};
 use flexdrill_core::units::rpm_to_rad_per_s;
@@ -50,14 +50,14 @@ fn drive(max_iterations: u32, max_halvings: u32, steps: u32) -> Seen {
     let (mut simulation, inputs) = hard(max_iterations, max_halvings);
     let mut seen = Seen::default();
     for _ in 0..steps {
-        let counters = *simulation.stepper().counters();
-        let state = bits(simulation.stepper().state());
-        let audit = *simulation.stepper().audit();
+        let counters = simulation.solver_counters();
+        let state = bits(simulation.state());
+        let audit = *simulation.energy();
         let outcome = simulation.advance(&inputs);
-        let stepper = simulation.stepper();
-        let made = stepper.counters().iterations - counters.iterations;
-        let rejected = stepper.counters().rejected - counters.rejected;
-        assert!(made <= stepper.most_iterations(), "{made} iterations");
+        let after = simulation.solver_counters();
+        let made = after.newton_iterations - counters.newton_iterations;
+        let rejected = after.rejected - counters.rejected;
+        assert!(made <= simulation.most_iterations(), "{made} iterations");
         seen.iterations = seen.iterations.max(made);
         seen.rejected = seen.rejected.max(rejected);
         match outcome {
@@ -68,9 +68,9 @@ fn drive(max_iterations: u32, max_halvings: u32, steps: u32) -> Seen {
             }
             StepOutcome::Failed(failure) => {
                 assert_eq!(failure.cause, FailureCause::NotConverged);
-                assert_eq!(bits(stepper.state()), state);
-                assert_eq!(stepper.audit(), &audit);
-                assert_eq!(stepper.counters().failed_steps, counters.failed_steps + 1);
+                assert_eq!(bits(simulation.state()), state);
+                assert_eq!(simulation.energy(), &audit);
+                assert_eq!(after.failed_steps, counters.failed_steps + 1);
                 seen.failed += 1;
             }
         }
@@ -81,8 +81,8 @@ fn drive(max_iterations: u32, max_halvings: u32, steps: u32) -> Seen {
 #[test]
 fn the_bound_is_most_attempts_times_most_iterations() {
     // 3 x 2^(n-1) + n - 1 attempts of n = 6 halvings, proved over all ways through a step beside `most_attempts`.
-    assert_eq!(hard(15, 6).0.stepper().most_iterations(), 101 * 15);
-    assert_eq!(hard(4, 0).0.stepper().most_iterations(), 4);
+    assert_eq!(hard(15, 6).0.most_iterations(), 101 * 15);
+    assert_eq!(hard(4, 0).0.most_iterations(), 4);
 }
 
 #[test]
@@ -117,5 +117,5 @@ fn a_failed_step_goes_on_once_it_can() {
     after.restore(&copy).unwrap();
     assert!(matches!(free.advance(&inputs), StepOutcome::Advanced { .. }));
     assert!(matches!(after.advance(&inputs), StepOutcome::Advanced { .. }));
-    assert_eq!(bits(free.stepper().state()), bits(after.stepper().state()));
+    assert_eq!(bits(free.state()), bits(after.state()));
 }

@@ -7,7 +7,7 @@ mod support;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlReport, WhirlSettings};
 use flexdrill_core::tool::{Body, ToolDescription};
@@ -79,7 +79,7 @@ fn steps_that_are_halved_or_fail_allocate_nothing() {
         .filter(|_| matches!(simulation.advance(&inputs), StepOutcome::Failed(_)))
         .count();
     assert_eq!(ALLOCATIONS.get() - before, 0);
-    assert!(failed > 0 && simulation.stepper().counters().halved_steps > 0);
+    assert!(failed > 0 && simulation.solver_counters().halved_steps > 0);
 }
 
 #[test]

@@ -185,7 +185,8 @@ fn nan_and_infinity_are_refused_in_every_field() {
 /// Each error as it reads.
 #[test]
 fn errors_name_field_value_bound_and_unit() {
-    let cases: [(fn(&mut ToolDescription), &str); 14] = [
+    type Change = fn(&mut ToolDescription);
+    let cases: [(Change, &str); 14] = [
         (|t| t.links = 0, "links = 0: must be 1 to 20000"),
         (
             |t| t.links = 19_999,

@@ -3,7 +3,7 @@
 use super::error::{ENERGY_LIMIT, ITERATION_LIMIT, PaperError};
 use super::record::{Record, Recorder};
 use flexdrill_config::Config;
-use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::Simulation;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::figures::DrawError;
 use flexdrill_config::ConfigError;
-use flexdrill_core::dynamics::outcome::StepFailure;
+use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::twin::BuildError;
 use flexdrill_verify::VerifyError;
 

@@ -1,6 +1,6 @@
 //! What the figures need of a run: sampled series at every station, and sums over every step.
 
-use flexdrill_core::dynamics::outcome::EnergyAudit;
+use flexdrill_core::dynamics::EnergyAudit;
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{Simulation, SolverCounters, StationGeometry};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};

@@ -6,7 +6,7 @@ use std::sync::mpsc::SyncSender;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use flexdrill_core::dynamics::outcome::StepFailure;
+use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::dynamics::phases::{self, PhaseTimes};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::motion::WhirlSettings;

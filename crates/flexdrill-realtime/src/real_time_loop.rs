@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use crate::Pacer;
-use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::twin::{Frame, Run, RunInputs};
 use rtrb::PushError;
 

@@ -15,7 +15,7 @@ pub use bench::Bench;
 pub use hinged_beam::HingedBeam;
 
 use flexdrill_config::ConfigError;
-use flexdrill_core::dynamics::outcome::StepFailure;
+use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::twin::BuildError;
 
 /// One compared number.

@@ -10,7 +10,7 @@ use crate::messages::CdrError;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use flexdrill_config::Config;
-use flexdrill_core::dynamics::outcome::{StepFailure, StepOutcome};
+use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Run, RunInputs, Simulation};
 use flexdrill_realtime::monotonic;
 

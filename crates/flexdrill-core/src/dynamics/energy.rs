@@ -10,7 +10,9 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::contacts::{inner_forces, outer_force};
 use crate::dynamics::outcome::EnergyAudit;
-use crate::dynamics::state::{State, joint_rotations};
+use crate::dynamics::state::State;
+#[cfg(test)]
+use crate::dynamics::state::joint_rotations;
 use crate::elements::element_form::{add, load};
 use crate::model::Model;
 use crate::simd::Kernel;
@@ -175,9 +177,9 @@ impl Kernel for ElementEnergies<'_> {
         for (element, &tension) in model.elements.list.iter().zip(tensions) {
             let forms = &model.elements.kinds[element.kind as usize];
             let nodes = [element.nodes[0] as usize, element.nodes[1] as usize];
-            let q = forms.to_own::<V>([load(&state.q, nodes[0]), load(&state.q, nodes[1])]);
-            let v = forms.to_own::<V>([load(&state.v, nodes[0]), load(&state.v, nodes[1])]);
-            let a = forms.to_own::<V>([load(&state.a, nodes[0]), load(&state.a, nodes[1])]);
+            let q = forms.to_element::<V>([load(&state.q, nodes[0]), load(&state.q, nodes[1])]);
+            let v = forms.to_element::<V>([load(&state.v, nodes[0]), load(&state.v, nodes[1])]);
+            let a = forms.to_element::<V>([load(&state.a, nodes[0]), load(&state.a, nodes[1])]);
             let bent = forms.stiffness.product(q);
             let moving = forms.mass.product(v);
             let stiff = forms.stiffness.product(v);
@@ -191,8 +193,8 @@ impl Kernel for ElementEnergies<'_> {
                 geometric = geometric.plus_product(q[n], stretched[n]);
                 kinetic = kinetic.plus_product(v[n], moving[n]);
             }
-            let inert = forms.from_own(forms.mass.product(a));
-            let (stretched, damped) = (forms.from_own(stretched), forms.from_own(damped));
+            let inert = forms.to_nodes(forms.mass.product(a));
+            let (stretched, damped) = (forms.to_nodes(stretched), forms.to_nodes(damped));
             for n in 0..2 {
                 add(&mut point.geometric, nodes[n], stretched[n]);
                 add(&mut point.damping, nodes[n], damped[n]);
@@ -231,7 +233,7 @@ fn mean_work(moved: &[f64], before: &[f64], after: &[f64]) -> f64 {
 
 impl EnergyAudit {
     /// Adds the step of size `h` from `(s0, e0)` to `(s1, e1)`. `room` holds a value per unknown and is overwritten.
-    pub fn add_step(
+    pub(crate) fn add_step(
         &mut self,
         model: &Model,
         h: f64,
@@ -272,6 +274,7 @@ impl EnergyAudit {
     }
 }
 
+#[cfg(test)]
 /// Largest violation of the joint rows, Eq. 12 and 13: translations (m) and rotations (-).
 pub fn joint_violation(model: &Model, state: &State) -> (f64, f64) {
     let mut worst = (0.0_f64, 0.0_f64);

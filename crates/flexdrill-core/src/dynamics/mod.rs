@@ -1,26 +1,26 @@
 //! The whole tool in motion: residual, tangent, scheme, Newton, steps, statics, energy.
 
-pub mod assembly;
-pub mod conditions;
-pub mod contacts;
-pub mod energy;
-#[cfg(test)]
-mod motion_tangent;
-pub mod joints;
-pub mod newton;
-pub mod outcome;
+pub(crate) mod assembly;
+pub(crate) mod conditions;
+pub(crate) mod contacts;
+pub(crate) mod energy;
+pub(crate) mod joints;
+pub(crate) mod newton;
+pub(crate) mod outcome;
 pub mod phases;
-pub mod residual;
-pub mod scheme;
-pub mod state;
-pub mod statics;
-pub mod stepper;
-pub mod sub_steps;
-pub mod tangent;
+pub(crate) mod residual;
+pub(crate) mod scheme;
+pub(crate) mod state;
+pub(crate) mod statics;
+pub(crate) mod stepper;
+pub(crate) mod sub_steps;
+pub(crate) mod tangent;
 
-pub use newton::Tolerances;
 pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
 pub use scheme::Scheme;
 pub use state::State;
 pub use statics::StartError;
-pub use stepper::{Counters, Forcing, SolverKind, Stepper, StepperCheckpoint};
+pub use stepper::SolverKind;
+
+#[cfg(test)]
+mod tests;

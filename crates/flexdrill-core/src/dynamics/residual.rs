@@ -103,10 +103,10 @@ impl Kernel for ElementForces<'_> {
                 a[n] = load::<V>(&state.a, nodes[n]).plus_product(alpha, v);
                 stretched[n] = q.times(V::splat(tension));
             }
-            let mut force = forms.stiffness.product(forms.to_own(x));
-            forms.mass.add_product(forms.to_own(a), &mut force);
-            forms.geometric.add_product(forms.to_own(stretched), &mut force);
-            let force = forms.from_own(force);
+            let mut force = forms.stiffness.product(forms.to_element(x));
+            forms.mass.add_product(forms.to_element(a), &mut force);
+            forms.geometric.add_product(forms.to_element(stretched), &mut force);
+            let force = forms.to_nodes(force);
             add(residual, nodes[0], force[0]);
             add(residual, nodes[1], force[1]);
         }

@@ -83,7 +83,7 @@ impl Scheme {
     }
 
     /// Tangent factors for step `h` (s), Eq. 37 and 41.
-    pub fn factors(&self, h: f64) -> TangentFactors {
+    pub(crate) fn factors(&self, h: f64) -> TangentFactors {
         TangentFactors {
             stiffness: 1.0,
             damping: self.gamma / (self.beta * h),
@@ -93,7 +93,7 @@ impl Scheme {
 
     /// Velocity and acceleration of unknown `i` after a step `h` from `from` in which it moved by `dq`: what Eq. 38
     /// puts into brackets.
-    pub fn rates(&self, h: f64, dq: f64, from: &State, i: usize) -> (f64, f64) {
+    pub(crate) fn rates(&self, h: f64, dq: f64, from: &State, i: usize) -> (f64, f64) {
         let (v0, l0) = (from.v[i], self.lagged(h, from)(from.lagged[i], from.a[i]));
         let l1 = (dq - h * v0) / (self.beta * h * h) - (0.5 / self.beta - 1.0) * l0;
         let v1 = v0 + h * ((1.0 - self.gamma) * l0 + self.gamma * l1);
@@ -117,7 +117,7 @@ impl Scheme {
 
     /// Predicts `to` a step `h` on, unknown by unknown, with the lagged acceleration fading to zero (Eq. 44 begins at
     /// `from`), by the formulas of Eq. 38.
-    pub fn predict(&self, h: f64, from: &State, to: &mut State) {
+    pub(crate) fn predict(&self, h: f64, from: &State, to: &mut State) {
         let n = from.q.len();
         let (q0, v0, a0, kept) = (&from.q[..n], &from.v[..n], &from.a[..n], &from.lagged[..n]);
         let (q, v, a) = (&mut to.q[..n], &mut to.v[..n], &mut to.a[..n]);
@@ -133,7 +133,7 @@ impl Scheme {
     }
 
     /// Sets the lagged accelerations of a converged step `h`.
-    pub fn finish(&self, h: f64, from: &State, to: &mut State) {
+    pub(crate) fn finish(&self, h: f64, from: &State, to: &mut State) {
         to.scheme_step = h;
         if !self.lags() {
             to.lagged.copy_from_slice(&to.a);

@@ -35,7 +35,7 @@ pub struct State {
 
 impl State {
     /// At rest and undeflected.
-    pub fn at_rest(model: &Model) -> Self {
+    pub(crate) fn at_rest(model: &Model) -> Self {
         let n = model.unknowns();
         Self {
             q: vec![0.0; n],
@@ -51,7 +51,7 @@ impl State {
     }
 
     /// Takes another state's values without allocating.
-    pub fn copy_from(&mut self, other: &Self) {
+    pub(crate) fn copy_from(&mut self, other: &Self) {
         self.q.copy_from_slice(&other.q);
         self.v.copy_from_slice(&other.v);
         self.a.copy_from_slice(&other.a);
@@ -65,12 +65,12 @@ impl State {
 
     /// Sets the axial forces for a step of size `h` (s) to those that the velocities of `from` lead to at its end. Forces of the step before
     /// would make the step one of first order.
-    pub fn predict_axial(&mut self, model: &Model, from: &Self, h: f64) {
+    pub(crate) fn predict_axial(&mut self, model: &Model, from: &Self, h: f64) {
         self.set_axial(model, |unknown| from.q[unknown] + h * from.v[unknown]);
     }
 
     /// Sets the axial forces to those of the displacements.
-    pub fn update_axial(&mut self, model: &Model) {
+    pub(crate) fn update_axial(&mut self, model: &Model) {
         let q = std::mem::take(&mut self.q);
         self.set_axial(model, |unknown| q[unknown]);
         self.q = q;

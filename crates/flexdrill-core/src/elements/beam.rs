@@ -172,10 +172,10 @@ mod tests {
         let h = 0.25;
         let at = |by: f64| shape_functions(xi + by * h, l);
         let mut out = [[0.0; 12]; 4];
-        for i in 0..4 {
-            for j in 0..12 {
+        for (i, row) in out.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
                 let f = |by: f64| at(by)[i][j];
-                out[i][j] = match order {
+                *entry = match order {
                     1 => (8.0 * (f(1.0) - f(-1.0)) - (f(2.0) - f(-2.0))) / (12.0 * h * l),
                     _ => (f(1.0) - 2.0 * f(0.0) + f(-1.0)) / (h * h * l * l),
                 };

@@ -140,7 +140,7 @@ impl LaneTurn {
 
     /// Forces in the chord's frame to the nodes' frames.
     #[inline(always)]
-    pub fn from_chord<V: Vector>(&self, f: Both<V>) -> Both<V> {
+    pub fn to_nodes<V: Vector>(&self, f: Both<V>) -> Both<V> {
         let mut out = f;
         for ((out, direct), crossed) in out.iter_mut().zip(&self.direct).zip(&self.crossed) {
             let across = out.across();
@@ -197,7 +197,7 @@ impl ElementForms {
 
     /// Values to the element's frame.
     #[inline(always)]
-    pub fn to_own<V: Vector>(&self, x: Both<V>) -> Both<V> {
+    pub fn to_element<V: Vector>(&self, x: Both<V>) -> Both<V> {
         match &self.turn {
             Some(turn) => turn.to_chord(x),
             None => x,
@@ -206,9 +206,9 @@ impl ElementForms {
 
     /// Forces from the element's frame.
     #[inline(always)]
-    pub fn from_own<V: Vector>(&self, f: Both<V>) -> Both<V> {
+    pub fn to_nodes<V: Vector>(&self, f: Both<V>) -> Both<V> {
         match &self.turn {
-            Some(turn) => turn.from_chord(f),
+            Some(turn) => turn.to_nodes(f),
             None => f,
         }
     }
@@ -325,7 +325,7 @@ mod tests {
             out
         };
         let turned = turn.to_chord([Portable::load(&x[0]), Portable::load(&x[1])]);
-        let back = stored(turn.from_chord(turned));
+        let back = stored(turn.to_nodes(turned));
         let turned = stored(turned);
         for n in 0..2 {
             for k in [0, 3] {

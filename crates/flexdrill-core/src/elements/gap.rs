@@ -68,6 +68,7 @@ pub struct TangentTerm {
 
 impl Touch {
     /// Force of the gap on the inner body, normal part.
+    #[cfg(test)]
     pub fn normal_force(&self) -> GapVector {
         self.on_normal() * -self.normal
     }

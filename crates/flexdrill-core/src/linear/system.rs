@@ -203,17 +203,6 @@ impl BlockSystem {
         }
     }
 
-    /// Takes a station's diagonal block from `diagonal`.
-    #[inline]
-    pub fn restore(&mut self, station: usize, diagonal: &Diagonal) {
-        let slot = self.layout.slots[station];
-        if self.layout.large[station] {
-            self.diagonal.joint[slot] = diagonal.joint[slot];
-        } else {
-            self.diagonal.plain[slot] = diagonal.plain[slot];
-        }
-    }
-
     /// Adds a matrix, given by columns, times `factor` at (`first`, `first`) of a station's diagonal block.
     #[inline]
     pub fn add_scaled<const N: usize>(&mut self, station: usize, first: usize, matrix: &[[f64; N]; N], factor: f64) {

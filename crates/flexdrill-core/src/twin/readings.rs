@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 
 use super::simulation::Simulation;
 use super::snapshot::{Applied, Bit, Contacts, Joints, SolverCounters};
+use crate::dynamics::State;
 use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::translation;
 use crate::elements::gap::Touch;
@@ -166,6 +167,16 @@ impl Simulation {
     /// Drive and load as they act now, after slew limits.
     pub fn applied(&self) -> &Applied {
         &self.applied
+    }
+
+    /// Displacements, multipliers, velocities and accelerations of all unknowns, in the numbering of the model: to compare states with.
+    pub fn state(&self) -> &State {
+        self.stepper().state()
+    }
+
+    /// Most Newton iterations that one [`Simulation::advance`] can make, whatever happens.
+    pub fn most_iterations(&self) -> u64 {
+        self.stepper().most_iterations()
     }
 
     /// What the solver has done since the start.

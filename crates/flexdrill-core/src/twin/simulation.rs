@@ -256,8 +256,7 @@ impl Simulation {
         &self.settings
     }
 
-    /// The mechanics, to look at.
-    pub fn stepper(&self) -> &Stepper {
+    pub(crate) fn stepper(&self) -> &Stepper {
         &self.stepper
     }
 

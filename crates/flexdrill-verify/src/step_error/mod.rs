@@ -14,7 +14,7 @@ pub use record::{Motion, Record};
 pub use statistics::{Figure, Profile, Statistics};
 
 use flexdrill_config::{Config, ConfigError};
-use flexdrill_core::dynamics::outcome::StepFailure;
+use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::twin::BuildError;
 
 /// The step is compared with itself over this.

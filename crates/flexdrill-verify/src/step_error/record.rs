@@ -2,7 +2,7 @@
 
 use super::{NUDGES, StepErrorFailure};
 use flexdrill_config::Config;
-use flexdrill_core::dynamics::outcome::StepOutcome;
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::Simulation;

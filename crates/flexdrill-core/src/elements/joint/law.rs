@@ -274,30 +274,33 @@ pub fn moments<T: Number>(
     }
 }
 
+/// A shut stop with the rates at which it was evaluated.
+pub type ShutStop<'a, M> = (&'a Stop<M>, &'a [M; 6]);
+
 /// Derivative of [`moments`] in the rotations, times `stiffness`, and in their rates, times `damping`: by columns. `stop` comes with the
 /// rates at which it was evaluated.
 #[inline(always)]
 pub fn tangent<T: Number>(
     rows: &[RotationFunction<T::Memory>],
     lambda: &[T],
-    stop: Option<(&Stop<T::Memory>, &[T::Memory; 6])>,
+    stop: Option<ShutStop<'_, T::Memory>>,
     stiffness: f64,
     damping: f64,
     out: &mut [[T::Memory; 6]; 6],
 ) {
     let (stiff, damped) = (T::of(stiffness), T::of(damping));
-    for l in 0..6 {
-        for k in 0..6 {
+    for (l, column) in out.iter_mut().enumerate() {
+        for (k, entry) in column.iter_mut().enumerate() {
             let mut sum = T::load(&rows[0].hessian[l][k]) * (lambda[0] * stiff);
             for (row, &lambda) in rows.iter().zip(lambda).skip(1) {
                 sum = sum + T::load(&row.hessian[l][k]) * (lambda * stiff);
             }
-            sum.store(&mut out[l][k]);
+            sum.store(entry);
         }
     }
     let Some((stop, rate)) = stop else { return };
     let (by_angle, by_rate, moment) = (T::load(&stop.stiffness), T::load(&stop.damping), T::load(&stop.moment));
-    for l in 0..6 {
+    for (l, column) in out.iter_mut().enumerate() {
         // d M / d q_l = k (1 + c angle') g_l + k over c (H rate)_l, and with the rates k over c g_l.
         let mut turned = T::of(0.0);
         for (hessian, rate) in stop.hessian[l].iter().zip(rate) {
@@ -305,9 +308,9 @@ pub fn tangent<T: Number>(
         }
         let gradient = T::load(&stop.gradient[l]);
         let slope = (by_angle * gradient + by_rate * turned) * stiff + by_rate * gradient * damped;
-        for k in 0..6 {
+        for (k, entry) in column.iter_mut().enumerate() {
             let curved = T::load(&stop.hessian[l][k]) * moment * stiff;
-            (T::load(&out[l][k]) + T::load(&stop.gradient[k]) * slope + curved).store(&mut out[l][k]);
+            (T::load(entry) + T::load(&stop.gradient[k]) * slope + curved).store(entry);
         }
     }
 }

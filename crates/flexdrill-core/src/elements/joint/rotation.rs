@@ -1,6 +1,7 @@
 //! Directions carried by a pipe node: R_node = E_link exp([0, phi_y, phi_z]x) Rx(psi), with the spin psi unbounded and the
 //! tilts phi in the link frame that does not spin.
 
+#[cfg(test)]
 use nalgebra::Vector3;
 
 use super::jet::Jet;
@@ -180,7 +181,8 @@ pub fn transverse_axis<T: Number>((sin, cos): (T, T), y: T, z: T) -> DirectionJe
 }
 
 /// The value of a direction.
-pub fn value(direction: &DirectionJet<f64>) -> Vector3<f64> {
+#[cfg(test)]
+fn value(direction: &DirectionJet<f64>) -> Vector3<f64> {
     Vector3::new(direction[0].value, direction[1].value, direction[2].value)
 }
 

@@ -1,18 +1,16 @@
 //! The assembled tangent is the derivative of the assembled residual, for every term: stiffness, damping and mass, with
 //! contacts, friction, stops and all joint kinds at work.
 
-mod support;
-
-use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::assembly::Assembler;
-use flexdrill_core::dynamics::newton::Tolerances;
-use flexdrill_core::dynamics::scheme::Scheme;
-use flexdrill_core::dynamics::state::State;
-use flexdrill_core::dynamics::stepper::{SolverKind, Stepper};
-use flexdrill_core::dynamics::tangent::TangentFactors;
-use flexdrill_core::model::Model;
-use flexdrill_core::tool::{JointKind, ToolDescription, WobPath};
-use support::{Random, small};
+use crate::Instructions;
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::newton::Tolerances;
+use crate::dynamics::scheme::Scheme;
+use crate::dynamics::state::State;
+use crate::dynamics::stepper::{SolverKind, Stepper};
+use crate::dynamics::tangent::TangentFactors;
+use crate::model::Model;
+use crate::support::{Random, small};
+use crate::tool::{JointKind, ToolDescription, WobPath};
 
 /// A state with every term active: tilts, spins, contacts in both layers, stops, multipliers, axial forces.
 /// Deterministic.

@@ -1,15 +1,13 @@
 //! Balances that any mechanics must keep: reactions carry the loads, masses add up, the static start is at rest, joints
 //! stay closed.
 
-mod support;
-
-use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::energy::joint_violation;
-use flexdrill_core::dynamics::newton::Tolerances;
-use flexdrill_core::dynamics::scheme::Scheme;
-use flexdrill_core::dynamics::state::State;
-use flexdrill_core::dynamics::stepper::{SolverKind, Stepper};
-use flexdrill_core::tool::ToolDescription;
+use crate::Instructions;
+use crate::dynamics::energy::joint_violation;
+use crate::dynamics::newton::Tolerances;
+use crate::dynamics::scheme::Scheme;
+use crate::dynamics::state::State;
+use crate::dynamics::stepper::{SolverKind, Stepper};
+use crate::tool::ToolDescription;
 use nalgebra::Vector3;
 
 fn stepper(tolerances: Tolerances, solver: SolverKind) -> Stepper {
@@ -59,7 +57,7 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
 
 #[test]
 fn nothing_moves_after_the_static_start() {
-    let mut simulation = support::simulation(&ToolDescription::paper());
+    let mut simulation = crate::support::simulation(&ToolDescription::paper());
     let inputs = simulation.settings().initial_inputs;
     let start: State = simulation.stepper().state().clone();
     for _ in 0..400 {
@@ -91,7 +89,7 @@ fn joints_stay_closed_and_both_solvers_agree() {
     let (mut inner, mut outer) = (0, 0);
     for step in 0..1200 {
         let next = f64::min(speed + 0.01, 4.0);
-        let forcing = flexdrill_core::dynamics::stepper::Forcing {
+        let forcing = crate::dynamics::stepper::Forcing {
             rotary_speed: [speed, next],
             weight_on_bit: [10e3; 2],
         };

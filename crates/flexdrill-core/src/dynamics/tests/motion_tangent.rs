@@ -63,7 +63,10 @@ fn check(tool: &ToolDescription) {
     assembler.residual(model, &state, &conditions);
     assert!(assembler.inner.iter().flatten().count() > 2, "no inner contact to test");
     assert!(assembler.outer.iter().flatten().count() > 2, "no outer contact to test");
-    assert!(assembler.joints.iter().any(|joint| joint.moment > 0.0), "no shut stop to test");
+    assert!(
+        assembler.joints.iter().any(|joint| joint.moment > 0.0),
+        "no shut stop to test"
+    );
     assembler.linearise(model, &state, factors);
 
     let mut seed = 7;
@@ -95,7 +98,11 @@ fn check(tool: &ToolDescription) {
         assembler.residual
     };
     // The largest displacement moves by 1e-9 m: contact and stop laws are far from their ends, and forces of 1e6 N round to 1e-10 of them.
-    let by = 1e-9 / x.iter().enumerate().filter(|&(i, _)| !multiplier(i)).fold(0.0_f64, |m, (_, x)| m.max(x.abs()));
+    let by = 1e-9
+        / x.iter()
+            .enumerate()
+            .filter(|&(i, _)| !multiplier(i))
+            .fold(0.0_f64, |m, (_, x)| m.max(x.abs()));
     let (high, low) = (residual(by), residual(-by));
     for (unknown, rhs) in rhs.iter().enumerate() {
         let difference = (high[unknown] - low[unknown]) / (2.0 * by);
@@ -106,7 +113,10 @@ fn check(tool: &ToolDescription) {
             "row {unknown}: {difference} against {rhs}, rounding {rounding:e}"
         );
     }
-    assert!(10.0 * 1e6 * f64::EPSILON / by < 0.05, "the quotient must tell something");
+    assert!(
+        10.0 * 1e6 * f64::EPSILON / by < 0.05,
+        "the quotient must tell something"
+    );
 }
 
 fn small() -> ToolDescription {
