@@ -130,6 +130,7 @@ impl Boundary {
         );
     }
 
+    /// Table 1 as supports.
     pub(super) fn describe(&self, mesh: &Mesh) -> Vec<Support> {
         use Direction::{U, V, W};
         let mut supports = Vec::new();

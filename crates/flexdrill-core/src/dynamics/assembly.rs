@@ -1,7 +1,8 @@
 //! Residual and tangent of the whole tool, Eq. 35 and 40 to 42: what is assembled and where it is kept.
 //!
-//! The residual is internal + inertia + constraint forces - external forces, so Newton solves K_T dq = -R. Evaluating it
-//! ([`residual`](Assembler::residual)) keeps the linearised joints and contacts, from which the tangent is assembled.
+//! The residual is internal + inertia + constraint forces - external forces, so Newton solves K_T dq = -R. Evaluating
+//! it ([`residual`](Assembler::residual)) keeps the linearised joints and contacts, from which the tangent is
+//! assembled.
 
 use crate::dynamics::phases::Stopwatch;
 use crate::elements::gap::Touch;
@@ -11,7 +12,7 @@ use crate::linear::{BlockSystem, TangentIncrement};
 use crate::model::Model;
 use crate::simd::Instructions;
 
-use super::tangent::TangentFactors;
+use super::factors::TangentFactors;
 
 /// A joint at the last residual.
 #[derive(Debug, Clone, Copy, Default)]

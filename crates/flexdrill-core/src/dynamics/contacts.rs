@@ -1,11 +1,12 @@
-//! Contacts of both layers on the whole tool: from the nodes' motion to the gap's own coordinates, and from the gap's force to the nodes.
+//! Contacts of both layers on the whole tool: from the nodes' motion to the gap's own coordinates, and from the gap's
+//! force to the nodes.
 
 use nalgebra::Vector2;
 
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
+use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, node, translation};
-use crate::dynamics::tangent::TangentFactors;
 use crate::elements::gap::GapVector;
 use crate::linear::{ContactBlock, Touching};
 use crate::model::{Model, Station};

@@ -1,8 +1,9 @@
-//! Energy audit of a step: work of every force by the trapezoid rule over the step, against the change of what is stored.
+//! Energy audit of a step: work of every force by the trapezoid rule over the step, against the change of what is
+//! stored.
 //!
-//! With F the sum of all forces, Newmark gives exactly dT = dq . (F_0 + F_1)/2 - D, where D is the scheme's own loss. Linear elastic
-//! forces then store exactly what they take, so the audit's error is what is left: the quadrature of contacts, stops and joint
-//! rows, and Newton's residual. See `docs/decisions/energy_audit.md`.
+//! With F the sum of all forces, Newmark gives exactly dT = dq . (F_0 + F_1)/2 - D, where D is the scheme's own loss.
+//! Linear elastic forces then store exactly what they take, so the audit's error is what is left: the quadrature of
+//! contacts, stops and joint rows, and Newton's residual. See `docs/decisions/energy_audit.md`.
 
 use serde::{Deserialize, Serialize};
 

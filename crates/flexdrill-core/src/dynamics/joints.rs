@@ -1,8 +1,8 @@
 //! Joints on the whole tool: Eq. 12 as translational rows, Eq. 13 and the stops as rotational ones.
 
 use crate::dynamics::assembly::{Assembler, JointReport};
+use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, translation};
-use crate::dynamics::tangent::TangentFactors;
 use crate::elements::joint::group::{JointGroup, Lane};
 use crate::linear::JointIncrement;
 use crate::model::Model;
@@ -59,7 +59,8 @@ impl Assembler {
     }
 }
 
-/// Multipliers of the rotational rows of eight joints from number `first` on, times their scale (N m); lanes without a joint have none.
+/// Multipliers of the rotational rows of eight joints from number `first` on, times their scale (N m); lanes without a
+/// joint have none.
 #[inline(always)]
 fn multipliers(model: &Model, state: &State, first: usize, rows: usize) -> [Lane; 2] {
     let mut lambda = [[0.0; 8]; 2];

@@ -4,6 +4,7 @@ pub(crate) mod assembly;
 pub(crate) mod conditions;
 pub(crate) mod contacts;
 pub(crate) mod energy;
+pub(crate) mod factors;
 pub(crate) mod joints;
 pub(crate) mod newton;
 pub(crate) mod outcome;

@@ -2,11 +2,11 @@
 
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
+use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::phases::Phase;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::tangent::TangentFactors;
 use crate::elements::joint::rotation::LARGEST_TILT;
 use crate::linear::{CondensedElimination, CondensedSystem, LinearSolver};
 use crate::model::Model;
@@ -27,8 +27,9 @@ pub struct Tolerances {
 }
 
 impl Default for Tolerances {
-    /// 10 mN and 1 mN m: a millionth of a weight on bit of 10 kN and a hundred-thousandth of its torque, three orders below what the step
-    /// itself leaves, five above the rounding of the stiffest element. Rows to 1e-10 m, a tenth of what is promised.
+    /// 10 mN and 1 mN m: a millionth of a weight on bit of 10 kN and a hundred-thousandth of its torque, three orders
+    /// below what the step itself leaves, five above the rounding of the stiffest element. Rows to 1e-10 m, a tenth of
+    /// what is promised.
     fn default() -> Self {
         Self {
             force: 1e-2,
@@ -50,8 +51,8 @@ pub struct Newton {
     pub solver: Box<dyn LinearSolver>,
     /// Limits.
     pub tolerances: Tolerances,
-    /// For motion: the lasting part of the tangent, condensed, per step size.
-    condensed: Option<Condensed>,
+    /// For motion.
+    condensed: Option<CondensedTangents>,
     correction: Vec<f64>,
     /// One over the limit on the residual, per unknown; zero where there is no equation.
     weights: Vec<f64>,
@@ -60,13 +61,14 @@ pub struct Newton {
     moving: Vec<f64>,
 }
 
-/// The way of steps in motion: geometric stiffness is left out of the tangent, which then lasts but for contacts and joints.
-struct Condensed {
+/// The condensed step-constant tangents, one per step size, and what solves with them. Geometric stiffness is left out,
+/// so that but for contacts and joints a tangent stays the same in motion.
+struct CondensedTangents {
     elimination: CondensedElimination,
     systems: Vec<(Key, CondensedSystem)>,
 }
 
-/// What the lasting tangent depends on: factors, alpha, beta.
+/// What the step-constant tangent depends on: factors, alpha, beta.
 type Key = (TangentFactors, f64, f64);
 
 fn key(factors: TangentFactors, conditions: &Conditions) -> Key {
@@ -115,10 +117,11 @@ impl Newton {
         }
     }
 
-    /// Condenses the tangent's lasting part for steps with these factors, if the tool's joints allow it; others take the plain way.
+    /// Condenses the step-constant tangent for steps with these factors, if the tool's joints allow it; others are
+    /// solved by block LU.
     pub fn prepare(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
         let key = key(factors, conditions);
-        let known = |condensed: &Condensed| condensed.systems.iter().any(|(known, _)| *known == key);
+        let known = |condensed: &CondensedTangents| condensed.systems.iter().any(|(known, _)| *known == key);
         if self.condensed.as_ref().is_some_and(known) {
             return;
         }
@@ -126,7 +129,7 @@ impl Newton {
         let Some(system) = CondensedSystem::of(step_constant, &model.joint_stations) else {
             return;
         };
-        let condensed = self.condensed.get_or_insert_with(|| Condensed {
+        let condensed = self.condensed.get_or_insert_with(|| CondensedTangents {
             elimination: CondensedElimination::new(&model.layout, &model.joint_stations, self.assembler.instructions()),
             systems: Vec::new(),
         });
@@ -284,8 +287,8 @@ impl Newton {
         Ok(())
     }
 
-    /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where the static
-    /// tangent has no inverse (a body that could float), the state stays as it is.
+    /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where
+    /// the static tangent has no inverse (a body that could float), the state stays as it is.
     pub fn polish_rest(&mut self, model: &Model, state: &mut State, scratch: &mut State, conditions: &Conditions) {
         let factors = TangentFactors {
             stiffness: 1.0,
@@ -312,7 +315,8 @@ impl Newton {
 
     /// The largest residual relative to its limit, or NaN.
     fn worst(&self) -> f64 {
-        // Eight running maxima, so that the compiler can use vectors; the place is only looked for when it is asked for.
+        // Eight running maxima, so that the compiler can use vectors; the place is only looked for when it is asked
+        // for.
         const LANES: usize = 8;
         let mut worst = [0.0_f64; LANES];
         let mut sum = [0.0_f64; LANES];

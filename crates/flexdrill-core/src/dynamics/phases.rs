@@ -1,9 +1,10 @@
 //! Where the time of a step goes.
 //!
-//! The mechanics knows no clock: whoever wants times hands one in, as a plain function. Without it nothing is read. Times are no part
-//! of the state: no checkpoint, snapshot or output that a replay compares holds them.
+//! The mechanics knows no clock: whoever wants times hands one in, as a plain function. Without it nothing is read.
+//! Times are no part of the state: no checkpoint, snapshot or output that a replay compares holds them.
 
-/// Nanoseconds of a monotonic clock. It is called some ten times per Newton iteration and must neither lock nor allocate.
+/// Nanoseconds of a monotonic clock. It is called some ten times per Newton iteration and must neither lock nor
+/// allocate.
 pub type Clock = fn() -> u64;
 
 /// A part of the work.

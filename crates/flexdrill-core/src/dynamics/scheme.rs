@@ -1,5 +1,5 @@
-//! The time scheme: Newmark, Eq. 36 to 38 (the paper's kappa is beta), and its two relatives of second order with damping, HHT-alpha and
-//! generalised-alpha.
+//! The time scheme: Newmark, Eq. 36 to 38 (the paper's kappa is beta), and its two relatives of second order with
+//! damping, HHT-alpha and generalised-alpha.
 //!
 //! All three take displacement and velocity over a step h by Newmark's formulas from an acceleration `lagged`,
 //!
@@ -13,16 +13,16 @@
 //! (1 - alpha_m) l1 + alpha_m l0 = (1 - alpha_f) a1 + alpha_f a0
 //! ```
 //!
-//! (Arnold and Bruels, Multibody System Dynamics 18, 2007, Eq. 11). With both alphas zero l = a: Newmark. The equations of motion,
-//! M a1 = F(q1, v1) + constraint forces, hold as they are at the end of the step, so contact forces, joint forces and accelerations are
-//! those of the laws at that instant and the residual knows nothing of the scheme. For a constant mass, which this model's is, it is
-//! the same as weighting the forces of both ends: M times the formula above is the equation of Chung and Hulbert (J. Appl. Mech. 60,
-//! 1993) with the multipliers among the forces.
+//! (Arnold and Bruels, Multibody System Dynamics 18, 2007, Eq. 11). With both alphas zero l = a: Newmark. The equations
+//! of motion, M a1 = F(q1, v1) + constraint forces, hold as they are at the end of the step, so contact forces, joint
+//! forces and accelerations are those of the laws at that instant and the residual knows nothing of the scheme. For a
+//! constant mass, which this model's is, it is the same as weighting the forces of both ends: M times the formula above
+//! is the equation of Chung and Hulbert (J. Appl. Mech. 60, 1993) with the multipliers among the forces.
 
 use serde::{Deserialize, Serialize};
 
+use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
-use crate::dynamics::tangent::TangentFactors;
 
 /// Parameters of the scheme.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -38,8 +38,8 @@ pub struct Scheme {
 }
 
 impl Scheme {
-    /// Newmark with the most damping of the highest frequencies for its `gamma`: beta = (gamma + 1/2)^2 / 4. Of second order and without
-    /// damping at 1/2; above, of first order, with the damping of (gamma - 1/2) h more Rayleigh beta.
+    /// Newmark with the most damping of the highest frequencies for its `gamma`: beta = (gamma + 1/2)^2 / 4. Of second
+    /// order and without damping at 1/2; above, of first order, with the damping of (gamma - 1/2) h more Rayleigh beta.
     pub fn newmark(gamma: f64) -> Self {
         Self {
             gamma,
@@ -49,13 +49,14 @@ impl Scheme {
         }
     }
 
-    /// Hilber, Hughes and Taylor's alpha scheme, by its spectral radius at infinite frequency, 1/2 (alpha 1/3) to 1 (alpha 0).
+    /// Hilber, Hughes and Taylor's alpha scheme, by its spectral radius at infinite frequency, 1/2 (alpha 1/3) to 1
+    /// (alpha 0).
     pub fn hht(rho_infinity: f64) -> Self {
         Self::second_order(0.0, (1.0 - rho_infinity) / (1.0 + rho_infinity))
     }
 
-    /// Chung and Hulbert's scheme, by its spectral radius at infinite frequency, 0 (the highest frequencies are gone after a step) to 1
-    /// (nothing is damped).
+    /// Chung and Hulbert's scheme, by its spectral radius at infinite frequency, 0 (the highest frequencies are gone
+    /// after a step) to 1 (nothing is damped).
     pub fn generalised_alpha(rho_infinity: f64) -> Self {
         let below = 1.0 + rho_infinity;
         Self::second_order((2.0 * rho_infinity - 1.0) / below, rho_infinity / below)
@@ -100,8 +101,9 @@ impl Scheme {
         (v1, self.acceleration(l1, l0, from.a[i]))
     }
 
-    /// The lagged acceleration of `from` for a step of size `h`, given that kept and the acceleration. It is that of (gamma - 1/2) steps
-    /// ago; where the size increment it is moved in proportion, or the step would be of first order.
+    /// The lagged acceleration of `from` for a step of size `h`, given that kept and the acceleration. It is that of
+    /// (gamma - 1/2) steps ago; where the size increment it is moved in proportion, or the step would be of first
+    /// order.
     #[inline(always)]
     fn lagged(&self, h: f64, from: &State) -> impl Fn(f64, f64) -> f64 + use<> {
         let same = !self.lags() || from.scheme_step == h || from.scheme_step == 0.0;
@@ -234,7 +236,8 @@ mod tests {
     fn the_schemes_are_of_second_order() {
         for scheme in SCHEMES {
             let got = order(scheme(), &[0.002], 1000);
-            // The next term of the error, smaller by omega h = 0.013 times a number of the order of one, shows in the second digit.
+            // The next term of the error, smaller by omega h = 0.013 times a number of the order of one, shows in the
+            // second digit.
             assert!(got > 1.9, "{:?}: order {got}", scheme());
         }
         let first = order(Scheme::newmark(0.55), &[0.002], 1000);

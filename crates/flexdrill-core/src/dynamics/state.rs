@@ -9,8 +9,8 @@ use crate::model::Model;
 /// A node's six values.
 pub type NodeVector = SVector<f64, 6>;
 
-/// State at one instant, in the model's numbering. Multiplier slots of `q` hold scaled multipliers; their velocity and acceleration
-/// are zero.
+/// State at one instant, in the model's numbering: q_rd of Eq. 19 station by station, with the multipliers. Multiplier
+/// slots of `q` hold scaled multipliers; their velocity and acceleration are zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Displacements, spins, tilts, multipliers: q_rd of Eq. 19 and lambda of Eq. 18, station by station.
@@ -63,8 +63,8 @@ impl State {
         self.drive_angle = other.drive_angle;
     }
 
-    /// Sets the axial forces for a step of size `h` (s) to those that the velocities of `from` lead to at its end. Forces of the step before
-    /// would make the step one of first order.
+    /// Sets the axial forces for a step of size `h` (s) to those that the velocities of `from` lead to at its end.
+    /// Forces of the step before would make the step one of first order.
     pub(crate) fn predict_axial(&mut self, model: &Model, from: &Self, h: f64) {
         self.set_axial(model, |unknown| from.q[unknown] + h * from.v[unknown]);
     }

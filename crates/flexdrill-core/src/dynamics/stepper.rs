@@ -69,8 +69,8 @@ pub struct StepperCheckpoint {
     weight_on_bit: f64,
 }
 
-/// Whole turns after which they are taken off the pipe's spins, so that the rounding of the angles stays below that of the forces
-/// however long the tool runs.
+/// Whole turns after which they are taken off the pipe's spins, so that the rounding of the angles stays below that of
+/// the forces however long the tool runs.
 const UNWIND_TURNS: f64 = 1000.0;
 
 /// Model, state and solver.
@@ -100,7 +100,8 @@ pub struct Stepper {
 }
 
 impl Stepper {
-    /// Builds the tool in its initial state: as given, or at rest if the description asks for it and [`Stepper::settle`] is called.
+    /// Builds the tool in its initial state: as given, or at rest if the description asks for it and
+    /// [`Stepper::settle`] is called.
     ///
     /// # Errors
     /// See [`Model::new`].
@@ -168,7 +169,8 @@ impl Stepper {
         &self.counters
     }
 
-    /// Most Newton corrections (each an assembly and a solution) that one [`Stepper::advance`] can make, whatever happens.
+    /// Most Newton corrections (each an assembly and a solution) that one [`Stepper::advance`] can make, whatever
+    /// happens.
     pub fn most_iterations(&self) -> u64 {
         most_attempts(self.max_halvings) * u64::from(self.newton.tolerances.max_iterations)
     }
@@ -282,8 +284,8 @@ impl Stepper {
         self.condensed_for = h;
     }
 
-    /// Advances by `h` (s) under `forcing`. A sub-step that does not converge is halved and retried; when the smallest one fails, the
-    /// state stays that before the step.
+    /// Advances by `h` (s) under `forcing`. A sub-step that does not converge is halved and retried; when the smallest
+    /// one fails, the state stays that before the step.
     pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
         self.prepare(h);
         let start = (self.state.time, self.state.drive_angle);
@@ -328,7 +330,8 @@ impl Stepper {
         }
     }
 
-    /// The sub-step between two parts (0 to 1) of a step of size `h` that begins at time `start` with the drive at `start_angle`.
+    /// The sub-step between two parts (0 to 1) of a step of size `h` that begins at time `start` with the drive at
+    /// `start_angle`.
     fn sub_step(
         &mut self,
         h: f64,

@@ -22,7 +22,8 @@ impl SubSteps {
         }
     }
 
-    /// The next sub-step: parts of the step behind it at its start and at its end (0 to 1, exact); `None` at the step's end.
+    /// The next sub-step: parts of the step behind it at its start and at its end (0 to 1, exact); `None` at the step's
+    /// end.
     pub fn part(&self) -> Option<(f64, f64)> {
         let at = |part: u64| part as f64 / self.whole as f64;
         (self.done < self.whole).then(|| (at(self.done), at(self.done + self.size())))
@@ -61,9 +62,9 @@ impl SubSteps {
     }
 }
 
-/// Most sub-steps that a step with n = `max_halvings` attempts, taken and rejected ones together: 3 x 2^(n-1) + n - 1, and 1 without
-/// halving. Every second smallest sub-step is taken, the steps between them are all tried in vain; as the size grows by one level at a
-/// time, not all of the larger ones are tried again, which would be 2^(n+1) - 1.
+/// Most sub-steps that a step with n = `max_halvings` attempts, taken and rejected ones together: 3 x 2^(n-1) + n - 1,
+/// and 1 without halving. Every second smallest sub-step is taken, the steps between them are all tried in vain; as the
+/// size grows by one level at a time, not all of the larger ones are tried again, which would be 2^(n+1) - 1.
 pub const fn most_attempts(max_halvings: u32) -> u64 {
     match max_halvings {
         0 => 1,

@@ -1,26 +1,15 @@
-//! The tangent K_T of Eq. 41: a part that lasts as long as the step size does, the geometric stiffness of the axial forces, and what
-//! contacts, joints and the bit add in each iteration.
+//! The tangent K_T of Eq. 41: a part that lasts as long as the step size does, the geometric stiffness of the axial
+//! forces, and what contacts, joints and the bit add in each iteration.
 
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
+use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
 use crate::elements::beam::ElementMatrix;
 use crate::linear::{BlockSystem, Touching, add_columns};
 use crate::model::Model;
 use crate::tool::description::Direction;
-
-/// Factors of the tangent k K + d C + m M: (1, gamma/(beta h), 1/(beta h^2)) in a Newmark step, Eq. 41; (0, 0, 1) to find
-/// accelerations.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TangentFactors {
-    /// On stiffness-like terms.
-    pub stiffness: f64,
-    /// On damping-like terms (1/s).
-    pub damping: f64,
-    /// On the mass (1/s2).
-    pub mass: f64,
-}
 
 impl Assembler {
     /// Assembles the whole tangent, Eq. 41, from the parts linearised by the last [`Assembler::residual`] at `state`.
@@ -36,8 +25,8 @@ impl Assembler {
         }
     }
 
-    /// The step-constant part of the tangent: elastic, damping and inertia terms and the joints' translational rows, with supports. It
-    /// lasts as long as step size and damping do. Geometric stiffness is left out.
+    /// The step-constant part of the tangent: elastic, damping and inertia terms and the joints' translational rows,
+    /// with supports. It lasts as long as step size and damping do. Geometric stiffness is left out.
     pub fn step_constant(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) -> BlockSystem {
         self.build_step_constant(model, conditions, factors);
         let mut system = self.step_constant.clone();

@@ -1,12 +1,13 @@
 //! The 12-dof Euler-Bernoulli beam element, Eq. 2 to 7.
 //!
 //! Node order (u, v, w, psi, phi_y, phi_z) twice, Eq. 2, with phi_y = -dw/dx and phi_z = dv/dx. The shape functions are
-//! those of Eq. 4 with its misprint in the (w, phi_y1) entry corrected to -(1 - 2 xi + xi^2) xi l; H of Eq. 6 takes second
-//! derivatives in the bending rows. The torsional inertia is rho I_x (Eq. 5 prints rho A in every row).
+//! those of Eq. 4 with its misprint in the (w, phi_y1) entry corrected to -(1 - 2 xi + xi^2) xi l; H of Eq. 6 takes
+//! second derivatives in the bending rows. The torsional inertia is rho I_x (Eq. 5 prints rho A in every row).
 //!
-//! The four motions of a straight symmetric beam (stretch, twist, bending in x-y and in x-z) do not couple, so each matrix is one of a rod
-//! twice and one of a bending beam twice. They are written here once, as the integrals come out; what runs is made from them
-//! ([`crate::elements::element_form`]), and a test holds them to the integrals of Eq. 5 and 6 themselves.
+//! The four motions of a straight symmetric beam (stretch, twist, bending in x-y and in x-z) do not couple, so each
+//! matrix is one of a rod twice and one of a bending beam twice. They are written here once, as the integrals come out;
+//! what runs is made from them ([`crate::elements::element_form`]), and a test holds them to the integrals of Eq. 5 and
+//! 6 themselves.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -64,7 +65,8 @@ impl Beam {
         element(rod(self.section.mass), rod(self.section.spin_inertia), bending)
     }
 
-    /// G, the geometric part of K_T in Eq. 41 per unit of axial tension (1/m, -, m): G N q are the lateral forces of a tension N.
+    /// G, the geometric part of K_T in Eq. 41 per unit of axial tension (1/m, -, m): G N q are the lateral forces of a
+    /// tension N.
     pub fn geometric(&self) -> ElementMatrix {
         let l = self.length;
         let bending = scaled(
@@ -152,7 +154,8 @@ mod tests {
         }
     }
 
-    /// Rows of N, Eq. 4, over the twelve nodal values: (u, v, w, psi) at xi = x / l, with the (w, phi_y1) entry corrected.
+    /// Rows of N, Eq. 4, over the twelve nodal values: (u, v, w, psi) at xi = x / l, with the (w, phi_y1) entry
+    /// corrected.
     fn shape_functions(xi: f64, l: f64) -> [[f64; 12]; 4] {
         let (c1, c2) = (
             1.0 - 3.0 * xi * xi + 2.0 * xi * xi * xi,
@@ -184,7 +187,8 @@ mod tests {
         out
     }
 
-    /// Integral over the element of the sum of weight_i row_i^T row_i, by four Gauss points: exact up to the seventh power.
+    /// Integral over the element of the sum of weight_i row_i^T row_i, by four Gauss points: exact up to the seventh
+    /// power.
     fn integral(l: f64, weights: [f64; 4], rows: impl Fn(f64) -> [[f64; 12]; 4]) -> ElementMatrix {
         let (near, far) = (0.339_981_043_584_856_3, 0.861_136_311_594_052_6);
         let (heavy, light) = (0.652_145_154_862_546_1, 0.347_854_845_137_453_9);
@@ -210,7 +214,8 @@ mod tests {
         for (printed, integrated) in [(b.mass(), mass), (b.stiffness(), stiffness), (b.geometric(), geometric)] {
             for i in 0..12 {
                 for j in 0..12 {
-                    // Entry by entry against its own row's and column's size, since units differ; differences cost three digits.
+                    // Entry by entry against its own row's and column's size, since units differ; differences cost
+                    // three digits.
                     let scale = (printed[(i, i)] * printed[(j, j)]).sqrt().max(f64::MIN_POSITIVE);
                     let off = (printed[(i, j)] - integrated[(i, j)]).abs();
                     assert!(

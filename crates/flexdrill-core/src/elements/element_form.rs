@@ -1,7 +1,8 @@
 //! Beam elements as the residual needs them: matrices times nodal values, a node at a time in one vector of eight.
 //!
-//! In its own frame an element couples u with u, psi with psi and, in each bending plane, a deflection with a slope: (v, phi_z) and
-//! (w, phi_y). So every 6 x 6 part of its matrices is a diagonal and an anti-diagonal over 1..=5, and a product is two products by entry.
+//! In its own frame an element couples u with u, psi with psi and, in each bending plane, a deflection with a slope:
+//! (v, phi_z) and (w, phi_y). So every 6 x 6 part of its matrices is a diagonal and an anti-diagonal over 1..=5, and a
+//! product is two products by entry.
 
 use nalgebra::Matrix3;
 

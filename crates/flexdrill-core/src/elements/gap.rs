@@ -1,7 +1,7 @@
 //! Dynamic gap elements, Eq. 20 to 34: normal contact and friction between an inner and an outer round body.
 //!
-//! Local coordinates of a gap, in the station's frame (x down the hole, y horizontal, z low side), as the inner body's motion
-//! relative to the outer's:
+//! Local coordinates of a gap, in the station's frame (x down the hole, y horizontal, z low side), as the inner body's
+//! motion relative to the outer's:
 //!
 //! | index | motion | conjugate force |
 //! |---|---|---|
@@ -50,11 +50,13 @@ pub struct Touch {
     normal_by: [Vector2<f64>; 2],
     /// d sliding speed / d lateral displacement (1/s), around and along.
     sliding_by: [Vector2<f64>; 2],
-    /// d friction / d normal (-) and d friction / d sliding speed (N s/m), around and along; friction as it opposes positive sliding.
+    /// d friction / d normal (-) and d friction / d sliding speed (N s/m), around and along; friction as it opposes
+    /// positive sliding.
     friction_by: [[f64; 2]; 2],
 }
 
-/// The derivative of a gap's force as a sum of four products: the force changes by minus `on` times `by` . (local motion).
+/// The derivative of a gap's force as a sum of four products: the force changes by minus `on` times `by` . (local
+/// motion).
 pub type TangentTerms = [TangentTerm; 4];
 
 /// A product of [`TangentTerms`].
@@ -123,7 +125,8 @@ impl Touch {
             let [by_normal, by_sliding] = self.friction_by[k];
             lateral(normal * by_normal + self.sliding_by[k] * (by_sliding * stiffness)) + on * (by_sliding * damping)
         };
-        // The directions turn with the displacement: dn = t (t.dd)/distance, dt = -n (t.dd)/distance. Friction is minus its share here.
+        // The directions turn with the displacement: dn = t (t.dd)/distance, dt = -n (t.dd)/distance. Friction is minus
+        // its share here.
         let turned = GapVector::from_column_slice(&[
             0.0,
             t.x * self.normal + n.x * self.tangential,
@@ -159,11 +162,11 @@ pub fn gap(lateral: Vector2<f64>, clearance: f64) -> f64 {
 }
 
 impl GapLaw {
-    /// The contact at lateral displacement `lateral` (y, z; offsets included) and local velocity `velocity`, or `None` while
-    /// the gap is open.
+    /// The contact at lateral displacement `lateral` (y, z; offsets included) and local velocity `velocity`, or `None`
+    /// while the gap is open.
     ///
-    /// Normal force F = k d (1 + c d') >= 0 with penetration d: continuous at onset, never pulling. Friction mu F v / sqrt(v^2 + v_s^2)
-    /// separately around and along (Eq. 25), at the sliding speeds of Eq. 23.
+    /// Normal force F = k d (1 + c d') >= 0 with penetration d: continuous at onset, never pulling. Friction mu F v /
+    /// sqrt(v^2 + v_s^2) separately around and along (Eq. 25), at the sliding speeds of Eq. 23.
     #[inline(always)]
     pub fn touch(&self, lateral: Vector2<f64>, clearance: f64, velocity: &GapVector) -> Option<Touch> {
         let distance = lateral.norm();

@@ -1,13 +1,14 @@
 //! Gauss-Jordan elimination of one small dense block against several right-hand sides, with threshold pivoting.
 //!
-//! Every inner loop runs over a whole column of fixed length (entries that must not change get a zero multiplier), so that it becomes a
-//! few vector instructions. Eliminating above and below the pivot at once needs no second sweep over the right-hand sides.
+//! Every inner loop runs over a whole column of fixed length (entries that must not change get a zero multiplier), so
+//! that it becomes a few vector instructions. Eliminating above and below the pivot at once needs no second sweep over
+//! the right-hand sides.
 
 use crate::simd::vector::Vector;
 
-/// The diagonal entry is the pivot unless a candidate is larger by more than this. Stiffness and inertia dominate their own equations, so
-/// exchanges are rare; the factor leaves room for the different units of displacements and rotations (forces against couples over an
-/// element's length of centimetres).
+/// The diagonal entry is the pivot unless a candidate is larger by more than this. Stiffness and inertia dominate their
+/// own equations, so exchanges are rare; the factor leaves room for the different units of displacements and rotations
+/// (forces against couples over an element's length of centimetres).
 pub const PIVOT_RATIO: f64 = 1e-3;
 
 /// Solves `a x = b` for all columns of `b` in place; `a` is destroyed.
@@ -118,7 +119,8 @@ mod tests {
 
     #[test]
     fn leading_zeros_of_a_column_survive_an_exchange() {
-        // The first column of b has no entry in its first row until the exchange brings one there. x = (5, 0) and (1, 2) by hand.
+        // The first column of b has no entry in its first row until the exchange brings one there. x = (5, 0) and (1,
+        // 2) by hand.
         let mut a = [[0.0, 2.0], [-1.0, 4.0]];
         let mut b = [[0.0, 10.0], [-2.0, 10.0]];
         solve_columns::<Portable, 2, 2>(&mut a, &mut b).unwrap();

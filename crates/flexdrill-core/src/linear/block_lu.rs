@@ -1,8 +1,8 @@
-//! Block LU along the stations: the plain method, which the condensed one is held against. It also solves what cannot be condensed (a
-//! static start, joints with two rotational rows).
+//! Block LU along the stations: the plain method, which the condensed one is held against. It also solves what cannot
+//! be condensed (a static start, joints with two rotational rows).
 //!
-//! A station couples to the next one through its twelve outgoing unknowns only, so that with D the diagonal blocks, U and L the
-//! couplings to the next station and back
+//! A station couples to the next one through its twelve outgoing unknowns only, so that with D the diagonal blocks, U
+//! and L the couplings to the next station and back
 //!
 //! - forward:  S_0 = D_0,  S_i = D_i - L_{i-1} S_{i-1}^-1 U_{i-1},  r_i := r_i - L_{i-1} S_{i-1}^-1 r_{i-1}
 //! - backward: x_i = S_i^-1 (r_i - U_i x_{i+1})

@@ -1,4 +1,5 @@
-//! What contacts and joints add to the tangent of an iteration, kept apart from what lasts as long as the step size does.
+//! What contacts and joints add to the tangent of an iteration, kept apart from what lasts as long as the step size
+//! does.
 
 use super::system::{BlockSystem, Layout};
 

@@ -1,8 +1,8 @@
 //! The linear system of a Newton iteration and the its solvers.
 //!
-//! Unknowns are ordered by station, so the matrix is block tridiagonal (Eq. 41 over the whole tool). A plain station has a
-//! block of 12 (pipe node, guide node), a joint station one of 24 (end of the link above, guide, start of the link below, multipliers,
-//! padding).
+//! Unknowns are ordered by station, so the matrix is block tridiagonal (Eq. 41 over the whole tool). A plain station
+//! has a block of 12 (pipe node, guide node), a joint station one of 24 (end of the link above, guide, start of the
+//! link below, multipliers, padding).
 
 mod block;
 mod block_lu;

@@ -4,11 +4,12 @@ use nalgebra::SMatrix;
 
 /// Unknowns of a plain station: pipe node, guide node.
 pub const PLAIN_BLOCK: usize = 12;
-/// Unknowns of a joint station: end of the link above (0..6), guide (6..12), start of the link below (12..18), multipliers
-/// (18..23), padding.
+/// Unknowns of a joint station: end of the link above (0..6), guide (6..12), start of the link below (12..18),
+/// multipliers (18..23), padding.
 pub const JOINT_BLOCK: usize = 24;
 
-/// Coupling of a station's outgoing nodes with the same nodes of the next station. Pipe and guide meet inside stations only.
+/// Coupling of a station's outgoing nodes with the same nodes of the next station. Pipe and guide meet inside stations
+/// only.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coupling {
     /// Pipe node towards the bit with the next pipe node.
@@ -110,7 +111,8 @@ impl Layout {
         self.slots[station]
     }
 
-    /// Local index in the station's block of outgoing unknown `k` (0..6 the pipe node towards the bit, 6..12 the guide).
+    /// Local index in the station's block of outgoing unknown `k` (0..6 the pipe node towards the bit, 6..12 the
+    /// guide).
     pub fn outgoing(&self, station: usize, k: usize) -> usize {
         if self.large[station] && k < 6 { k + 12 } else { k }
     }
@@ -259,8 +261,8 @@ impl BlockSystem {
         }
     }
 
-    /// Visits every stored entry as (row, column, value) in global indices; zeros inside blocks included, so that the pattern does
-    /// not depend on the values.
+    /// Visits every stored entry as (row, column, value) in global indices; zeros inside blocks included, so that the
+    /// pattern does not depend on the values.
     pub fn for_each_entry(&self, mut visit: impl FnMut(usize, usize, f64)) {
         let layout = &self.layout;
         for station in 0..layout.stations() {

@@ -1,5 +1,5 @@
-//! Every path of the station elimination and of the condensed one gives what the reference gives, on random systems with joints
-//! of every kind.
+//! Every path of the station elimination and of the condensed one gives what the reference gives, on random systems
+//! with joints of every kind.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -169,8 +169,8 @@ fn blocks_without_a_diagonal() {
     }
 }
 
-/// Makes a system of [`system`] one that lasts: no rotational rows, and each body coupled with itself only. What couples bodies belongs
-/// to what an iteration adds.
+/// Makes a system of [`system`] one that lasts: no rotational rows, and each body coupled with itself only. What
+/// couples bodies belongs to what an iteration adds.
 fn step_constant(joints: &[Option<Joint>], places: &[usize], seed: u64) -> BlockSystem {
     let mut system = system(joints, seed);
     for station in 0..joints.len() {
@@ -245,7 +245,8 @@ fn condensed_links() {
     use Touching::{Both, Guide, Nothing};
     let one = Some(OneRow);
     let plain: [Option<Joint>; 3] = [None; 3];
-    // Top, three inner stations per link, joints; free, or tied at the bottom; two joints next to each other; no joint at all.
+    // Top, three inner stations per link, joints; free, or tied at the bottom; two joints next to each other; no joint
+    // at all.
     let link = |end| [plain.as_slice(), &[end]].concat();
     let free = [vec![None], link(one), link(one), link(one), link(None)].concat();
     let tied = [vec![None], link(one), link(one), link(one), link(Some(Tie))].concat();

@@ -27,7 +27,7 @@ pub struct ResolvedMass {
 }
 
 impl Model {
-    /// Resolves supports, loads and masses.
+    /// Resolves supports (Table 1), loads and masses.
     pub(super) fn attach(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
         for support in &d.supports {
             for node in self.nodes("supports", support.location, support.body, true)? {

@@ -52,7 +52,8 @@ impl PipeElement {
 }
 
 impl GuideElement {
-    /// Between two stations, whose frames it takes into its chord's: Gamma of Eq. 8.
+    /// Between two stations, whose frames it takes into its chord's by Gamma of Eq. 8; its matrices are turned as in
+    /// Eq. 9.
     pub(super) fn new(d: &ToolDescription, above: &Station, below: &Station) -> Self {
         let span = below.position - above.position;
         let beam = Beam {

@@ -1,7 +1,8 @@
 //! The tool after the build: geometry, elements, joints and numbering. Constant while it runs.
 //!
-//! Numbering: each [`Station`] carries a pipe node and a guide node; at a joint station the pipe has two nodes, the end of the
-//! link above and the start of the link below. Pipe nodes are in their link's frame, guide nodes in the station's frame.
+//! Numbering: each [`Station`] carries a pipe node and a guide node; at a joint station the pipe has two nodes, the end
+//! of the link above and the start of the link below. Pipe nodes are in their link's frame, guide nodes in the
+//! station's frame.
 
 mod attached;
 mod element;

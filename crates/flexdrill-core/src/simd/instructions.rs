@@ -6,11 +6,11 @@ use super::vector::{Portable, Vector};
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2, Avx512};
 
-/// Vector instructions that this processor has. Its values come from [`Instructions::best`] and [`Instructions::available`] only, so that
-/// holding one proves that the instructions may be used.
+/// Vector instructions that this processor has. Its values come from [`Instructions::best`] and
+/// [`Instructions::available`] only, so that holding one proves that the instructions may be used.
 ///
-/// With AVX2 and with AVX-512 every number is the same to the bit, since both round a product and a sum once and in the same order
-/// (`tests/mechanics_machines.rs`); without either, products are rounded by themselves.
+/// With AVX2 and with AVX-512 every number is the same to the bit, since both round a product and a sum once and in the
+/// same order (`tests/mechanics_machines.rs`); without either, products are rounded by themselves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Instructions(Level);
 
@@ -84,7 +84,8 @@ impl Instructions {
             Level::Avx2 => unsafe { with_avx2(kernel) },
             #[cfg(target_arch = "x86_64")]
             #[expect(unsafe_code, reason = "the one place where vector instructions are entered")]
-            // SAFETY: `self` was made by `available`, which found the processor to have AVX-512 F and VL beside AVX2 and FMA.
+            // SAFETY: `self` was made by `available`, which found the processor to have AVX-512 F and VL beside AVX2
+            // and FMA.
             Level::Avx512 => unsafe { with_avx512(kernel) },
         }
     }
@@ -107,8 +108,8 @@ pub(crate) trait Kernel {
     /// What it gives.
     type Output;
 
-    /// Computes. To be marked `#[inline(always)]`, as everything it calls with `V`: the code must end up inside the function that
-    /// carries the target feature.
+    /// Computes. To be marked `#[inline(always)]`, as everything it calls with `V`: the code must end up inside the
+    /// function that carries the target feature.
     fn run<V: Vector>(self) -> Self::Output;
 }
 

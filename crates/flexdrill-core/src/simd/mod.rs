@@ -1,4 +1,5 @@
-//! Eight numbers at once: kernels written once over [`Vector`](vector::Vector), run with the instructions that the processor has.
+//! Eight numbers at once: kernels written once over [`Vector`](vector::Vector), run with the instructions that the
+//! processor has.
 
 mod instructions;
 pub(crate) mod number;

@@ -1,8 +1,8 @@
 //! Eight numbers at once: the same kernels with AVX-512, with AVX2 and without either.
 //!
-//! Kernels are written once over [`Vector`] and marked `#[inline(always)]`; the functions that call them for one kind of vector carry
-//! the `target_feature` that it needs. The compiler's own vectors of such code were tried and are several times slower: it takes
-//! the lanes apart.
+//! Kernels are written once over [`Vector`] and marked `#[inline(always)]`; the functions that call them for one kind
+//! of vector carry the `target_feature` that it needs. The compiler's own vectors of such code were tried and are
+//! several times slower: it takes the lanes apart.
 
 /// Eight lanes.
 pub(crate) trait Vector: Copy {
@@ -31,7 +31,8 @@ pub(crate) trait Vector: Copy {
     fn across(self) -> Self;
     /// Lanes 1, 0, 3, 2, 5, 4, 7, 6: neighbours exchanged.
     fn swapped(self) -> Self;
-    /// Whether some lane of `self` is larger in size than the same lane of `bound`; lanes that are not numbers count as larger.
+    /// Whether some lane of `self` is larger in size than the same lane of `bound`; lanes that are not numbers count as
+    /// larger.
     fn any_beyond(self, bound: Self) -> bool;
 }
 

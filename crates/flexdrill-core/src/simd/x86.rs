@@ -16,9 +16,9 @@ pub(super) struct Avx2(__m256d, __m256d);
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Avx512(__m512d);
 
-// SAFETY of all blocks in both: these types are private to this room, which hands them to kernels in functions with the target features
-// `avx2,fma` and `avx512f,avx512vl` only; those are entered through `Instructions::run`, whose `self` proves that the processor has them.
-// Memory is read and written through references to arrays of eight, unaligned.
+// SAFETY of all blocks in both: these types are private to this room, which hands them to kernels in functions with the
+// target features `avx2,fma` and `avx512f,avx512vl` only; those are entered through `Instructions::run`, whose `self`
+// proves that the processor has them. Memory is read and written through references to arrays of eight, unaligned.
 impl Vector for Avx2 {
     const FUSED: bool = true;
 

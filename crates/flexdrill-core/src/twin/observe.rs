@@ -212,6 +212,7 @@ impl Observer {
         out
     }
 
+    /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
     pub(super) fn fill(&self, stepper: &Stepper, applied: &Applied, out: &mut Snapshot) {
         let (model, state) = (stepper.model(), stepper.state());
         let forces = &stepper.newton().assembler;

@@ -169,7 +169,8 @@ impl Simulation {
         &self.applied
     }
 
-    /// Displacements, multipliers, velocities and accelerations of all unknowns, in the numbering of the model: to compare states with.
+    /// Displacements, multipliers, velocities and accelerations of all unknowns, in the numbering of the model: to
+    /// compare states with.
     pub fn state(&self) -> &State {
         self.stepper().state()
     }

@@ -1,5 +1,6 @@
-//! The linear system that runs in motion (step-constant part condensed, increment added) is the derivative of the residual: solved for a
-//! random right-hand side, its solution brings the residual's difference quotient back to that right-hand side.
+//! The linear system that runs in motion (step-constant part condensed, increment added) is the derivative of the
+//! residual: solved for a random right-hand side, its solution brings the residual's difference quotient back to that
+//! right-hand side.
 
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::newton::Tolerances;
@@ -17,8 +18,8 @@ fn random(seed: &mut u64) -> f64 {
     (*seed >> 33) as f64 / f64::from(1_u32 << 31) * 2.0 - 1.0
 }
 
-/// Tilts, spins, contacts of both layers inside spans and at joints, stops, multipliers; no axial force, whose geometric stiffness the
-/// tangent of motion leaves out.
+/// Tilts, spins, contacts of both layers inside spans and at joints, stops, multipliers; no axial force, whose
+/// geometric stiffness the tangent of motion leaves out.
 fn lively(model: &Model) -> State {
     let mut seed = 2024;
     let mut state = State::at_rest(model);
@@ -97,7 +98,8 @@ fn check(tool: &ToolDescription) {
         assembler.drop_reactions(model);
         assembler.residual
     };
-    // The largest displacement moves by 1e-9 m: contact and stop laws are far from their ends, and forces of 1e6 N round to 1e-10 of them.
+    // The largest displacement moves by 1e-9 m: contact and stop laws are far from their ends, and forces of 1e6 N
+    // round to 1e-10 of them.
     let by = 1e-9
         / x.iter()
             .enumerate()
@@ -106,7 +108,8 @@ fn check(tool: &ToolDescription) {
     let (high, low) = (residual(by), residual(-by));
     for (unknown, rhs) in rhs.iter().enumerate() {
         let difference = (high[unknown] - low[unknown]) / (2.0 * by);
-        // The right-hand side is of order one; what the quotient rounds to is that of forces of 1e6 N over the step taken.
+        // The right-hand side is of order one; what the quotient rounds to is that of forces of 1e6 N over the step
+        // taken.
         let rounding = 1e6 * f64::EPSILON / by;
         assert!(
             (difference - rhs).abs() < 1e-4 + 10.0 * rounding,

@@ -3,11 +3,11 @@
 
 use crate::Instructions;
 use crate::dynamics::assembly::Assembler;
+use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::newton::Tolerances;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::{SolverKind, Stepper};
-use crate::dynamics::tangent::TangentFactors;
 use crate::model::Model;
 use crate::support::{Random, small};
 use crate::tool::{JointKind, ToolDescription, WobPath};

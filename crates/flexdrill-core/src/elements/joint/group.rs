@@ -56,8 +56,8 @@ impl JointGroup {
         &self.stop
     }
 
-    /// Linearises rows and stops at rotations `q` and rates `rate`; returns the moments that the joints must balance (N m) for `lambda`,
-    /// the multipliers of the rows times their scale (N m).
+    /// Linearises rows and stops at rotations `q` and rates `rate`; returns the moments that the joints must balance (N
+    /// m) for `lambda`, the multipliers of the rows times their scale (N m).
     #[inline(always)]
     pub fn evaluate<V: Vector>(&mut self, q: &[Lane; 6], rate: &[Lane; 6], lambda: &[Lane; 2]) -> [Lane; 6] {
         self.rate = *rate;
@@ -116,7 +116,8 @@ mod tests {
                 hinge_angle: Default::default(),
             };
             let turn = *Rotation3::from_axis_angle(&Vector3::y_axis(), 0.047).matrix();
-            // Five joints, so that three lanes have none; at three of them the stop is shut, at one it opens too fast to push.
+            // Five joints, so that three lanes have none; at three of them the stop is shut, at one it opens too fast
+            // to push.
             let joints: Vec<Joint> = (0..5)
                 .map(|j| Joint::new(&description, j, Matrix3::identity(), turn))
                 .collect();

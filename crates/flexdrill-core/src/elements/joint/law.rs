@@ -82,6 +82,7 @@ struct Product<T> {
 }
 
 impl<T: Number> Product<T> {
+    /// Value, gradient (a row of Phi_q, Eq. 16) and second derivatives, by the product rule.
     #[inline(always)]
     fn of(above: &DirectionJet<T>, relative: &[[T; 3]; 3], below: &DirectionJet<T>) -> Self {
         let zero = T::of(0.0);
@@ -212,8 +213,8 @@ impl<M> JointLaw<M> {
                 (-(bend.hessian[i][j] * inverse) - bent).store(&mut stop.hessian[i][j]);
             }
         }
-        // Pushing: shut, and not opening faster than the law can push. Where it opens too fast there is no moment and the spring's
-        // energy goes into its damping.
+        // Pushing: shut, and not opening faster than the law can push. Where it opens too fast there is no moment and
+        // the spring's energy goes into its damping.
         let pushing = |spring: f64, rate: f64| spring > 0.0 && 1.0 + c * rate > 0.0;
         let zero_or = |pushing: bool, value: f64| if pushing { value } else { 0.0 };
         spring
@@ -254,7 +255,8 @@ fn equal_spin_row<T: Number>(q: &[T; 6], row: &mut RotationFunction<T::Memory>) 
     row.set(&product);
 }
 
-/// Moments on the six rotations that a joint must balance: rows times their multipliers `lambda` (N m), and the stop's where it is shut.
+/// Moments on the six rotations that a joint must balance: rows times their multipliers `lambda` (N m), and the stop's
+/// where it is shut.
 #[inline(always)]
 pub fn moments<T: Number>(
     rows: &[RotationFunction<T::Memory>],
@@ -277,8 +279,8 @@ pub fn moments<T: Number>(
 /// A shut stop with the rates at which it was evaluated.
 pub type ShutStop<'a, M> = (&'a Stop<M>, &'a [M; 6]);
 
-/// Derivative of [`moments`] in the rotations, times `stiffness`, and in their rates, times `damping`: by columns. `stop` comes with the
-/// rates at which it was evaluated.
+/// Derivative of [`moments`] in the rotations, times `stiffness`, and in their rates, times `damping`: by columns.
+/// `stop` comes with the rates at which it was evaluated.
 #[inline(always)]
 pub fn tangent<T: Number>(
     rows: &[RotationFunction<T::Memory>],

@@ -30,7 +30,7 @@ pub type Rotations = [f64; 6];
 pub struct Joint {
     /// Frame of the link above, columns in the world: with the turn of the node the Lambda of Eq. 11.
     pub upper: Matrix3<f64>,
-    /// Frame of the link below.
+    /// Frame of the link below (Lambda of Eq. 11 for a node that has not turned).
     pub lower: Matrix3<f64>,
     /// Rotational rows and stop.
     pub law: JointLaw<f64>,
@@ -95,8 +95,8 @@ mod tests {
     use super::*;
     use crate::tool::well::{frame_along, tangent};
 
-    /// With the angle as built, the undeflected joint is at rest whatever its bend; half a turn on, the bend is kept to the other side,
-    /// so that the row is off by twice its cosine.
+    /// With the angle as built, the undeflected joint is at rest whatever its bend; half a turn on, the bend is kept to
+    /// the other side, so that the row is off by twice its cosine.
     #[test]
     fn a_hinge_as_built_fits_once_per_turn() {
         let bend = 0.05_f64;

@@ -140,8 +140,8 @@ impl CondensedElimination {
     }
 }
 
-/// All 24 unknowns of a joint station from its 16, `x`; `rhs` holds its right-hand side. `start` and `next` are the rows of the start
-/// below's displacement over its own six unknowns and over the six of the pipe's next node, `below`.
+/// All 24 unknowns of a joint station from its 16, `x`; `rhs` holds its right-hand side. `start` and `next` are the
+/// rows of the start below's displacement over its own six unknowns and over the six of the pipe's next node, `below`.
 #[inline(always)]
 fn recover_joint(
     matrices: &Matrices,

@@ -1,4 +1,5 @@
-//! One iteration's solution: spans condensed, joints eliminated from the top down, everything recovered from the bottom up.
+//! One iteration's solution: spans condensed, joints eliminated from the top down, everything recovered from the bottom
+//! up.
 
 use super::guide_contact::{InterfaceMatrices, Solved, six};
 use super::guide_contact_lanes::{self, Group, LANES, SolvedLanes};
@@ -35,13 +36,15 @@ pub(super) struct Swept {
 pub struct CondensedElimination {
     instructions: Instructions,
     pub(super) modes: Vec<Mode>,
-    /// Right-hand sides and displacements inside the spans while their ends do not move: pipe, guide. `room` values each.
+    /// Right-hand sides and displacements inside the spans while their ends do not move: pipe, guide. `room` values
+    /// each.
     pub(super) pipes: Vec<f64>,
     pub(super) guides: Vec<f64>,
     pub(super) room: usize,
     /// Right-hand sides inside a span.
     pub(super) forces: Vec<f64>,
-    /// Spans whose guides are eliminated together; those of [`Mode::GuideContact`] that are in no group are eliminated alone.
+    /// Spans whose guides are eliminated together; those of [`Mode::GuideContact`] that are in no group are eliminated
+    /// alone.
     pub(super) groups: Vec<Group>,
     pub(super) grouped: Vec<bool>,
     /// Per kind of guide, the group that clamped has room.

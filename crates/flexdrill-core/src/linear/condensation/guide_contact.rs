@@ -67,8 +67,8 @@ impl GuideChain {
         }
     }
 
-    /// Eliminates the inner nodes from the top down; `contact` and `touching` are the inner stations', `forces` their right-hand sides,
-    /// six per node.
+    /// Eliminates the inner nodes from the top down; `contact` and `touching` are the inner stations', `forces` their
+    /// right-hand sides, six per node.
     ///
     /// # Errors
     /// Inner node and size of a pivot that vanished.

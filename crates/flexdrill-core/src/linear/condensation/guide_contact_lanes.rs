@@ -1,5 +1,6 @@
-//! The guides of up to eight like spans eliminated at once, a span per lane: the method of [`super::guide_contact`], whose spans one by one
-//! leave a processor waiting for each pivot. Eight lanes have no row to fill up and no chain to wait for.
+//! The guides of up to eight like spans eliminated at once, a span per lane: the method of [`super::guide_contact`],
+//! whose spans one by one leave a processor waiting for each pivot. Eight lanes have no row to fill up and no chain to
+//! wait for.
 
 use super::PaddedColumns;
 use super::guide_contact::{COLUMNS, GuideChain, InterfaceMatrices, RIGHT, TOP};
@@ -43,10 +44,11 @@ struct Ends {
 }
 
 impl GuideChain {
-    /// Eliminates the inner nodes of all spans in `group` from the top down; `spans` are the system's, `forces` the right-hand sides by node,
-    /// unknown and lane. Results per lane go to `out`.
+    /// Eliminates the inner nodes of all spans in `group` from the top down; `spans` are the system's, `forces` the
+    /// right-hand sides by node, unknown and lane. Results per lane go to `out`.
     ///
-    /// Returns whether the diagonal did as pivots everywhere; where not, nothing may be used and the spans have to be taken one by one.
+    /// Returns whether the diagonal did as pivots everywhere; where not, nothing may be used and the spans have to be
+    /// taken one by one.
     #[inline(always)]
     pub fn condense_lanes<V: Vector>(
         &self,

@@ -1,13 +1,14 @@
 //! Joint stations with one rotational row (universal, ball cage): 24 unknowns reduced to 16 before they are eliminated.
 //!
-//! Rows 18 to 20 of the block say s E_a du_a - s E_b du_b = r, so du_b = P du_a + c with P = E_b^T E_a. Adding P^T times the rows of u_b
-//! to those of u_a cancels the three translational multipliers. Order of the 16: rotations of a, u_a, rotations of b, guide,
-//! rotational multiplier; what couples to the next station comes late, so that its columns enter the elimination late.
+//! Rows 18 to 20 of the block say s E_a du_a - s E_b du_b = r, so du_b = P du_a + c with P = E_b^T E_a. Adding P^T
+//! times the rows of u_b to those of u_a cancels the three translational multipliers. Order of the 16: rotations of a,
+//! u_a, rotations of b, guide, rotational multiplier; what couples to the next station comes late, so that its columns
+//! enter the elimination late.
 
 /// Unknowns left.
 pub const REDUCED: usize = 16;
-/// Columns of the coupling to the next station with entries in rows 0 to k of the reduced block: the pipe's begin at u_a, the guide's at
-/// the guide.
+/// Columns of the coupling to the next station with entries in rows 0 to k of the reduced block: the pipe's begin at
+/// u_a, the guide's at the guide.
 #[inline(always)]
 pub fn active(k: usize) -> usize {
     6 * (usize::from(k >= 3) + usize::from(k >= 9))

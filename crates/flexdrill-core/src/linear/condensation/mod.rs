@@ -1,14 +1,16 @@
 //! Elimination along the joints: what lies between two joints is condensed beforehand.
 //!
-//! Between its joints a link is linear, and so is the guide between two joint stations; their matrices last as long as the step size
-//! does. So the inner stations of every span are eliminated once per step size ([`substructure`]), and an iteration works on joints only
-//! ([`forward`]): 34 blocks of 16 for the paper's tool instead of 170 stations. Where the guide touches the wall inside a span, the
-//! guide's inner stations are eliminated anew ([`guide_contact`], several spans at once in [`guide_contact_lanes`]); where the pipe touches the guide
-//! there, the span's stations take part in the sweep one by one. See `docs/solver.md`.
+//! Between its joints a link is linear, and so is the guide between two joint stations; their matrices last as long as
+//! the step size does. So the inner stations of every span are eliminated once per step size ([`substructure`]), and an
+//! iteration works on joints only ([`forward`]): 34 blocks of 16 for the paper's tool instead of 170 stations. Where
+//! the guide touches the wall inside a span, the guide's inner stations are eliminated anew ([`guide_contact`], several
+//! spans at once in [`guide_contact_lanes`]); where the pipe touches the guide there, the span's stations take part in
+//! the sweep one by one. See `docs/solver.md`.
 //!
-//! Order inside a block of 16: rotations of the end above (0..3), its displacement (3..6), rotations of the start below (6..9), guide
-//! (9..15), rotational multiplier (15). The displacement of the start below and the translational multipliers are taken out as in
-//! [`joint_reduction`]. Stations without a joint have one pipe node: rotations at 0..3, displacement at 3..6.
+//! Order inside a block of 16: rotations of the end above (0..3), its displacement (3..6), rotations of the start below
+//! (6..9), guide (9..15), rotational multiplier (15). The displacement of the start below and the translational
+//! multipliers are taken out as in [`joint_reduction`]. Stations without a joint have one pipe node: rotations at 0..3,
+//! displacement at 3..6.
 
 mod backward;
 mod forward;

@@ -1,4 +1,5 @@
-//! Gauss-Jordan elimination of the small blocks, over [`Vector`]: see [`crate::linear::block`] for the method and its pivoting.
+//! Gauss-Jordan elimination of the small blocks, over [`Vector`]: see [`crate::linear::block`] for the method and its
+//! pivoting.
 
 use super::{PaddedColumns, SIZE};
 use crate::linear::block::{PIVOT_RATIO, exchange};
@@ -113,7 +114,8 @@ struct Pair<V> {
 }
 
 impl<V: Vector> Pair<V> {
-    /// `None` if the pair will not do: as with one pivot, no multiplier of a row clamped to come may be larger than 1 / [`PIVOT_RATIO`].
+    /// `None` if the pair will not do: as with one pivot, no multiplier of a row clamped to come may be larger than 1 /
+    /// [`PIVOT_RATIO`].
     #[inline(always)]
     fn of(first: &[f64; SIZE], second: &[f64; SIZE], k: usize) -> Option<Self> {
         let (p, q, r, s) = (first[k], second[k], first[k + 1], second[k + 1]);
@@ -180,9 +182,9 @@ fn one_by_one<V: Vector, const C: usize>(
     Ok(())
 }
 
-/// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. The last column of `b` is full; of the others, only the first
-/// `active(k)` have entries in rows 0 to k. Two pivots are taken at a time, by the inverse of the two by two: one division to wait for
-/// instead of two, and every column is written half as often.
+/// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. The last column of `b` is full; of the others,
+/// only the first `active(k)` have entries in rows 0 to k. Two pivots are taken at a time, by the inverse of the two by
+/// two: one division to wait for instead of two, and every column is written half as often.
 ///
 /// # Errors
 /// The size of the largest available pivot when it is zero or not a number.
@@ -285,8 +287,9 @@ mod tests {
             let (mut a1, mut b1) = (a, b);
             solve_columns::<Portable, SIZE, 13>(&mut a1, &mut b1).unwrap();
             sixteen::<Portable, 13>(&mut a, &mut b, |_| 12).unwrap();
-            // Where the diagonal is large only rounding differs. Pivots a thousand times smaller than their column are taken in both ways, but
-            // in another order, so that six of sixteen digits are left for certain in the worst of fifty matrices.
+            // Where the diagonal is large only rounding differs. Pivots a thousand times smaller than their column are
+            // taken in both ways, but in another order, so that six of sixteen digits are left for certain in the worst
+            // of fifty matrices.
             let granted = if round % 2 == 0 { 1e-13 } else { 1e-6 };
             for (x, expected) in b.as_flattened().iter().zip(b1.as_flattened()) {
                 assert!(

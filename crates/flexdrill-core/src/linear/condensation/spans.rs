@@ -1,5 +1,5 @@
-//! The first step of an iteration: spans without contact between pipe and guide take the right-hand sides inside them to their ends, and
-//! guides that touch the wall are eliminated anew, like ones together.
+//! The first step of an iteration: spans without contact between pipe and guide take the right-hand sides inside them
+//! to their ends, and guides that touch the wall are eliminated anew, like ones together.
 
 use super::forward::{CondensedElimination, Mode};
 use super::guide_contact_lanes::{Group, LANES};

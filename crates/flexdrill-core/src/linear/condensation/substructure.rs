@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, Matrix6};
 use super::pivots::{halves_mut, load};
 use crate::simd::vector::Vector;
 
-/// Block-tridiagonal matrix of one substructure from end to end: nodes 0 (top end) to m + 1 (bottom end), six unknowns each. The ends' diagonal
-/// blocks are not part of it.
+/// Block-tridiagonal matrix of one substructure from end to end: nodes 0 (top end) to m + 1 (bottom end), six unknowns
+/// each. The ends' diagonal blocks are not part of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
     /// Diagonal blocks of the inner nodes.
@@ -40,8 +40,9 @@ pub struct Substructure {
     pub lower: Matrix6<f64>,
 }
 
-/// Relative difference below which two chains count as one. Links of a regular tool differ by the rounding of their geometry only; sharing
-/// keeps the matrices in the first-level cache. It can only slow the iteration down, by as much: the residual is every link's own.
+/// Relative difference below which two chains count as one. Links of a regular tool differ by the rounding of their
+/// geometry only; sharing keeps the matrices in the first-level cache. It can only slow the iteration down, by as much:
+/// the residual is every link's own.
 const SAME: f64 = 1e-11;
 
 impl Chain {
@@ -135,8 +136,8 @@ impl Substructure {
         self.chain.diagonal.len()
     }
 
-    /// From the forces inside, `forces` (filled up with zeros): what they put on the ends (top, bottom), and in `clamped` the inner
-    /// displacements while the ends do not move.
+    /// From the forces inside, `forces` (filled up with zeros): what they put on the ends (top, bottom), and in
+    /// `clamped` the inner displacements while the ends do not move.
     #[inline(always)]
     pub fn condense<V: Vector>(&self, forces: &[f64], clamped: &mut [f64]) -> [f64; 16] {
         let mut ends = [V::splat(0.0); 2];

@@ -108,9 +108,9 @@ pub struct CondensedSystem {
 }
 
 impl CondensedSystem {
-    /// Condenses `step_constant`, whose joints are at the stations `joints`. `None` where the joints do not have the form that
-    /// the reduction needs (two rotational rows, held translations), where something that lasts couples pipe and guide, or where an inner
-    /// matrix is singular.
+    /// Condenses `step_constant`, whose joints are at the stations `joints`. `None` where the joints do not have the
+    /// form that the reduction needs (two rotational rows, held translations), where something that lasts couples pipe
+    /// and guide, or where an inner matrix is singular.
     pub fn of(step_constant: BlockSystem, joints: &[usize]) -> Option<Self> {
         if !bodies_are_apart(&step_constant, joints) {
             return None;
@@ -264,7 +264,8 @@ impl Guide {
 }
 
 impl InterfaceCoupling {
-    /// From the natural order (displacement, rotations) of both nodes; `joint` is the reduction of the station above, if it is a joint.
+    /// From the natural order (displacement, rotations) of both nodes; `joint` is the reduction of the station above,
+    /// if it is a joint.
     pub fn of(upper: &Matrix6<f64>, lower: &Matrix6<f64>, joint: Option<&Reduction>) -> Self {
         let mut coupling_of_pipe = Self {
             upper: [[0.0; 8]; 6],
