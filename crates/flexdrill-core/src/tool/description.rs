@@ -1,6 +1,6 @@
 //! What is modelled, as plain numbers in SI: the tool, the well it lies in, its supports and loads.
 //!
-//! A [`ToolDescription`] is what the configuration is turned into and what [`crate::model::Model`] is built from. It is
+//! A [`ToolDescription`] is what the configuration is turned into and what the model is built from. It is
 //! checked when the model is built; after that nothing of it changes but the [`LiveParameters`].
 
 use serde::{Deserialize, Serialize};

@@ -161,9 +161,9 @@ pub fn shaft_direction<T: Number>(y: T, z: T) -> [T; 3] {
     [T::of(1.0) - b * s, a * z, -(a * y)]
 }
 
-/// The node's transverse axis at an angle from its y axis towards its z axis, in the link frame: (a c, cos + b z c, sin
-/// - b y c) with c = y sin - z cos; `sin` and `cos` are those of the spin plus the angle. Lambda of Eq. 11 turned with
-/// the node.
+/// The node's transverse axis at an angle from its y axis towards its z axis, in the link frame (Lambda of Eq. 11
+/// turned with the node): (a c, cos + b z c, sin - b y c) with c = y sin - z cos. `sin` and `cos` are those of the spin
+/// plus the angle.
 #[inline(always)]
 pub fn transverse_axis<T: Number>((sin, cos): (T, T), y: T, z: T) -> DirectionJet<T> {
     let s = y * y + z * z;
