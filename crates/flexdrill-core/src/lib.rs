@@ -59,6 +59,8 @@
 //!   nothing.
 //! - A step that cannot be taken changes nothing but counters and says why. Nothing panics on a number.
 
+#![deny(missing_docs)]
+
 pub mod dynamics;
 mod elements;
 pub mod inputs;

@@ -31,13 +31,13 @@ pub struct JointReport {
 pub struct Assembler {
     /// Internal less external force per unknown.
     pub residual: Vec<f64>,
-    /// Tangent.
+    /// The whole tangent, as assembled by [`Assembler::tangent`].
     pub system: BlockSystem,
     /// Touching pipe-guide gaps, per station.
     pub inner: Vec<Option<Touch>>,
     /// Touching guide-wall gaps, per station.
     pub outer: Vec<Option<Touch>>,
-    /// Joints.
+    /// Rotational rows and stops of the joints, top to bottom.
     pub joints: Vec<JointReport>,
     /// The same, eight at a time.
     pub(super) groups: Vec<JointGroup>,

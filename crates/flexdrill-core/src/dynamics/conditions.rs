@@ -16,9 +16,9 @@ pub struct Conditions {
     pub bit_torque: f64,
     /// Regularisation of the bit torque (rad/s).
     pub bit_slip_rate: f64,
-    /// Inner layer.
+    /// Contact law of pipe and guide.
     pub inner: GapLaw,
-    /// Outer layer.
+    /// Contact law of guide and wall.
     pub outer: GapLaw,
     /// Damping of both pipes.
     pub rayleigh: Rayleigh,

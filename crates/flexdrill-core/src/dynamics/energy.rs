@@ -29,9 +29,9 @@ pub struct EnergyPoint {
     geometric: Vec<f64>,
     /// Rayleigh damping's force C v.
     damping: Vec<f64>,
-    /// M a.
+    /// Inertia force M a (N, N m).
     inertia: Vec<f64>,
-    /// Point loads.
+    /// Value of each point load (N, N m).
     loads: Vec<f64>,
     /// Kinetic, elastic, geometric, contact and stop energy (J).
     stored: f64,

@@ -132,7 +132,7 @@ impl Kernel for RotationalRows<'_> {
     }
 }
 
-/// Their tangents.
+/// Derivatives of the moments of rotational rows and stops, eight joints at a time.
 struct RotationalTangents<'a> {
     increment: &'a mut [JointIncrement],
     groups: &'a [JointGroup],

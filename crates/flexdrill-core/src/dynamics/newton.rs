@@ -22,7 +22,7 @@ pub struct Tolerances {
     pub moment: f64,
     /// Largest opening of a joint (m) and largest value of a rotational row (-).
     pub constraint: f64,
-    /// Iterations allowed.
+    /// Corrections after which a sub-step counts as not converged.
     pub max_iterations: u32,
 }
 
@@ -47,11 +47,11 @@ const LARGEST_DISPLACEMENT: f64 = 1.0;
 pub struct Newton {
     /// Residual and tangent.
     pub assembler: Assembler,
-    /// Linear solver.
+    /// Solves with the whole tangent: static start, and tools that cannot be condensed.
     pub solver: Box<dyn LinearSolver>,
-    /// Limits.
+    /// When an iterate is accepted.
     pub tolerances: Tolerances,
-    /// For motion.
+    /// Solves with the condensed tangent: steps in motion.
     condensed: Option<CondensedTangents>,
     correction: Vec<f64>,
     /// One over the limit on the residual, per unknown; zero where there is no equation.

@@ -36,7 +36,7 @@ impl StepOutcome {
 /// Why and where a step or sub-step was not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepFailure {
-    /// Why.
+    /// Why the sub-step was not accepted.
     pub cause: FailureCause,
     /// Model time at the start of the sub-step (s).
     pub time: f64,

@@ -20,7 +20,7 @@ pub enum Phase {
     Energy,
     /// What is read off each step: statistics, stick-slip, whirl.
     Analysis,
-    /// Filling snapshots.
+    /// Filling the snapshots that are published.
     Snapshot,
     /// The rest: predictor, corrections of the state, copies for the retreat.
     Other,
@@ -38,7 +38,7 @@ impl Phase {
         Self::Other,
     ];
 
-    /// One word.
+    /// Its word in status, summaries and tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Assembly => "assembly",

@@ -15,9 +15,9 @@ pub type NodeVector = SVector<f64, 6>;
 pub struct State {
     /// Displacements, spins, tilts, multipliers: q_rd of Eq. 19 and lambda of Eq. 18, station by station.
     pub q: Vec<f64>,
-    /// Velocities.
+    /// Velocities (m/s, rad/s) in the same numbering.
     pub v: Vec<f64>,
-    /// Accelerations.
+    /// Accelerations (m/s2, rad/s2) in the same numbering.
     pub a: Vec<f64>,
     /// Accelerations that the time scheme lets lag behind `a`, see [`Scheme`](crate::dynamics::scheme::Scheme).
     pub lagged: Vec<f64>,

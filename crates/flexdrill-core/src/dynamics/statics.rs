@@ -22,7 +22,7 @@ pub enum StartError {
          is it supported in every direction?"
     )]
     Moving {
-        /// Steps made.
+        /// Steps made before giving up.
         steps: u32,
         /// Largest velocity left (m/s or rad/s).
         speed: f64,

@@ -45,15 +45,15 @@ pub enum SolverKind {
 pub struct Counters {
     /// Newton iterations, rejected ones included.
     pub iterations: u64,
-    /// Rejected sub-steps.
+    /// Sub-steps that did not converge and were tried again at half the size.
     pub rejected: u64,
     /// Steps that were split.
     pub halved_steps: u64,
-    /// Deepest split.
+    /// Most halvings that a step has needed.
     pub deepest_halving: u32,
-    /// Failed steps.
+    /// Steps that did not converge at the smallest sub-step; the state stayed that before.
     pub failed_steps: u64,
-    /// Last rejection.
+    /// Why and where the last sub-step was rejected.
     pub last_rejection: Option<StepFailure>,
 }
 
@@ -144,12 +144,12 @@ impl Stepper {
         })
     }
 
-    /// The tool.
+    /// The tool as built.
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// Present state.
+    /// State at the end of the last step.
     pub fn state(&self) -> &State {
         &self.state
     }

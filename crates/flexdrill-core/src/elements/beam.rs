@@ -21,9 +21,9 @@ pub type ElementMatrix = SMatrix<f64, 12, 12>;
 /// A straight beam element of given section and length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beam {
-    /// Section.
+    /// Stiffnesses and masses per length of its section.
     pub section: SectionProperties,
-    /// Length (m).
+    /// Length between its two nodes (m).
     pub length: f64,
 }
 

@@ -51,7 +51,7 @@ pub type Both<V> = [V; 2];
 pub struct ElementForm {
     /// Diagonals by row node and column node.
     diagonal: [[Lanes; 2]; 2],
-    /// Anti-diagonals.
+    /// Anti-diagonals by row node and column node: what couples a deflection with a slope.
     paired: [[Lanes; 2]; 2],
 }
 
@@ -166,7 +166,7 @@ pub struct ElementForms {
     pub stiffness: ElementForm,
     /// M, Eq. 5.
     pub mass: ElementForm,
-    /// G.
+    /// G, geometric stiffness per unit of tension (Eq. 41).
     pub geometric: ElementForm,
     /// Turn to its frame, for the guide.
     pub turn: Option<LaneTurn>,
@@ -218,7 +218,7 @@ impl ElementForms {
 /// Elements of both pipes, those of one kind sharing their matrices.
 #[derive(Debug, Clone, Default)]
 pub struct Elements {
-    /// Kinds.
+    /// Matrices of elements that differ.
     pub kinds: Vec<ElementForms>,
     /// Pipe elements, then guide elements.
     pub list: Vec<Placed>,
@@ -229,7 +229,7 @@ pub struct Elements {
 pub struct Placed {
     /// First unknowns of its nodes.
     pub nodes: [u32; 2],
-    /// Its kind.
+    /// Index of its matrices among [`Elements::kinds`].
     pub kind: u32,
 }
 

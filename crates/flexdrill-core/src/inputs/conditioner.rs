@@ -15,7 +15,7 @@ pub struct Conditioner {
 /// What became of the samples of one input.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Taken.
+    /// Samples taken.
     pub accepted: u64,
     /// Refused, by [`RejectionReason::index`].
     pub rejected: [u64; RejectionReason::COUNT],

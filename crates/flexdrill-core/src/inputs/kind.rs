@@ -12,7 +12,7 @@ use crate::units::{kn_to_n, rpm_to_rad_per_s};
 pub enum InputKind {
     /// Of the top drive, r/min.
     RotarySpeed,
-    /// kN.
+    /// Weight on bit, kN.
     WeightOnBit,
 }
 

@@ -13,7 +13,7 @@ pub struct Rejection {
     pub value: f64,
     /// When it was received (s, the caller's clock).
     pub time: f64,
-    /// Why.
+    /// Why it was refused, with the bound.
     pub reason: RejectionReason,
 }
 
@@ -47,15 +47,6 @@ pub enum RejectionReason {
 impl RejectionReason {
     /// Number of reasons.
     pub const COUNT: usize = 5;
-
-    /// Names of the reasons by [`RejectionReason::index`].
-    pub const NAMES: [&'static str; Self::COUNT] = [
-        "not_finite",
-        "negative",
-        "below_minimum",
-        "above_maximum",
-        "time_backwards",
-    ];
 
     /// Index into an array of counts.
     pub const fn index(&self) -> usize {

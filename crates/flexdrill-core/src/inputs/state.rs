@@ -12,7 +12,7 @@ pub enum InputState {
     /// No sample yet: the configured start value acts.
     #[default]
     NotReceived = 0,
-    /// Fresh.
+    /// Fresh: the newest sample is younger than `slow_age`.
     Ok = 1,
     /// Later than expected, not yet stale.
     Slow = 2,

@@ -29,9 +29,9 @@ pub struct JointIncrement {
 /// Additions of one iteration.
 #[derive(Debug, Clone)]
 pub struct TangentIncrement {
-    /// Per station.
+    /// What touches at each station.
     pub touching: Vec<Touching>,
-    /// Per station.
+    /// What contacts add to the block of each station, (pipe end above, guide) by columns.
     pub contact: Vec<ContactBlock>,
     /// Per joint station, in order.
     pub joints: Vec<JointIncrement>,

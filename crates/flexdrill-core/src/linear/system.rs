@@ -169,7 +169,7 @@ impl BlockSystem {
         }
     }
 
-    /// Its layout.
+    /// Numbering of its unknowns.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }

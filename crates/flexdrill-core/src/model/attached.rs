@@ -11,7 +11,7 @@ use crate::validation::ValidationError;
 pub struct ResolvedLoad {
     /// Unknown it acts on.
     pub unknown: usize,
-    /// As described.
+    /// The load as described, with its history.
     pub load: PointLoad,
 }
 
@@ -20,7 +20,7 @@ pub struct ResolvedLoad {
 pub struct ResolvedMass {
     /// Unknown of the node's u.
     pub unknown: usize,
-    /// kg.
+    /// Mass (kg).
     pub mass: f64,
     /// Gravity in the node's frame (m/s2).
     pub gravity: Vector3<f64>,

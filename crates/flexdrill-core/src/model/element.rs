@@ -11,9 +11,9 @@ use crate::tool::well::frame_along;
 /// A pipe element, in its link's frame.
 #[derive(Debug, Clone)]
 pub struct PipeElement {
-    /// Beam.
+    /// Section and length; a link's frame is the beam's own.
     pub beam: Beam,
-    /// G.
+    /// G, geometric stiffness per unit of tension (Eq. 41).
     pub geometric: ElementMatrix,
     /// Consistent forces of gravity (N).
     pub weight: ElementVector,

@@ -46,9 +46,9 @@ pub struct Model {
     pub driven: Option<usize>,
     /// Padding unknowns without an equation of their own.
     pub padding: Vec<usize>,
-    /// Point loads.
+    /// Point loads, resolved to unknowns.
     pub loads: Vec<ResolvedLoad>,
-    /// Point masses.
+    /// Point masses, resolved to unknowns.
     pub masses: Vec<ResolvedMass>,
     /// Clearance of the outer layer, Eq. 31 (m).
     pub outer_clearance: f64,
@@ -64,7 +64,7 @@ pub struct Model {
     pub force_scale: f64,
     /// The same for rotational rows (N m).
     pub moment_scale: f64,
-    /// As described.
+    /// The description that it was built from.
     pub description: ToolDescription,
 }
 
@@ -181,7 +181,7 @@ impl Model {
         self.layout.offset(self.joint_stations[joint]) + 18
     }
 
-    /// Last station.
+    /// Number of the last station, at the bit.
     pub fn last(&self) -> usize {
         self.stations.len() - 1
     }

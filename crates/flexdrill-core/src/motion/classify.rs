@@ -29,7 +29,7 @@ pub(super) struct View {
     /// How much the motion repeats itself after one turn of the tool, one and a half or two; 0 where it was not looked
     /// at.
     pub(super) repetition: f64,
-    /// s.
+    /// Length of the window (s).
     pub(super) duration: f64,
 }
 

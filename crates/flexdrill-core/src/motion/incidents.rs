@@ -19,7 +19,7 @@ pub enum IncidentKind {
     ChaoticWhirl,
     /// The bit stops, or nearly, and springs forward.
     StickSlip,
-    /// Collisions.
+    /// Lateral shock: the impulse of collisions.
     Shock,
 }
 
@@ -32,7 +32,7 @@ pub struct IncidentLocation {
     pub body: Body,
     /// m from the kick-off.
     pub measured_depth: f64,
-    /// rad.
+    /// Inclination there (rad).
     pub inclination: f64,
 }
 

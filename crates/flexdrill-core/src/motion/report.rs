@@ -16,7 +16,7 @@ pub enum WhirlKind {
     None = 0,
     /// In the sense of the rotation.
     Forward = 1,
-    /// Against it.
+    /// Round the gap against the rotation.
     Backward = 2,
     /// Large motion without a steady direction.
     Chaotic = 3,
@@ -50,9 +50,9 @@ pub enum Severity {
     Ok = 0,
     /// Keep an eye on it.
     Watch = 1,
-    /// Act soon.
+    /// Act soon: it wears the tool.
     Warning = 2,
-    /// Act now.
+    /// Act now: it may break the tool.
     Critical = 3,
 }
 
@@ -82,13 +82,13 @@ impl fmt::Display for Severity {
 pub struct WhirlReport {
     /// Station index from the top.
     pub station: Vec<usize>,
-    /// m.
+    /// Measured depth of each watched station (m).
     pub measured_depth: Vec<f64>,
-    /// rad.
+    /// Inclination there (rad).
     pub inclination: Vec<f64>,
-    /// Which pipe.
+    /// Which pipe is watched there.
     pub body: Vec<Body>,
-    /// Kind.
+    /// Kind of whirl, or none.
     pub kind: Vec<WhirlKind>,
     /// Signed rate of the orbit (rad/s), positive in the sense of the rotation.
     pub whirl_rate: Vec<f64>,

@@ -59,11 +59,11 @@ pub struct WhirlSettings {
     pub rolling_tolerance: f64,
     /// Highest level that forward whirl reaches by itself: it wears one side but bends the pipe little per turn.
     pub forward_limit: Severity,
-    /// First level.
+    /// Thresholds of WATCH.
     pub watch: LevelThresholds,
-    /// Second level.
+    /// Thresholds of WARNING.
     pub warning: LevelThresholds,
-    /// Third level.
+    /// Thresholds of CRITICAL.
     pub critical: LevelThresholds,
     /// Time for which a level is held after its conditions have gone (s).
     pub hold_off: f64,
@@ -108,7 +108,7 @@ pub struct LevelThresholds {
     pub contact_duty: f64,
     /// Peak normal force in the window (N).
     pub force: f64,
-    /// s.
+    /// How long it must last before the level counts (s).
     pub duration: f64,
 }
 

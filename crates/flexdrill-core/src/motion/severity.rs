@@ -12,7 +12,7 @@ pub(super) struct Evidence {
     pub(super) kind: WhirlKind,
     pub(super) clearance_ratio: f64,
     pub(super) contact_duty: f64,
-    /// N.
+    /// Largest normal force in the window (N).
     pub(super) peak_force: f64,
     pub(super) confidence: f64,
     /// Backward at the rate of rolling without slip.

@@ -92,7 +92,7 @@ impl Shocks {
         self.largest.fill(0.0);
     }
 
-    /// Forgets everything.
+    /// Forgets resting forces, impulses and level, as at the start of a run.
     pub fn reset(&mut self) {
         self.impulse.fill(0.0);
         self.mean_force.fill(0.0);

@@ -145,7 +145,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// 40 r/min.
+    /// Speed of the drive in the tests (rad/s), 40 r/min.
     const DRIVE: f64 = 4.19;
 
     fn watched(drive: impl Fn(f64) -> f64, bit: impl Fn(f64) -> f64, seconds: f64) -> StickSlip {

@@ -8,9 +8,9 @@ use crate::simd::vector::Vector;
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
     /// As kept in memory between two computations.
     type Memory: Copy + Default;
-    /// From memory.
+    /// Reads a number, or one per lane, from memory.
     fn load(from: &Self::Memory) -> Self;
-    /// To memory.
+    /// Writes it to memory.
     fn store(self, to: &mut Self::Memory);
     /// From one number.
     fn of(x: f64) -> Self;
@@ -56,7 +56,7 @@ impl Number for f64 {
     }
 }
 
-/// Eight numbers.
+/// One number of each of eight joints, computed with at once.
 #[derive(Debug, Clone, Copy)]
 pub struct Eight<V>(pub V);
 

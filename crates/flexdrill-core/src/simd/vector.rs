@@ -4,22 +4,22 @@
 //! of vector carry the `target_feature` that it needs. The compiler's own vectors of such code were tried and are
 //! several times slower: it takes the lanes apart.
 
-/// Eight lanes.
+/// Eight lanes of f64, one per unknown, column or joint as the kernel says.
 pub(crate) trait Vector: Copy {
     /// Whether [`Vector::plus_product`] rounds once: what scalar code beside these vectors then does too.
     const FUSED: bool;
 
     /// The same in every lane.
     fn splat(x: f64) -> Self;
-    /// From memory.
+    /// Reads eight lanes.
     fn load(from: &[f64; 8]) -> Self;
-    /// To memory.
+    /// Writes eight lanes.
     fn store(self, to: &mut [f64; 8]);
-    /// By lane.
+    /// Sum, lane by lane.
     fn plus(self, other: Self) -> Self;
-    /// By lane.
+    /// Difference, lane by lane.
     fn minus(self, other: Self) -> Self;
-    /// By lane.
+    /// Product, lane by lane.
     fn times(self, other: Self) -> Self;
     /// self + a b, rounded once where the machine does that.
     fn plus_product(self, a: Self, b: Self) -> Self;

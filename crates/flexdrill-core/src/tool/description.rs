@@ -94,7 +94,7 @@ pub enum WellSection {
 pub struct Material {
     /// Young's modulus (Pa).
     pub youngs_modulus: f64,
-    /// Poisson's ratio.
+    /// Poisson's ratio (-), 0 to 0.5.
     pub poisson_ratio: f64,
     /// Density (kg/m3).
     pub density: f64,
@@ -155,9 +155,9 @@ pub struct JointDescription {
 /// Rayleigh damping C = alpha M + beta K, Eq. 7.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rayleigh {
-    /// 1/s.
+    /// Mass-proportional damping (1/s).
     pub alpha: f64,
-    /// s.
+    /// Stiffness-proportional damping (s).
     pub beta: f64,
 }
 
@@ -215,15 +215,15 @@ impl std::fmt::Display for Body {
 /// A location along the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Location {
-    /// First station.
+    /// The first station, at the kick-off.
     Top,
-    /// Last station.
+    /// The last station, at the bit.
     Bottom,
     /// Station index from the top, 0-based.
     Station(usize),
     /// Joint number from the top, 0-based (both of its pipe nodes).
     Joint(usize),
-    /// Every station.
+    /// Every station of the tool.
     All,
 }
 
@@ -273,20 +273,20 @@ pub enum LoadHistory {
     Constant(f64),
     /// `rate` (N/s or N m/s) times the time since `start`, held after `end` (s).
     Ramp {
-        /// Per second.
+        /// Slope (N/s or N m/s).
         rate: f64,
-        /// s.
+        /// When it begins (s).
         start: f64,
-        /// s.
+        /// When it stays (s).
         end: f64,
     },
     /// amplitude sin(2 pi frequency t + phase).
     Sine {
         /// N or N m.
         amplitude: f64,
-        /// Hz.
+        /// Frequency (Hz).
         frequency: f64,
-        /// rad.
+        /// Phase angle at time zero (rad).
         phase: f64,
     },
     /// Linear between (s, N or N m) points, held outside.
@@ -313,7 +313,7 @@ pub struct PointMass {
     pub location: Location,
     /// On which pipe.
     pub body: Body,
-    /// kg.
+    /// Mass (kg).
     pub mass: f64,
 }
 

@@ -20,11 +20,11 @@ pub struct RunInputs {
     pub skipped: u64,
     /// The model goes back to its state after the start before this step.
     pub reset: bool,
-    /// Targets.
+    /// What the rig asks for: the model slews towards it.
     pub inputs: Inputs,
     /// Slew limits: rotary speed (rad/s2), weight on bit (N/s).
     pub slew: [f64; 2],
-    /// Coefficients.
+    /// Friction and bit coefficients in force.
     pub live: LiveParameters,
     /// Thresholds of the whirl analysis.
     pub whirl: WhirlSettings,
@@ -152,7 +152,7 @@ impl Run {
         self.before_reset + self.simulation.step() + self.applied.skipped
     }
 
-    /// The simulation.
+    /// The simulation that is run, to read from.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
     }

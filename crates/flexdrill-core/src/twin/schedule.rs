@@ -8,17 +8,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Output {
-    /// `twin/joint_deflections`.
+    /// Output `twin/joint_deflections`.
     JointDeflections,
-    /// `joint_states`.
+    /// Output `joint_states`.
     JointStates,
-    /// `twin/contact_forces`.
+    /// Output `twin/contact_forces`.
     ContactForces,
-    /// `twin/bit_state`.
+    /// Output `twin/bit_state`.
     BitState,
     /// `twin/whirl`, and `twin/whirl_warnings` when the level has changed.
     Whirl,
-    /// `twin/tool_shape`.
+    /// Output `twin/tool_shape`.
     ToolShape,
 }
 

@@ -241,7 +241,7 @@ impl Simulation {
         self.observer.set_input_trust(trust);
     }
 
-    /// Steps taken.
+    /// Steps taken since the start or the last reset.
     pub fn step(&self) -> u64 {
         self.step
     }

@@ -20,7 +20,7 @@ pub struct Snapshot {
     pub joints: Joints,
     /// Stations, top to bottom.
     pub contacts: Contacts,
-    /// The bit.
+    /// Torque, speed, load and accelerations of the bit.
     pub bit: Bit,
     /// Deflected lines of both pipes in the world frame.
     pub shape: Shape,
@@ -55,14 +55,14 @@ pub struct Applied {
 pub struct Joints {
     /// Along the path from the kick-off (m).
     pub measured_depth: Vec<f64>,
-    /// rad.
+    /// Inclination there (rad).
     pub inclination: Vec<f64>,
     /// Angle between the axes of the two links (rad, >= 0).
     pub bend_angle: Vec<f64>,
     /// Toolface of the bend: direction in which the lower link turns away, from the high side (rad, clockwise looking
     /// down the hole, -pi..pi).
     pub bend_direction: Vec<f64>,
-    /// rad.
+    /// Bend angle at which the stop begins (rad).
     pub limit_angle: Vec<f64>,
     /// Moment of the limit stop (N m, >= 0).
     pub stop_moment: Vec<f64>,
@@ -83,9 +83,9 @@ pub struct Joints {
 /// Per station, all arrays of the same length.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contacts {
-    /// m.
+    /// Measured depth from the kick-off (m).
     pub measured_depth: Vec<f64>,
-    /// rad.
+    /// Inclination there (rad).
     pub inclination: Vec<f64>,
     /// Table 2: 0 free, 1 inner, 2 outer, 3 both.
     pub state: Vec<u8>,
@@ -114,12 +114,12 @@ pub struct ContactLayer {
     pub shock: Vec<f64>,
 }
 
-/// The bit.
+/// The bit at one instant, with statistics since the last output.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Bit {
     /// Torque of the rock against the bit (N m).
     pub torque: f64,
-    /// rad/s.
+    /// Speed of the bit (rad/s).
     pub rotary_speed: f64,
     /// N, as applied.
     pub weight_on_bit: f64,

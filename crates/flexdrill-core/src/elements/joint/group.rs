@@ -14,7 +14,7 @@ pub struct JointGroup {
     law: JointLaw<Lane>,
     /// Rotational rows; the second belongs to joints that have two.
     rows: [RotationFunction<Lane>; 2],
-    /// How many.
+    /// Rotational rows per joint.
     count: usize,
     stop: Stop<Lane>,
     /// Whether some stop is shut; where not, the stop's derivatives are not kept up.
@@ -46,7 +46,7 @@ impl JointGroup {
         }
     }
 
-    /// Rotational rows.
+    /// The rotational rows as linearised last: one, or two for revolute joints.
     pub fn rows(&self) -> &[RotationFunction<Lane>] {
         &self.rows[..self.count]
     }

@@ -6,16 +6,16 @@ use crate::simd::number::Number;
 /// A value with gradient and Hessian in (psi, phi_y, phi_z).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jet<T> {
-    /// Value.
+    /// Value of the function.
     pub value: T,
-    /// First derivatives.
+    /// First derivatives in (psi, phi_y, phi_z).
     pub gradient: [T; 3],
-    /// Second derivatives.
+    /// Second derivatives, symmetric.
     pub hessian: [[T; 3]; 3],
 }
 
 impl<T: Number> Jet<T> {
-    /// Zero.
+    /// The function that is zero everywhere.
     #[inline(always)]
     pub fn zero() -> Self {
         let zero = T::of(0.0);

@@ -12,7 +12,7 @@ use crate::tool::description::JointKind;
 /// A scalar function of a joint's six rotations with its derivatives.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RotationFunction<M> {
-    /// Value.
+    /// Its value (-); zero where a constraint row holds.
     pub value: M,
     /// First derivatives: of a row, its part of Phi_q, Eq. 16.
     pub gradient: [M; 6],
@@ -23,7 +23,7 @@ pub struct RotationFunction<M> {
 /// Where a joint stands and how far it bends.
 #[derive(Debug, Clone, Copy)]
 pub struct JointLaw<M> {
-    /// Which rows.
+    /// Which rotational rows it has, and whether a stop.
     pub kind: JointKind,
     /// Q = E_a^T E_b, by rows.
     pub relative: [[M; 3]; 3],
@@ -33,7 +33,7 @@ pub struct JointLaw<M> {
     pub hinge_cosine: M,
     /// Bend angle at which the stop begins (rad).
     pub limit: M,
-    /// Its cosine.
+    /// Cosine of the limit: the stop is looked for without an angle.
     pub limit_cosine: M,
     /// k of the stop (N m/rad).
     pub stop_stiffness: f64,

@@ -25,7 +25,7 @@ use rotation::shaft_direction;
 /// Values of the six rotational coordinates of a joint, or moments on them.
 pub type Rotations = [f64; 6];
 
-/// One joint.
+/// A joint as built: where its two links lie, and its law.
 #[derive(Debug, Clone, Copy)]
 pub struct Joint {
     /// Frame of the link above, columns in the world: with the turn of the node the Lambda of Eq. 11.

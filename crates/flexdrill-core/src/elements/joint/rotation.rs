@@ -98,7 +98,7 @@ impl<T: Number> Tilted<T> {
         }
     }
 
-    /// The negative.
+    /// The function with its sign turned.
     #[inline(always)]
     fn negative(&self) -> Self {
         Self {

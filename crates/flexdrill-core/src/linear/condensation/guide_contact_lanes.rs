@@ -20,7 +20,7 @@ type Column = [Lane; 6];
 /// The solved columns of one inner node.
 pub type SolvedLanes = [Column; COLUMNS];
 
-/// No columns.
+/// Columns of a node that has not been eliminated: all zero.
 pub const NOTHING: SolvedLanes = [[[0.0; LANES]; 6]; COLUMNS];
 
 /// Spans with the same guide that are eliminated together; lanes without a span repeat the last one.
@@ -28,7 +28,7 @@ pub const NOTHING: SolvedLanes = [[[0.0; LANES]; 6]; COLUMNS];
 pub struct Group {
     /// Index of the guide in the system.
     pub guide: usize,
-    /// Spans.
+    /// Which spans, one per lane.
     pub spans: [usize; LANES],
     /// Lanes in use.
     pub count: usize,

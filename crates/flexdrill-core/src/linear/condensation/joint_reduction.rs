@@ -5,7 +5,7 @@
 //! u_a, rotations of b, guide, rotational multiplier; what couples to the next station comes late, so that its columns
 //! enter the elimination late.
 
-/// Unknowns left.
+/// Unknowns of a joint station after the reduction, 16 of 24.
 pub const REDUCED: usize = 16;
 /// Columns of the coupling to the next station with entries in rows 0 to k of the reduced block: the pipe's begin at
 /// u_a, the guide's at the guide.
@@ -73,13 +73,13 @@ impl Reduction {
         Some(reduction)
     }
 
-    /// P^T x.
+    /// P^T x: a displacement of the start below seen from the end above.
     #[inline(always)]
     pub fn turned_back(&self, x: [f64; 3]) -> [f64; 3] {
         [dot(&self.turn[0], &x), dot(&self.turn[1], &x), dot(&self.turn[2], &x)]
     }
 
-    /// P x.
+    /// P x: a displacement of the end above seen from the start below.
     #[inline(always)]
     pub fn turned(&self, x: [f64; 3]) -> [f64; 3] {
         let mut out = [0.0; 3];

@@ -35,7 +35,7 @@ const U: usize = 3;
 const BELOW: usize = 6;
 /// First of the guide.
 const GUIDE: usize = 9;
-/// The multiplier.
+/// Place of the rotational multiplier in a block.
 const MULTIPLIER: usize = 15;
 /// Columns per block: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;

@@ -131,7 +131,7 @@ impl Substructure {
         })
     }
 
-    /// Inner nodes.
+    /// Number of inner nodes, six unknowns each.
     pub fn nodes(&self) -> usize {
         self.chain.diagonal.len()
     }

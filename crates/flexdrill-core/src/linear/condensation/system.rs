@@ -47,7 +47,7 @@ pub struct Matrices {
     pub reduction: Option<Reduction>,
     /// With the span below condensed.
     pub start: StartBelow,
-    /// Without.
+    /// With the span below not condensed, because the pipe touches the guide there.
     pub own_start: StartBelow,
 }
 
@@ -97,13 +97,13 @@ pub struct CondensedSystem {
     pub nodes: Vec<Node>,
     /// Span k is between nodes k and k + 1.
     pub spans: Vec<Span>,
-    /// Different pipes.
+    /// Pipes that differ; like links share one.
     pub pipes: Vec<Substructure>,
-    /// Different guides.
+    /// Guides that differ between joints; like ones share one.
     pub guides: Vec<Guide>,
-    /// Different couplings.
+    /// Couplings that differ between stations of the sweep.
     pub couplings: Vec<InterfaceCoupling>,
-    /// Different stations.
+    /// Matrices that differ between stations of the sweep.
     pub matrices: Vec<Matrices>,
 }
 
@@ -183,7 +183,7 @@ impl CondensedSystem {
         })
     }
 
-    /// Its layout.
+    /// Numbering of the full system, whose right-hand sides it takes.
     pub fn layout(&self) -> &Layout {
         self.step_constant.layout()
     }
