@@ -94,7 +94,7 @@ pub struct Shelf {
 pub enum Unshelving {
     /// An operator wanted it back.
     Asked,
-    /// The time was over.
+    /// The time was over, or the clock was set back.
     Expired,
     /// One shot: the condition has gone.
     Returned,

@@ -84,9 +84,14 @@ impl Statistics {
         }
     }
 
-    /// Counts an annunciation.
-    pub(crate) fn count(&mut self, alarm: usize, priority: Option<Priority>, time: Time) {
-        self.advance(time);
+    /// Where time stands: the last [`Statistics::advance`].
+    pub(crate) fn last(&self) -> Option<Time> {
+        self.last
+    }
+
+    /// Counts an annunciation, at the time that was passed last: an event may carry that of another clock.
+    pub(crate) fn count(&mut self, alarm: usize, priority: Option<Priority>) {
+        let time = self.last.unwrap_or_default();
         self.recent.push_back(time);
         self.most_recent = self.most_recent.max(self.recent.len());
         if let Some(priority) = priority {
@@ -146,7 +151,8 @@ mod tests {
         let mut statistics = Statistics::new(2);
         statistics.advance(0);
         for minute in 0..12 {
-            statistics.count(0, Some(Priority::Low), span(f64::from(minute) * 30.0));
+            statistics.advance(span(f64::from(minute) * 30.0));
+            statistics.count(0, Some(Priority::Low));
         }
         // The eleventh comes at 300 s, the first is forgotten at 600 s, the second at 630 s: 330 s with eleven or more.
         for second in 331..1200 {
@@ -165,7 +171,8 @@ mod tests {
     fn repeats_are_counted_within_a_minute() {
         let mut statistics = Statistics::new(2);
         for second in [0.0, 30.0, 59.0, 65.0, 200.0] {
-            statistics.count(1, Some(Priority::High), span(second));
+            statistics.advance(span(second));
+            statistics.count(1, Some(Priority::High));
         }
         assert_eq!((statistics.most_repeats(0), statistics.most_repeats(1)), (0, 3));
         assert_eq!((statistics.last_minute(1), statistics.annunciations(1)), (1, 5));

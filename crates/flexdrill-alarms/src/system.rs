@@ -254,12 +254,20 @@ impl AlarmSystem {
         }
     }
 
-    /// Lets time pass: shelves end, figures are kept.
+    /// Lets time pass on the clock of requests, for shelves and figures. To be called before what happens then is
+    /// observed, which may carry the time of another clock. When the clock goes back, shelves end: nobody could say how
+    /// long they would last.
     pub fn advance(&mut self, time: Time, events: &mut Vec<Event>) {
+        let went_back = self.statistics.last().is_some_and(|last| time < last);
         self.statistics.advance(time);
         for index in 0..self.alarms.len() {
             let alarm = &self.alarms[index];
-            if let Some(change) = alarm.end_of_shelf(time, alarm.standing.active()) {
+            let end = if went_back && alarm.standing.shelf().is_some() {
+                Some(Change::Unshelved(Unshelving::Expired))
+            } else {
+                alarm.end_of_shelf(time, alarm.standing.active())
+            };
+            if let Some(change) = end {
                 self.change(index, time, change, &Operator { name: "", reason: "" }, "", events);
             }
         }
@@ -402,7 +410,7 @@ impl AlarmSystem {
             evidence: evidence.to_owned(),
         };
         if event.annunciates() {
-            self.statistics.count(index, event.priority, time);
+            self.statistics.count(index, event.priority);
         }
         events.push(event);
     }

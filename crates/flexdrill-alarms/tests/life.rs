@@ -42,8 +42,8 @@ impl Plant {
                 suppressed,
                 evidence: "4.4 bends per turn",
             };
-            self.system.observe(0, self.time, &observed, &mut self.events);
             self.system.advance(self.time, &mut self.events);
+            self.system.observe(0, self.time, &observed, &mut self.events);
         }
         self.state()
     }
