@@ -161,13 +161,14 @@ pub mod flexdrill {
         pub unit: std::string::String,
         /// How far the evidence can be trusted (0 to 1).
         pub confidence: f64,
-        /// What is seen, in a sentence; empty while the condition is not there.
+        /// What is seen, in a sentence. This and the next three are of the last time that the condition was seen for as long as it
+        /// is to be acknowledged, and empty when nothing is to be known of it.
         pub evidence: std::string::String,
-        /// Why it comes; empty while the condition is not there.
+        /// Why it comes.
         pub cause: std::string::String,
         /// What it leads to when nobody acts.
         pub consequence: std::string::String,
-        /// What to do; empty while the condition is not there.
+        /// What to do.
         pub what_to_do: std::string::String,
         /// How often it has called for somebody since the count began, which a restart goes on with.
         pub annunciations: u64,
@@ -248,6 +249,8 @@ pub mod flexdrill {
         pub shelved_until: super::builtin_interfaces::Time,
         /// What is seen, in a sentence; empty where the condition is not there.
         pub evidence: std::string::String,
+        /// What the operator is told to do; empty where nothing is to be done.
+        pub what_to_do: std::string::String,
         /// Where it was worst, as in Alarm: NOWHERE, PIPE or GUIDE.
         pub body: u8,
         /// Place along the bore from the kick-off (m), NaN where there is none.
@@ -288,7 +291,7 @@ pub mod flexdrill {
         const NAME: &'static str = "AlarmEvent";
         const ROS_TYPE: &'static str = "flexdrill/msg/AlarmEvent";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmEvent_";
-        const RIHS01: &'static str = "RIHS01_9e730999f243ea146f89202b706e5a81b21987acbab1824d00e0d89b145e3976";
+        const RIHS01: &'static str = "RIHS01_9544c171e98e81aa04307a5c05938877a1ad9c519a05df43b74a429ef38fc91f";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/AlarmEvent.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",

@@ -14,6 +14,10 @@ use super::{
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
 
+/// How often the alarms of the tool are judged, per second of model time: ten times within the shortest duration that a
+/// level has by default.
+const ALARM_RATE: f64 = 10.0;
+
 /// A message ready to be sent and recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct Encoded<'a> {
@@ -55,6 +59,7 @@ pub fn schedule(config: &Config) -> Schedule {
         Output::BitState => rates.bit_state,
         Output::Whirl => rates.whirl,
         Output::ToolShape => rates.tool_shape,
+        Output::Alarms => ALARM_RATE,
     })
 }
 
@@ -143,6 +148,7 @@ impl Outputs {
                     to_cdr_into(&self.tool_shape, &mut self.bytes)?;
                     &topics::TOOL_SHAPE
                 }
+                Output::Alarms => continue,
             };
             send(Encoded {
                 topic,
