@@ -1,9 +1,9 @@
 //! Which alarms there are.
 
-use super::hazards::HazardKind;
 use flexdrill_alarms::{Definition, Delays};
 use flexdrill_config::{Alarms, NodeAlarm, ToolAlarm};
 use flexdrill_core::inputs::InputKind;
+use flexdrill_core::motion::HazardKind;
 
 /// One thing that an operator can do something about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,8 +19,6 @@ pub enum AlarmId {
     StickSlip,
     /// Joints beyond their rating.
     JointLoad,
-    /// Friction work at one place.
-    Wear,
     /// Rotary speed not received, refused or stale.
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
@@ -35,13 +33,12 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All of them; where they are equally bad, the first goes first.
-    pub const ALL: [AlarmId; 11] = [
+    pub const ALL: [AlarmId; 10] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
         AlarmId::StickSlip,
         AlarmId::JointLoad,
-        AlarmId::Wear,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
         AlarmId::RealTime,
@@ -57,7 +54,6 @@ impl AlarmId {
             AlarmId::Shock => "shock",
             AlarmId::StickSlip => "stick_slip",
             AlarmId::JointLoad => "joint_load",
-            AlarmId::Wear => "wear",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
             AlarmId::RealTime => "real_time",
@@ -74,7 +70,6 @@ impl AlarmId {
             AlarmId::Shock => "lateral shock",
             AlarmId::StickSlip => "stick-slip",
             AlarmId::JointLoad => "joints beyond their rating",
-            AlarmId::Wear => "wear",
             AlarmId::RotarySpeedInput => "rotary speed not known",
             AlarmId::WeightOnBitInput => "weight on bit not known",
             AlarmId::RealTime => "not in real time",
@@ -91,7 +86,6 @@ impl AlarmId {
             HazardKind::Shock => AlarmId::Shock,
             HazardKind::StickSlip => AlarmId::StickSlip,
             HazardKind::JointLoad => AlarmId::JointLoad,
-            HazardKind::Wear => AlarmId::Wear,
         }
     }
 
@@ -113,7 +107,6 @@ impl AlarmId {
             AlarmId::Shock => tool(&alarms.shock),
             AlarmId::StickSlip => tool(&alarms.stick_slip),
             AlarmId::JointLoad => tool(&alarms.joint_load),
-            AlarmId::Wear => tool(&alarms.wear),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),
             AlarmId::RealTime => node(&alarms.real_time),

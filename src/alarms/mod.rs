@@ -14,7 +14,6 @@ mod advice;
 mod catalogue;
 mod fill;
 mod finding;
-mod hazards;
 mod node;
 mod request;
 pub mod state_file;

@@ -3,10 +3,9 @@
 use super::advice;
 use super::catalogue::AlarmId;
 use super::finding::Finding;
-use super::hazards::{DriveState, Hazard, HazardKind, hazards};
 use flexdrill_alarms::Priority;
 use flexdrill_config::{Advice, AdviceTable, Config};
-use flexdrill_core::motion::{IncidentLocation, Severity};
+use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::rad_to_deg;
@@ -16,7 +15,7 @@ const ROLLS: f64 = 0.15;
 
 /// What a snapshot says of every alarm of the tool.
 pub(super) fn findings(snapshot: &Snapshot, config: &Config) -> impl Iterator<Item = (AlarmId, Finding)> {
-    let hazards = hazards(snapshot);
+    let hazards = snapshot.hazards;
     let suppressed = hazards.drive != DriveState::Turning;
     hazards.list.into_iter().map(move |hazard| {
         let finding = if suppressed || hazard.severity == Severity::Ok {
@@ -71,7 +70,6 @@ fn advice_for(kind: HazardKind, table: &AdviceTable) -> Advice {
         HazardKind::Shock => table.shock,
         HazardKind::StickSlip => table.stick_slip,
         HazardKind::JointLoad => table.joint_load,
-        HazardKind::Wear => table.wear,
     }
 }
 
@@ -119,7 +117,7 @@ fn words(hazard: &Hazard) -> Words {
                 hazard.whirl_ratio
             ),
             cause: "Load presses the bent tool against one side, and the rotation carries it round.",
-            consequence: "The same side rubs all the time: uneven wear.".to_owned(),
+            consequence: format!("The same side rubs all the time, with {value:.0} W/m: it wears flat."),
         },
         HazardKind::Shock => Words {
             unit: "N s",
@@ -132,22 +130,16 @@ fn words(hazard: &Hazard) -> Words {
             consequence: "Damage to joints, cutters and instruments.".to_owned(),
         },
         HazardKind::StickSlip => Words {
-            unit: "",
+            unit: "of the mean",
             evidence: format!("The bit's speed swings by {value:.2} of its mean; at 1 the bit just stops."),
             cause: "The torque at the bit winds the tool up until it breaks loose.",
             consequence: "Impacts on the cutters, torque swings in every joint.".to_owned(),
         },
         HazardKind::JointLoad => Words {
-            unit: "",
-            evidence: format!("A joint carries {value:.2} of its rated moment{at}."),
+            unit: "of its rating",
+            evidence: format!("The stop of a joint carries {value:.2} of its rated moment{at}."),
             cause: "The tool is bent further than its joints give way, and their stops carry the rest.",
             consequence: "Overload of the joint: a crack or a broken pin.".to_owned(),
-        },
-        HazardKind::Wear => Words {
-            unit: "W/m",
-            evidence: format!("The {body} rubs with {value:.0} W/m{at}."),
-            cause: "A large contact force slides at one place.",
-            consequence: format!("The {body} or the {housing} wears through there."),
         },
     }
 }

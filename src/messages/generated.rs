@@ -773,11 +773,11 @@ pub mod flexdrill {
         pub inclination: Vec<f64>,
         /// PIPE or GUIDE.
         pub body: Vec<u8>,
-        /// NONE, FORWARD, BACKWARD or CHAOTIC.
+        /// NONE, FORWARD, BACKWARD, CHAOTIC or JOINT_VIBRATION.
         pub kind: Vec<u8>,
         /// Rate of the orbit (rad/s, positive in the sense of the rotation).
         pub whirl_rate: Vec<f64>,
-        /// Rate of the orbit over the rotary speed, 0 while the tool does not turn.
+        /// Rate of the orbit over the rotary speed, NaN where the motion is no whirl of one rate and while the tool does not turn.
         pub whirl_ratio: Vec<f64>,
         /// Root mean square radius about the running mean (m).
         pub orbit_radius: Vec<f64>,
@@ -792,10 +792,21 @@ pub mod flexdrill {
         /// Backward whirl of the driven pipe: rate over that of rolling without slip, - spin d / (D - d). 1 rolls, less slides, 0 is
         /// no such whirl.
         pub rolling_share: Vec<f64>,
+        /// Turns about the gap's centre per turn of the tool, counted, positive in the sense of the rotation; NaN while it stands.
+        pub gap_turns: Vec<f64>,
+        /// Bending cycles per turn of the tool that whirl of one rate brings; 0 elsewhere.
+        pub bending_cycles: Vec<f64>,
+        /// Largest impulse above the resting one in the window (N s).
+        pub impulse: Vec<f64>,
+        /// Impacts of at least 1 N s per second (1/s).
+        pub impact_rate: Vec<f64>,
+        /// Work of the friction per second and metre of the tool (W/m).
+        pub friction_power: Vec<f64>,
     }
 
     impl WhirlState {
-        /// No whirl: at rest, along a line, or a motion that repeats itself turn by turn without going round.
+        /// No whirl: at rest, along a line, small beside the gap's centre, or a motion that repeats itself turn by turn without going
+        /// round.
         pub const NONE: u8 = 0;
         /// The orbit turns in the sense of the rotation.
         pub const FORWARD: u8 = 1;
@@ -803,6 +814,9 @@ pub mod flexdrill {
         pub const BACKWARD: u8 = 2;
         /// Large motion without a steady direction that does not repeat itself.
         pub const CHAOTIC: u8 = 3;
+        /// A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS, whose
+        /// words the other kinds are, has none for it.
+        pub const JOINT_VIBRATION: u8 = 4;
         /// The flexible pipe.
         pub const PIPE: u8 = 0;
         /// The guide pipe.
@@ -814,7 +828,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhirlState";
         const ROS_TYPE: &'static str = "flexdrill/msg/WhirlState";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhirlState_";
-        const RIHS01: &'static str = "RIHS01_fd06b5a97868bdcc00430ab196f0c8415f2ddd97c94def68543d5e5dc67d7c57";
+        const RIHS01: &'static str = "RIHS01_ea41454404d7eff1b674ed7b75695a83fd62ec22970962b84c28b38ade72a441";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/WhirlState.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -832,7 +846,7 @@ pub mod flexdrill {
         pub header: super::std_msgs::Header,
         /// OK, WATCH, WARNING or CRITICAL.
         pub severity: u8,
-        /// NONE, FORWARD, BACKWARD or CHAOTIC.
+        /// NONE, FORWARD, BACKWARD, CHAOTIC or JOINT_VIBRATION.
         pub kind: u8,
         /// PIPE or GUIDE.
         pub body: u8,
@@ -840,7 +854,7 @@ pub mod flexdrill {
         pub measured_depth: f64,
         /// Inclination of the bore there, 0 is straight down (rad).
         pub inclination: f64,
-        /// Evidence: rate of the orbit over the rotary speed.
+        /// Evidence: rate of the orbit over the rotary speed, NaN where there is none.
         pub whirl_ratio: f64,
         /// Evidence: largest distance from the gap's centre over the clearance.
         pub clearance_ratio: f64,
@@ -874,7 +888,8 @@ pub mod flexdrill {
         pub const WARNING: u8 = 2;
         /// Act now.
         pub const CRITICAL: u8 = 3;
-        /// No whirl: at rest, along a line, or a motion that repeats itself turn by turn without going round.
+        /// No whirl: at rest, along a line, small beside the gap's centre, or a motion that repeats itself turn by turn without going
+        /// round.
         pub const NONE: u8 = 0;
         /// The orbit turns in the sense of the rotation.
         pub const FORWARD: u8 = 1;
@@ -882,6 +897,9 @@ pub mod flexdrill {
         pub const BACKWARD: u8 = 2;
         /// Large motion without a steady direction that does not repeat itself.
         pub const CHAOTIC: u8 = 3;
+        /// A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS, whose
+        /// words the other kinds are, has none for it.
+        pub const JOINT_VIBRATION: u8 = 4;
         /// The flexible pipe.
         pub const PIPE: u8 = 0;
         /// The guide pipe.

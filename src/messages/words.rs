@@ -40,6 +40,7 @@ pub fn whirl_kind(code: u8) -> &'static str {
         WhirlState::FORWARD => "forward",
         WhirlState::BACKWARD => "backward",
         WhirlState::CHAOTIC => "chaotic",
+        WhirlState::JOINT_VIBRATION => "joint vibration",
         _ => UNKNOWN,
     }
 }

@@ -20,14 +20,10 @@ section! {
         stick_slip: ToolAlarm = ToolAlarm::default(), below;
         /// Joints beyond their rating.
         joint_load: ToolAlarm = ToolAlarm::default(), below;
-        /// Friction work at one place.
-        wear: ToolAlarm = ToolAlarm::default(), below;
         /// `rig/rotary_speed_rpm` not received, refused or stale.
         rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
         /// `rig/weight_on_bit_kn` not received, refused or stale.
         weight_on_bit_input: NodeAlarm = NodeAlarm::default(), below;
-        /// The model contradicts itself or what is measured.
-        model_quality: NodeAlarm = NodeAlarm::default(), below;
         /// The model is slower than time.
         real_time: NodeAlarm = NodeAlarm::default(), below;
         /// A step failed.
@@ -79,8 +75,6 @@ pub struct AdviceTable {
     pub stick_slip: Advice,
     /// Default: below 8 kN.
     pub joint_load: Advice,
-    /// Default: below 40 r/min or below 8 kN.
-    pub wear: Advice,
 }
 
 impl Default for AdviceTable {
@@ -94,7 +88,6 @@ impl Default for AdviceTable {
                 ..Advice::lower(None, Some(8.0))
             },
             joint_load: Advice::lower(None, Some(8.0)),
-            wear: Advice::lower(Some(40.0), Some(8.0)),
         }
     }
 }
@@ -154,7 +147,6 @@ impl Alarms {
                 ("shock", advice.shock),
                 ("stick_slip", advice.stick_slip),
                 ("joint_load", advice.joint_load),
-                ("wear", advice.wear),
             ] {
                 c.below(key, |c| advice.check(c));
             }

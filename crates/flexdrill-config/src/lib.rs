@@ -56,9 +56,9 @@ pub use run::Run;
 pub use solver::{Solver, TimeScheme};
 pub use start::{Initial, Start};
 pub use tool::{Bit, Damping, Joint, Material, Tool};
-pub use vibration::{Shock, Steps, StickSlip};
+pub use vibration::{JointLoad, Repeats, Shock, Steps, StickSlip};
 pub use well::{Section, Well};
-pub use whirl::{InputTrust, Level, Levels, Watched, Whirl};
+pub use whirl::{ForwardPower, InputTrust, Watched, Whirl};
 
 use checker::Checker;
 use flexdrill_core::inputs::Inputs;
@@ -133,6 +133,9 @@ pub struct Schema {
     /// Collisions.
     #[serde(default)]
     pub shock: Shock,
+    /// Load of the joints' stops.
+    #[serde(default)]
+    pub joint_load: JointLoad,
     /// What calls for an operator.
     #[serde(default)]
     pub alarms: Alarms,
@@ -298,6 +301,7 @@ impl Config {
             whirl: self.whirl_settings(),
             stick_slip: self.stick_slip.describe(),
             shock: self.shock.describe(),
+            joint_load: self.joint_load.describe(),
             watched: self.whirl.places(self.mesh().last_station()),
             whirl_sample_interval: 1.0 / self.whirl.sample_rate,
         }
@@ -391,6 +395,7 @@ impl Schema {
         c.below("whirl", |c| self.whirl.check(c, &mesh));
         c.below("stick_slip", |c| self.stick_slip.check(c));
         c.below("shock", |c| self.shock.check(c));
+        c.below("joint_load", |c| self.joint_load.check(c));
         c.below("alarms", |c| self.alarms.check(c));
         c.below("outputs", |c| self.outputs.check(c));
     }

@@ -1,10 +1,10 @@
-//! `stick_slip` and `shock`: levels of the bit's speed ripple and of collisions.
+//! `stick_slip`, `shock` and `joint_load`: levels of the bit's speed ripple, of collisions and of the joints' stops.
 
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use super::section::section;
-use flexdrill_core::motion::{AlarmThresholds, ShockSettings, StickSlipSettings};
+use flexdrill_core::motion::{AlarmThresholds, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings};
 use flexdrill_core::units::{rad_per_s_to_rpm, rpm_to_rad_per_s};
 
 section! {
@@ -23,7 +23,7 @@ section! {
         /// And after this long there (s).
         hold_off: f64 = StickSlipSettings::default().thresholds.hold_off, within(0.0, 3600.0), "s", "an hour";
         /// Index, (max - min) / (2 mean), from which to watch, warn and call critical. Default 0.5, 0.8, 1.
-        levels: Steps = Steps::of(&StickSlipSettings::default().thresholds);
+        levels: Steps = Steps::from(StickSlipSettings::default().thresholds.levels);
     }
 }
 
@@ -43,7 +43,54 @@ section! {
         /// And after this long there (s).
         hold_off: f64 = ShockSettings::default().thresholds.hold_off, within(0.0, 3600.0), "s", "an hour";
         /// Impulse above the resting force (N s) from which to watch, warn and call critical. Default 5, 15, 45.
-        levels: Steps = Steps::of(&ShockSettings::default().thresholds);
+        levels: Steps = Steps::from(ShockSettings::default().thresholds.levels);
+        /// How many such impulses within `span` reach the level. Default 10, 3, 1.
+        repeats: Repeats = Repeats::default();
+        /// Time in which they are counted (s).
+        span: f64 = ShockSettings::default().span, above(0.0, 3600.0), "s", "an hour";
+    }
+}
+
+/// Numbers of impulses of three levels.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Repeats {
+    /// Keep an eye on it.
+    pub watch: u32,
+    /// Act soon.
+    pub warning: u32,
+    /// Act now.
+    pub critical: u32,
+}
+
+impl Default for Repeats {
+    fn default() -> Self {
+        let [watch, warning, critical] = ShockSettings::default().repeats;
+        Self {
+            watch,
+            warning,
+            critical,
+        }
+    }
+}
+
+section! {
+    /// Load of the joints' stops.
+    #[derive(Copy)]
+    pub struct JointLoad(this) {
+        /// Moment that the stop of a joint may carry for as long as one likes: that of its maker.
+        rated_moment_nm: f64 = JointLoadSettings::default().rated_moment, above(0.0, 1e7), "N m",
+            "a stop that may carry nothing is always overloaded";
+        /// Interval of the mean (s).
+        interval: f64 = JointLoadSettings::default().interval, within(1e-3, 10.0), "s",
+            "shorter shows the stop's stiffness, longer hides a blow";
+        /// A level is left below threshold x (1 - hysteresis).
+        hysteresis: f64 = JointLoadSettings::default().thresholds.hysteresis, within(0.0, 0.9), "",
+            "at 1 a level would never be left";
+        /// And after this long there (s).
+        hold_off: f64 = JointLoadSettings::default().thresholds.hold_off, within(0.0, 3600.0), "s", "an hour";
+        /// Mean moment over the rated one from which to watch, warn and call critical. Default 0.8, 1, 1.5.
+        levels: Steps = Steps::from(JointLoadSettings::default().thresholds.levels);
     }
 }
 
@@ -59,17 +106,23 @@ pub struct Steps {
     pub critical: f64,
 }
 
-impl Steps {
-    fn of(thresholds: &AlarmThresholds) -> Self {
-        let [watch, warning, critical] = thresholds.levels;
+impl From<[f64; 3]> for Steps {
+    fn from([watch, warning, critical]: [f64; 3]) -> Self {
         Self {
             watch,
             warning,
             critical,
         }
     }
+}
 
-    fn check(&self, c: &mut Checker, most: f64, unit: &'static str) {
+impl Steps {
+    /// In the order of the levels.
+    pub fn levels(&self) -> [f64; 3] {
+        [self.watch, self.warning, self.critical]
+    }
+
+    pub(super) fn check(&self, c: &mut Checker, most: f64, unit: &'static str) {
         let keys = [
             ("watch", self.watch),
             ("warning", self.warning),
@@ -97,7 +150,7 @@ impl StickSlip {
             window: self.window,
             gate_speed: rpm_to_rad_per_s(self.gate_speed_rpm),
             thresholds: AlarmThresholds {
-                levels: [self.levels.watch, self.levels.warning, self.levels.critical],
+                levels: self.levels.levels(),
                 hysteresis: self.hysteresis,
                 hold_off: self.hold_off,
             },
@@ -109,6 +162,17 @@ impl Shock {
     pub(super) fn check(&self, c: &mut Checker) {
         self.check_numbers(c);
         c.below("levels", |c| self.levels.check(c, 1e6, "N s"));
+        c.below("repeats", |c| {
+            let Repeats {
+                watch,
+                warning,
+                critical,
+            } = self.repeats;
+            for (key, repeats) in [("watch", watch), ("warning", warning), ("critical", critical)] {
+                let reason = "so many times are kept for each level";
+                c.count(key, repeats as usize, 1, MOST_REPEATS, reason);
+            }
+        });
     }
 
     pub(super) fn describe(&self) -> ShockSettings {
@@ -116,7 +180,28 @@ impl Shock {
             interval: self.interval,
             mean_time: self.mean_time,
             thresholds: AlarmThresholds {
-                levels: [self.levels.watch, self.levels.warning, self.levels.critical],
+                levels: self.levels.levels(),
+                hysteresis: self.hysteresis,
+                hold_off: self.hold_off,
+            },
+            repeats: [self.repeats.watch, self.repeats.warning, self.repeats.critical],
+            span: self.span,
+        }
+    }
+}
+
+impl JointLoad {
+    pub(super) fn check(&self, c: &mut Checker) {
+        self.check_numbers(c);
+        c.below("levels", |c| self.levels.check(c, 1e3, ""));
+    }
+
+    pub(super) fn describe(&self) -> JointLoadSettings {
+        JointLoadSettings {
+            rated_moment: self.rated_moment_nm,
+            interval: self.interval,
+            thresholds: AlarmThresholds {
+                levels: self.levels.levels(),
                 hysteresis: self.hysteresis,
                 hold_off: self.hold_off,
             },

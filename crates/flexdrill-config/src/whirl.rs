@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 use super::checker::Checker;
 use super::place::Mesh;
 use super::section::section;
-use flexdrill_core::motion::{self, LevelThresholds, Severity, WhirlSettings};
+use super::vibration::Steps;
+use flexdrill_core::motion::{self, WhirlSettings};
 use flexdrill_core::tool::Body;
-use flexdrill_core::units::{kn_to_n, n_to_kn, rpm_to_rad_per_s};
+use flexdrill_core::units::rpm_to_rad_per_s;
 
 section! {
     /// Whirl analysis and warnings.
@@ -27,6 +28,10 @@ section! {
         /// RMS orbit radius over clearance below which nothing is called whirl.
         min_orbit_ratio: f64 = WhirlSettings::default().min_orbit_ratio, within(0.0, 1.0), "",
             "a ratio; 1 fills the gap";
+        /// RMS radius about its own mean over clearance from which a motion is judged as whirl although it does not go
+        /// round the gap's centre.
+        large_orbit_ratio: f64 = WhirlSettings::default().large_orbit_ratio, within(0.0, 1.0), "",
+            "a ratio; 1 fills the gap";
         /// Part of direction, 0 to 1, from which an orbit is forward or backward and below which it is chaotic.
         steady_direction: f64 = WhirlSettings::default().steady_direction, within(0.1, 1.0), "",
             "broad-band motion scatters by 0.2";
@@ -45,12 +50,13 @@ section! {
         hysteresis: f64 = WhirlSettings::default().hysteresis, within(0.0, 0.9), "", "at 1 a level would never be left";
         /// And after this long there (s).
         hold_off: f64 = WhirlSettings::default().hold_off, within(0.0, 3600.0), "s", "an hour";
-        /// Time for which `critical` stands at least (s).
-        latch: f64 = WhirlSettings::default().latch, within(0.0, 1e9), "s", "";
-        /// Highest level of forward whirl: ok, watch, warning or critical. Default warning.
-        forward_limit: Severity = WhirlSettings::default().forward_limit;
-        /// When to watch, warn and call critical.
-        levels: Levels = Levels::default();
+        /// Backward whirl: bending cycles per turn of the tool from which to watch, warn and call critical. Default 1, 2,
+        /// 3.
+        backward_cycles: Steps = Steps::from(WhirlSettings::default().backward_cycles);
+        /// Forward whirl: work of the friction per second and metre (W/m) from which to watch and to warn.
+        forward_power: ForwardPower = ForwardPower::default();
+        /// Turns of the tool for which it must last before it counts. Default 1, 1.5, 1.5.
+        lasting_turns: Steps = Steps::from(WhirlSettings::default().lasting_turns);
     }
 }
 
@@ -98,41 +104,13 @@ impl InputTrust {
 }
 
 section! {
-    /// Thresholds of the three levels.
+    /// Levels of forward whirl, which is never critical.
     #[derive(Copy)]
-    pub struct Levels(this) {
-        /// Keep an eye on it.
-        watch: Level = WhirlSettings::default().watch.into(), below;
-        /// Act soon.
-        warning: Level = WhirlSettings::default().warning.into(), below;
-        /// Act now.
-        critical: Level = WhirlSettings::default().critical.into(), below;
-    }
-}
-
-section! {
-    /// A level is reached when, for `duration`, there is whirl with both ratios and the force reached.
-    #[derive(Copy)]
-    pub struct Level(this) {
-        /// Largest distance from the gap's centre over the clearance.
-        clearance_ratio: f64, within(0.0, 2.0), "", "above 1 is penetration";
-        /// Part of the window in contact, 0 to 1.
-        contact_duty: f64, within(0.0, 1.0), "", "a part of the window";
-        /// Peak normal contact force.
-        force_kn: f64, within(0.0, 1e4), "kN", "0 asks for none";
-        /// How long it must last (s).
-        duration: f64, within(0.0, 600.0), "s", "longer would warn too late";
-    }
-}
-
-impl From<LevelThresholds> for Level {
-    fn from(thresholds: LevelThresholds) -> Self {
-        Self {
-            clearance_ratio: thresholds.clearance_ratio,
-            contact_duty: thresholds.contact_duty,
-            force_kn: n_to_kn(thresholds.force),
-            duration: thresholds.duration,
-        }
+    pub struct ForwardPower(this) {
+        /// Keep an eye on it (W/m).
+        watch: f64 = WhirlSettings::default().forward_power[0], above(0.0, 1e9), "W/m", "0 would always be reached";
+        /// Act soon (W/m).
+        warning: f64 = WhirlSettings::default().forward_power[1], above(0.0, 1e9), "W/m", "0 would always be reached";
     }
 }
 
@@ -150,7 +128,21 @@ impl Whirl {
                 });
             });
         }
-        c.below("levels", |c| self.levels.check(c));
+        c.below("backward_cycles", |c| self.backward_cycles.check(c, 1e3, ""));
+        c.below("lasting_turns", |c| self.lasting_turns.check(c, 1e4, "turns"));
+        c.below("forward_power", |c| {
+            self.forward_power.check_numbers(c);
+            let ForwardPower { watch, warning } = self.forward_power;
+            let bound = format!("at least that of the level below, {watch}");
+            c.require(
+                watch <= warning || warning.is_nan(),
+                "warning",
+                warning,
+                "W/m",
+                bound,
+                "levels rise",
+            );
+        });
     }
 
     /// Stations and pipes to watch, up to `last_station`; empty stands for both pipes at every joint.
@@ -176,44 +168,11 @@ impl Whirl {
             min_confidence: self.min_confidence,
             hysteresis: self.hysteresis,
             hold_off: self.hold_off,
-            latch: self.latch,
-            forward_limit: self.forward_limit,
-            watch: self.levels.watch.describe(),
-            warning: self.levels.warning.describe(),
-            critical: self.levels.critical.describe(),
+            large_orbit_ratio: self.large_orbit_ratio,
+            backward_cycles: self.backward_cycles.levels(),
+            forward_power: [self.forward_power.watch, self.forward_power.warning],
+            lasting_turns: self.lasting_turns.levels(),
             ..WhirlSettings::default()
-        }
-    }
-}
-
-impl Levels {
-    fn check(&self, c: &mut Checker) {
-        self.check_numbers(c);
-        for (key, lower, higher) in [
-            ("warning", &self.watch, &self.warning),
-            ("critical", &self.warning, &self.critical),
-        ] {
-            c.below(key, |c| {
-                for (name, low, high, unit) in [
-                    ("clearance_ratio", lower.clearance_ratio, higher.clearance_ratio, ""),
-                    ("contact_duty", lower.contact_duty, higher.contact_duty, ""),
-                    ("force_kn", lower.force_kn, higher.force_kn, "kN"),
-                ] {
-                    let bound = format!("at least that of the level below, {low}");
-                    c.require(low <= high || high.is_nan(), name, high, unit, bound, "levels rise");
-                }
-            });
-        }
-    }
-}
-
-impl Level {
-    fn describe(&self) -> LevelThresholds {
-        LevelThresholds {
-            clearance_ratio: self.clearance_ratio,
-            contact_duty: self.contact_duty,
-            force: kn_to_n(self.force_kn),
-            duration: self.duration,
         }
     }
 }

@@ -91,6 +91,7 @@ fn nothing_is_allocated_per_sample_or_report() {
         inclination: 0.1,
         clearance: 8.5e-3,
         body_diameter: 63e-3,
+        length: 0.03,
     };
     let mut analysis = WhirlAnalysis::new(&WhirlSettings::default(), 4e-3, (0..8).map(watched).collect());
     let mut samples = [StationSample::default(); 8];
@@ -106,6 +107,8 @@ fn nothing_is_allocated_per_sample_or_report() {
                 z: 5e-3 * sin,
                 normal_force: 6e3,
                 contact_share: 0.5,
+                impulse: 1.0,
+                friction_work: 0.1,
             };
         }
         analysis.push(time, 4.2, &samples);

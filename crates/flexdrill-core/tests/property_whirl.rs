@@ -93,7 +93,7 @@ proptest! {
             bench.push(speed, at, random.within(-1.0, 1.0).max(0.0) * 1e4);
             let report = &bench.report;
             prop_assert!((0.0..=1.0).contains(&report.confidence[0]) && (0.0..=1.0).contains(&report.contact_duty[0]));
-            prop_assert!(report.orbit_radius[0].is_finite() && report.whirl_ratio[0].is_finite());
+            prop_assert!(report.orbit_radius[0].is_finite() && report.whirl_rate[0].is_finite());
         }
     }
 }
@@ -233,21 +233,19 @@ fn kind_changes(mut motion: impl FnMut(f64) -> [f64; 2]) -> u32 {
     changes
 }
 
-/// Reach over clearance, force (N) and share of samples in contact at a time (s).
-type Dithering<'a> = dyn Fn(f64) -> (f64, f64, f64) + 'a;
+/// Whirl rate over rotary speed and friction power (W/m) at a time (s).
+type Dithering<'a> = dyn Fn(f64) -> (f64, f64) + 'a;
 
-/// Changes of level after the first has been reached, in 100 s of rolling backward whirl with the given reach, force
-/// and share of samples in contact.
-fn level_changes(settings: &WhirlSettings, mut at: impl FnMut(f64) -> (f64, f64, f64)) -> u32 {
+/// Changes of level after the first 20 s, in 100 s of whirl along the wall.
+fn level_changes(settings: &WhirlSettings, at: &Dithering<'_>) -> u32 {
     let mut bench = Bench::with(settings);
-    let (mut contact, mut changes, mut last) = (0.0, 0, Severity::Ok);
+    let (mut angle, mut changes, mut last) = (0.0f64, 0, Severity::Ok);
     for step in 0..25_000 {
         let time = f64::from(step) * SAMPLE_INTERVAL;
-        let (reach, force, duty) = at(time);
-        contact += duty;
-        let force = if contact >= 1.0 { force } else { 0.0 };
-        contact = contact.rem_euclid(1.0);
-        bench.push(SPEED, rotor(reach * CLEARANCE, -2.0 * SPEED)(time), force);
+        let (ratio, power) = at(time);
+        angle += ratio * SPEED * SAMPLE_INTERVAL;
+        bench.rub(power);
+        bench.push(SPEED, [CLEARANCE * angle.cos(), CLEARANCE * angle.sin()], 500.0);
         let severity = bench.analysis.level().severity;
         if time > 20.0 {
             changes += u32::from(severity != last);
@@ -311,15 +309,13 @@ proptest! {
     fn levels_do_not_flap_at_a_threshold(pace in 0.1f64..6.0, phase in 0.0f64..6.0) {
         let settings = WhirlSettings::default();
         let dither = |time: f64| 1.0 + 0.05 * (pace * time + phase).sin();
-        let (watch, warning, critical) = (&settings.watch, &settings.warning, &settings.critical);
-        let cases: [(&str, &Dithering<'_>); 7] = [
-            ("watch, reach", &|time| (watch.clearance_ratio * dither(time), 0.0, 0.0)),
-            ("warning, reach", &|time| (warning.clearance_ratio * dither(time), 8e3, 0.5)),
-            ("warning, contact", &|time| (1.01, 8e3, warning.contact_duty * dither(time))),
-            ("warning, force", &|time| (1.01, warning.force * dither(time), 0.5)),
-            ("critical, reach", &|time| (critical.clearance_ratio * dither(time), 25e3, 0.5)),
-            ("critical, contact", &|time| (1.01, 25e3, critical.contact_duty * dither(time))),
-            ("critical, force", &|time| (1.01, critical.force * dither(time), 0.5)),
+        let [_, warning, critical] = settings.backward_cycles;
+        let [watch, serious] = settings.forward_power;
+        let cases: [(&str, &Dithering<'_>); 4] = [
+            ("backward, warning", &|time| (1.0 - warning * dither(time), 0.0)),
+            ("backward, critical", &|time| (1.0 - critical * dither(time), 0.0)),
+            ("forward, watch", &|time| (1.0, watch * dither(time))),
+            ("forward, warning", &|time| (1.0, serious * dither(time))),
         ];
         for (name, case) in cases {
             let changes = level_changes(&settings, case);
@@ -327,7 +323,7 @@ proptest! {
         }
     }
 
-    /// Whirl that dithers around the rate from which it counts as rolling: the level, one higher for rolling, stays.
+    /// Whirl that dithers around the rate from which it counts as rolling: it does so or not, and stays.
     #[test]
     fn rolling_does_not_flap(pace in 0.1f64..6.0, phase in 0.0f64..6.0) {
         let settings = WhirlSettings::default();
@@ -385,7 +381,7 @@ fn a_second_line_does_not_make_a_whirl_doubtful() {
 fn doubtful_inputs_lower_the_confidence_and_freeze_the_level() {
     let orbit = |time: f64| {
         let ([a, b], [c, d]) = (
-            rotor(0.5 * CLEARANCE, -SPEED)(time),
+            rotor(0.5 * CLEARANCE, -0.7 * SPEED)(time),
             rotor(0.2 * CLEARANCE, 2.6 * SPEED)(time),
         );
         [a + c, b + d]
@@ -416,11 +412,11 @@ fn doubtful_inputs_lower_the_confidence_and_freeze_the_level() {
     assert_eq!(stale.analysis.level().severity, Severity::Watch);
 }
 
-/// Rolling is told from sliding by the rate: at 95 % of the rolling rate it rolls and counts one level more, at 60 % it
-/// slides.
+/// Rolling is told from sliding by the rate: at 95 % of the rolling rate it rolls and is critical, at 40 % it slides and
+/// bends the pipe two and a half times per turn.
 #[test]
 fn rolling_is_told_from_sliding() {
-    for (share, rolls, expected) in [(0.95, true, Severity::Warning), (0.6, false, Severity::Watch)] {
+    for (share, rolls, expected) in [(0.95, true, Severity::Critical), (0.4, false, Severity::Warning)] {
         let mut bench = Bench::new();
         let orbit = rotor(CLEARANCE, -63.0 / 17.0 * share * SPEED);
         for step in 0..5000 {
@@ -453,7 +449,12 @@ fn reset_and_restore_leave_no_ghosts() {
     for step in 0..2000 {
         again.push(SPEED, orbit(f64::from(step) * SAMPLE_INTERVAL), 25e3);
         first.push(SPEED, orbit(f64::from(step) * SAMPLE_INTERVAL), 25e3);
-        assert_eq!(again.report, first.report, "step {step}");
+        // By what they print: no ratio is NaN, which is not equal to itself.
+        assert_eq!(
+            format!("{:?}", again.report),
+            format!("{:?}", first.report),
+            "step {step}"
+        );
     }
     let mut restored = early;
     restored.continue_sequence(before.sequence);
@@ -476,7 +477,7 @@ fn serialised_state_continues_bit_for_bit() {
     }
     let states = [&one, &other].map(|bench| serde_json::to_value(&bench.analysis).unwrap());
     assert!(states[0] == states[1]);
-    assert_eq!(one.report, other.report);
+    assert_eq!(format!("{:?}", one.report), format!("{:?}", other.report));
 }
 
 /// 2,000 generated orbits of each of five seeds, with noise 20 dB below the motion. Thresholds were set with other
@@ -491,8 +492,9 @@ fn confusion_table_of_generated_orbits() {
         WhirlKind::Forward,
         WhirlKind::Backward,
         WhirlKind::Chaotic,
+        WhirlKind::JointVibration,
     ];
-    let mut table = [[0u32; 4]; 4];
+    let mut table = [[0u32; 5]; 5];
     let mut families: BTreeMap<&str, [u32; 2]> = BTreeMap::new();
     let mut ratio_errors = Vec::new();
     let mut worst = 1.0f64;
@@ -517,10 +519,13 @@ fn confusion_table_of_generated_orbits() {
         println!("seed {seed}: {right_of_seed} of {COUNT} right, {:.2} %", 100.0 * part);
         worst = worst.min(part);
     }
-    println!("| is \\ called | none | forward | backward | chaotic |");
+    println!("| is \\ called | none | forward | backward | chaotic | joint vibration |");
     for (kind, row) in kinds.iter().zip(&table) {
         let name = format!("{kind:?}").to_lowercase();
-        println!("| {name} | {} | {} | {} | {} |", row[0], row[1], row[2], row[3]);
+        println!(
+            "| {name} | {} | {} | {} | {} | {} |",
+            row[0], row[1], row[2], row[3], row[4]
+        );
     }
     for (family, [right, count]) in &families {
         println!("| {family} | {right} of {count} |");
@@ -549,6 +554,7 @@ fn cost_of_a_sample() {
         inclination: 0.0,
         clearance: CLEARANCE,
         body_diameter: 63e-3,
+        length: 0.0305,
     };
     let mut analysis = WhirlAnalysis::new(
         &WhirlSettings::default(),

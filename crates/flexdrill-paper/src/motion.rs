@@ -115,6 +115,8 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
                 Body::Pipe => stations.pipe_diameter[s],
                 Body::Guide => stations.guide_diameter,
             },
+            // Only for the power of the friction, which a record of positions does not have.
+            length: 1.0,
         })
         .collect();
     let settings = WhirlSettings::default();
@@ -146,7 +148,7 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
             match report.kind[s] {
                 WhirlKind::Forward => whirl.forward += 1.0,
                 WhirlKind::Backward => whirl.backward += 1.0,
-                WhirlKind::None | WhirlKind::Chaotic => continue,
+                WhirlKind::None | WhirlKind::Chaotic | WhirlKind::JointVibration => continue,
             }
             whirl.ratio += report.whirl_ratio[s];
         }

@@ -68,7 +68,7 @@ fn evidence(incident: &Incident) -> String {
         _ => {
             let mut text = String::new();
             // Chaos has no rate.
-            if incident.whirl_ratio != 0.0 {
+            if incident.whirl_ratio.abs() > 0.0 {
                 let _ = write!(text, "x{:.2} of the speed, ", incident.whirl_ratio);
             }
             let _ = write!(

@@ -179,7 +179,7 @@ mod tests {
             alarms: vec![
                 alarm("backward whirl", Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::HIGH),
                 alarm("lateral shock", Alarm::SHELVED, Alarm::LOW),
-                alarm("wear", Alarm::NORMAL, Alarm::NO_PRIORITY),
+                alarm("stick-slip", Alarm::NORMAL, Alarm::NO_PRIORITY),
             ],
             unacknowledged: 1,
             ..AlarmList::default()
@@ -199,7 +199,10 @@ mod tests {
         ] {
             assert!(text.contains(part), "'{part}' is not in\n{text}");
         }
-        assert!(!text.contains("wear") && !text.contains("LOW lateral shock"), "{text}");
+        assert!(
+            !text.contains("stick-slip, normal") && !text.contains("LOW lateral shock"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -35,6 +35,11 @@ pub fn whirl_state(snapshot: &Snapshot, header: &Header, out: &mut WhirlState) {
     out.severity
         .extend(whirl.severity.iter().map(|severity| *severity as u8));
     copy(&mut out.rolling_share, &whirl.rolling_share);
+    copy(&mut out.gap_turns, &whirl.gap_turns);
+    copy(&mut out.bending_cycles, &whirl.bending_cycles);
+    copy(&mut out.impulse, &whirl.impulse);
+    copy(&mut out.impact_rate, &whirl.impact_rate);
+    copy(&mut out.friction_power, &whirl.friction_power);
 }
 
 /// Fills `out`. `input_quality` is the worse of the inputs' states, in the message's INPUT_ constants.
@@ -83,12 +88,15 @@ fn sentence(warning: &WhirlWarning, level: &WhirlWarningLevel, body: Body) -> St
         share if level.rolling => format!(", rolling ({:.0} % of the rate without slip)", 100.0 * share),
         share => format!(", sliding ({:.0} % of the rate of rolling)", 100.0 * share),
     };
+    let rate = match warning.whirl_ratio {
+        ratio if ratio.is_nan() => String::new(),
+        ratio => format!(", {ratio:.1} times the rotary speed"),
+    };
     format!(
-        "{severity}: {kind} of the {body} at {:.2} m (inclination {:.0} deg), {:.1} times the rotary speed{manner}, {:.0} % of the \
-         clearance, in contact {:.0} % of the last {:.1} s with up to {:.2} kN, confidence {:.0} %.",
+        "{severity}: {kind} of the {body} at {:.2} m (inclination {:.0} deg){rate}{manner}, {:.0} % of the clearance, \
+         in contact {:.0} % of the last {:.1} s with up to {:.2} kN, confidence {:.0} %.",
         warning.measured_depth,
         rad_to_deg(warning.inclination),
-        warning.whirl_ratio,
         100.0 * warning.clearance_ratio,
         100.0 * warning.contact_duty,
         warning.window,

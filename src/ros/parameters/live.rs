@@ -6,7 +6,7 @@ pub const USE_SIM_TIME: &str = "use_sim_time";
 pub const CONFIG_FILE: &str = "config_file";
 
 /// Keys of parameters that may change while running: exact, or a group that ends with a dot.
-const LIVE: [&str; 12] = [
+const LIVE: [&str; 14] = [
     "contact.inner.friction_tangential",
     "contact.inner.friction_axial",
     "contact.outer.friction_tangential",
@@ -14,7 +14,9 @@ const LIVE: [&str; 12] = [
     "tool.bit.friction_factor",
     "inputs.rotary_speed.",
     "inputs.weight_on_bit.",
-    "whirl.levels.",
+    "whirl.backward_cycles.",
+    "whirl.forward_power.",
+    "whirl.lasting_turns.",
     "whirl.gate_speed_rpm",
     "whirl.hysteresis",
     "outputs.rates.",
@@ -42,7 +44,7 @@ pub(super) fn why_fixed(key: &str) -> String {
         "solver" => "the time step and the solver's limits are fixed when the model is built",
         "contact" | "environment" | "boundary" | "loads" => "the model is built with it",
         "start" | "initial" | "run" | "inputs" => "it only counts at the start",
-        "whirl" | "stick_slip" | "shock" => "the analysis is built with it",
+        "whirl" | "stick_slip" | "shock" | "joint_load" => "the analysis is built with it",
         USE_SIM_TIME => "the clock is chosen at the start",
         CONFIG_FILE => "the configuration is read at the start",
         _ => "it is fixed at the start",
@@ -64,7 +66,7 @@ mod tests {
             ("solver.time_step", false),
             ("inputs.rotary_speed.slew_rpm_per_s", true),
             ("inputs.rotary_speed.initial_rpm", false),
-            ("whirl.levels.warning.contact_duty", true),
+            ("whirl.backward_cycles.warning", true),
             ("outputs.rates.bit_state", true),
             ("use_sim_time", false),
         ] {

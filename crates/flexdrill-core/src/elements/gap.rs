@@ -42,6 +42,8 @@ pub struct Touch {
     pub energy: f64,
     /// Power taken by the normal damping (W).
     pub dissipation: f64,
+    /// Power taken by the friction, around and along (W, >= 0).
+    pub friction_power: f64,
     /// Unit vector from the outer body's axis to the inner's.
     direction: Vector2<f64>,
     /// Distance of the axes (m).
@@ -187,6 +189,7 @@ impl GapLaw {
             axial: 0.0,
             energy: 0.5 * k * depth * depth,
             dissipation: 0.0,
+            friction_power: 0.0,
             direction: n,
             distance,
             normal_by: [Vector2::zeros(); 2],
@@ -215,6 +218,7 @@ impl GapLaw {
         let (share_a, slope_a) = self.regularised(along);
         touch.tangential = -mu_t * normal * share_t;
         touch.axial = -mu_a * normal * share_a;
+        touch.friction_power = -(touch.tangential * around + touch.axial * along);
         touch.friction_by = [
             [mu_t * share_t, mu_t * normal * slope_t],
             [mu_a * share_a, mu_a * normal * slope_a],

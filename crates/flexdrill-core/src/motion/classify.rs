@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::WhirlKind;
 use super::full_spectrum::Lines;
 use super::orbit::Orbit;
+use super::orbit_window::Round;
 use super::settings::WhirlSettings;
 
 /// Turns that an orbit must make in the long window; half an arc about its own centre looks like up to 0.7 turns, so
@@ -19,11 +20,24 @@ const CLEAN_CONCENTRATION: f64 = 0.9;
 /// Agreement of the two rates from which the orbit counts as one line; the spectrum alone is good for a few percent.
 const SINGLE_LINE: f64 = 0.9;
 
+/// Agreement of turns and strongest line from which the line, which is measured more finely, gives the rate. A window of
+/// two turns is counted to a quarter of a turn.
+const SAME_RATE: f64 = 0.8;
+
+/// Part of the turns about the gap's centre that must go one way for a motion whose lines have no direction: a pipe that
+/// is thrown from wall to wall draws chords, and these have lines both ways although every flight goes round backward.
+/// Of broad-band motion over ten swings the part scatters by 0.15 around 0.
+const DIRECT: f64 = 0.5;
+
+/// Relative difference to twice the rotary speed within which a small orbit is driven by the joint's cross.
+const TWICE: f64 = 0.1;
+
 /// Both estimators' results for one window.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct View {
     pub(super) orbit: Orbit,
     pub(super) lines: Lines,
+    pub(super) round: Round,
     /// Phase rate (rad/s) from the turns about the centre, where the swept area and the strongest line disagree.
     pub(super) turning: Option<f64>,
     /// How much the motion repeats itself after one turn of the tool, one and a half or two; 0 where it was not looked
@@ -52,15 +66,38 @@ impl View {
         agreement(self.orbit.rate, self.lines.rate) >= SINGLE_LINE
     }
 
-    /// The swept area is exact for a single line; of several lines it gives the mean, and then the strongest line says
-    /// more.
+    /// The swept area is exact for a single line. Of several lines it gives the mean, and then the strongest line says
+    /// more, unless the turns that were made contradict it: the strongest line of chords is not the rate at which they go
+    /// round. Those about the gap's centre count where it is gone round.
     fn rate(&self) -> f64 {
-        if self.is_single_line() {
-            self.orbit.rate
+        let Some(turning) = self.turning else {
+            return self.orbit.rate;
+        };
+        let turns = if self.round.net.abs() >= MIN_TURNS && self.round.net * self.lines.rate > 0.0 {
+            self.round_rate()
+        } else {
+            turning
+        };
+        if agreement(turns, self.lines.rate) < SAME_RATE {
+            turns
         } else {
             self.lines.rate
         }
     }
+
+    /// Rate (rad/s) of the turns about the gap's centre.
+    fn round_rate(&self) -> f64 {
+        TAU * self.round.net / self.duration
+    }
+}
+
+/// What is beside the motion when it is judged.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rotation {
+    /// +1 or -1, the sign of the rotation.
+    pub(super) sense: f64,
+    /// Size of the mean rotary speed (rad/s); none while the tool stands.
+    pub(super) speed: Option<f64>,
 }
 
 /// 1 for equal rates, 0 for rates that differ by their own size.
@@ -94,6 +131,10 @@ pub(super) struct Gates {
     pub(super) axis_ratio: f64,
     direction: f64,
     turns: f64,
+    /// RMS radius (m) from which a motion counts as whirl although it does not go round the gap's centre.
+    large: f64,
+    direct: f64,
+    twice: f64,
     repetition: f64,
     out_of_chaos: bool,
 }
@@ -105,11 +146,16 @@ impl Gates {
         let when = |stands: bool| if stands { leaving } else { 1.0 };
         let orbits = when(previous != WhirlKind::None);
         let whirls = when(matches!(previous, WhirlKind::Forward | WhirlKind::Backward));
+        let vibrates = previous == WhirlKind::JointVibration;
+        let is_large = when(!matches!(previous, WhirlKind::None | WhirlKind::JointVibration));
         Self {
             radius: settings.min_orbit_ratio * clearance * orbits,
             axis_ratio: settings.min_axis_ratio * orbits,
             direction: settings.steady_direction * whirls,
             turns: MIN_TURNS * whirls,
+            large: settings.large_orbit_ratio * clearance * is_large,
+            direct: DIRECT * whirls,
+            twice: TWICE * if vibrates { 1.0 + settings.hysteresis } else { 1.0 },
             repetition: settings.min_repetition * when(previous == WhirlKind::None),
             out_of_chaos: previous == WhirlKind::Chaotic,
         }
@@ -119,13 +165,29 @@ impl Gates {
     pub(super) fn is_directed(&self, lines: &Lines) -> bool {
         lines.direction.abs() >= self.direction
     }
+
+    /// Whether the motion goes round the gap, or is so large that it matters wherever its centre lies.
+    fn goes_round(&self, view: &View) -> bool {
+        view.round.net.abs() >= self.turns || view.orbit.radius >= self.large
+    }
+
+    /// Whether the flights from wall to wall go one way round, whatever the lines of their chords say.
+    fn is_thrown_round(&self, round: &Round) -> bool {
+        round.net.abs() >= self.turns && round.directness() >= self.direct
+    }
+
+    /// Whether a rate (rad/s) is twice that of the tool.
+    fn is_twice(&self, rate: f64, speed: f64) -> bool {
+        (rate.abs() - 2.0 * speed).abs() <= self.twice * 2.0 * speed
+    }
 }
 
-/// `sense` is +1 or -1, the sign of the rotation.
-pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, sense: f64) -> Verdict {
+/// Names the motion of a station.
+pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: &Rotation) -> Verdict {
     // Out of chaos only the long window leads: by chance a few turns of it look like one whirl. So do parts of a motion
-    // that repeats itself without going round.
-    let long_leads = gates.out_of_chaos || long.repetition >= gates.repetition;
+    // that repeats itself without going round, and a short window sees a large slow line as a drift of a small fast one.
+    let is_part = |short: &View| gates.goes_round(long) && !gates.goes_round(short);
+    let long_leads = gates.out_of_chaos || long.repetition >= gates.repetition || short.is_some_and(is_part);
     let view = match short {
         Some(view) if view.is_clean(gates.axis_ratio) && !long_leads => view,
         _ => long,
@@ -152,7 +214,30 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, sense: f64
         return verdict(WhirlKind::None, 0.0, confidence);
     }
     let direction = view.lines.direction;
+    let whirl = |rate: f64, confidence: f64| {
+        let kind = if rate * rotation.sense > 0.0 {
+            WhirlKind::Forward
+        } else {
+            WhirlKind::Backward
+        };
+        verdict(kind, rate, confidence)
+    };
+    if !gates.goes_round(view) {
+        let directed = gates.is_directed(&view.lines);
+        return match rotation.speed {
+            Some(speed) if directed && gates.is_twice(view.rate(), speed) => {
+                verdict(WhirlKind::JointVibration, view.rate(), view.agreement())
+            }
+            _ => verdict(WhirlKind::None, 0.0, 1.0 - 0.5 * view.orbit.radius / gates.large),
+        };
+    }
     if !gates.is_directed(&view.lines) {
+        if gates.is_thrown_round(&long.round) {
+            return Verdict {
+                window: long.duration,
+                ..whirl(long.round_rate(), long.round.directness())
+            };
+        }
         // A pipe that rocks up both sides of the hole, or is thrown about in the same way at every turn, has no
         // direction either, but there is nothing chaotic in it.
         return if view.repetition >= gates.repetition {
@@ -165,10 +250,7 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, sense: f64
     if view.orbit.rate.abs().max(view.lines.rate.abs()) * view.duration < gates.turns * TAU {
         return verdict(WhirlKind::None, 0.0, 0.5);
     }
-    let kind = if direction * sense > 0.0 {
-        WhirlKind::Forward
-    } else {
-        WhirlKind::Backward
-    };
-    verdict(kind, view.rate(), direction.abs() * view.agreement())
+    // The direction is that of the lines: the rate of the turns may be lost in noise.
+    let rate = view.rate().copysign(direction);
+    whirl(rate, direction.abs() * view.agreement())
 }

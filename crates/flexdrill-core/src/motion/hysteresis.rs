@@ -8,6 +8,8 @@ use super::Severity;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Hysteresis {
     pub(super) level: Severity,
+    /// Model time at which the level was reached (s).
+    pub(super) since: f64,
     /// How long the conditions that hold the level have not been met (s).
     unmet_for: f64,
 }
@@ -24,19 +26,20 @@ pub(super) enum Change {
 }
 
 impl Hysteresis {
-    /// Over `elapsed` (s), conditions have been met that raise the level to `raised` and hold it at `held`. It falls,
-    /// to `held`, after `hold_off` (s) without them, unless it is `latched`.
+    /// Until model time `time` (s), over `elapsed` (s), conditions have been met that raise the level to `raised` and hold
+    /// it at `held`. It falls, to `held`, after `hold_off` (s) without them.
     pub(super) fn update(
         &mut self,
+        time: f64,
         elapsed: f64,
         raised: Severity,
         held: Severity,
         hold_off: f64,
-        latched: bool,
     ) -> Change {
         if raised > self.level {
             *self = Self {
                 level: raised,
+                since: time,
                 unmet_for: 0.0,
             };
             return Change::Rose;
@@ -46,13 +49,21 @@ impl Hysteresis {
             return Change::Stands;
         }
         self.unmet_for += elapsed;
-        if self.unmet_for >= hold_off && !latched {
+        if self.unmet_for >= hold_off {
             *self = Self {
                 level: held,
+                since: time,
                 unmet_for: 0.0,
             };
         }
         Change::Fades
+    }
+}
+
+impl AlarmThresholds {
+    /// Threshold of a level, of the first one for OK.
+    pub fn of(&self, level: Severity) -> f64 {
+        self.levels[(level as usize).saturating_sub(1)]
     }
 }
 
@@ -74,8 +85,8 @@ pub struct Alarm {
 }
 
 impl Alarm {
-    /// Takes a value that stood for `elapsed` (s); says whether the level rose or stands above OK for this value.
-    pub fn update(&mut self, elapsed: f64, value: f64, thresholds: &AlarmThresholds) -> bool {
+    /// Takes a value that stood for `elapsed` (s) until model time `time` (s); says whether the level rose or stands above OK for this value.
+    pub fn update(&mut self, time: f64, elapsed: f64, value: f64, thresholds: &AlarmThresholds) -> bool {
         let reached = |factor: f64| {
             Severity::RAISED
                 .into_iter()
@@ -86,14 +97,16 @@ impl Alarm {
                 .unwrap_or_default()
         };
         let (raised, held) = (reached(1.0), reached(1.0 - thresholds.hysteresis));
-        match self
-            .hysteresis
-            .update(elapsed, raised, held, thresholds.hold_off, false)
-        {
+        match self.hysteresis.update(time, elapsed, raised, held, thresholds.hold_off) {
             Change::Rose => true,
             Change::Stands => self.severity() > Severity::Ok,
             Change::Fades => false,
         }
+    }
+
+    /// Model time at which the level was reached (s).
+    pub fn since(&self) -> f64 {
+        self.hysteresis.since
     }
 
     /// Where it stands.
@@ -115,24 +128,24 @@ mod tests {
     #[test]
     fn rises_at_once_and_falls_after_the_hold_off() {
         let mut level = Alarm::default();
-        assert!(!level.update(0.1, 0.99, &THRESHOLDS));
-        assert!(level.update(0.1, 5.0, &THRESHOLDS));
+        assert!(!level.update(0.0, 0.1, 0.99, &THRESHOLDS));
+        assert!(level.update(0.0, 0.1, 5.0, &THRESHOLDS));
         assert_eq!(level.severity(), Severity::Critical);
         for _ in 0..9 {
-            assert!(!level.update(0.1, 2.5, &THRESHOLDS));
+            assert!(!level.update(0.0, 0.1, 2.5, &THRESHOLDS));
             assert_eq!(level.severity(), Severity::Critical);
         }
-        level.update(0.11, 2.5, &THRESHOLDS);
+        level.update(0.0, 0.11, 2.5, &THRESHOLDS);
         assert_eq!(level.severity(), Severity::Warning);
     }
 
     #[test]
     fn does_not_flap_around_a_threshold() {
         let mut level = Alarm::default();
-        level.update(0.1, 2.0, &THRESHOLDS);
+        level.update(0.0, 0.1, 2.0, &THRESHOLDS);
         for step in 0..1000 {
             let value = 2.0 + 0.15 * f64::from(step).sin();
-            level.update(0.1, value, &THRESHOLDS);
+            level.update(0.0, 0.1, value, &THRESHOLDS);
             assert_eq!(level.severity(), Severity::Warning);
         }
     }

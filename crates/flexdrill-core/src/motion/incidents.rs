@@ -291,7 +291,7 @@ fn whirl_incident(at: &Observation<'_>, index: usize) -> Incident {
         (WhirlKind::Backward, true) => IncidentKind::RollingWhirl,
         (WhirlKind::Backward, false) => IncidentKind::BackwardWhirl,
         // A level needs a kind; none is left only between a restart of the windows and the end of the hold-off.
-        (WhirlKind::Chaotic | WhirlKind::None, _) => IncidentKind::ChaoticWhirl,
+        (WhirlKind::Chaotic | WhirlKind::JointVibration | WhirlKind::None, _) => IncidentKind::ChaoticWhirl,
     };
     let place = IncidentLocation {
         station: whirl.station[index],
@@ -342,6 +342,7 @@ mod tests {
             severity: severity.to_vec(),
             rolling_share: vec![0.0; 4],
             peak_force: vec![force; 4],
+            ..WhirlReport::default()
         }
     }
 

@@ -2,23 +2,25 @@
 //!
 //! # Layout
 //! - [`WhirlAnalysis`] takes samples of every watched station and keeps a [`WhirlReport`] and a [`WhirlWarningLevel`].
-//!   - `watched_station`: one of them. `orbit_window`: its last seconds. `orbit`: centre, axes, radius and phase rate
-//!     of the
-//!     motion in a window. `full_spectrum`: its forward and backward lines.
-//!   - `classify`: from these to a kind of whirl. `severity`: from kind, reach and contact to a level. `tool_level`:
-//!     from
-//!     the stations' levels to the one warning.
-//! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact; `hysteresis`: how they rise and
-//!   fall.
+//!   - `watched_station`: one of them. `orbit_window`: its last seconds. `orbit`: centre, axes, radius and phase rate of
+//!     the motion in a window. `full_spectrum`: its forward and backward lines.
+//!   - `classify`: from these to a kind of motion. `severity`: from kind, bending cycles and friction to a level.
+//!     `tool_level`: from the stations' levels to the place that leads and the one warning.
+//! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact, [`JointLoadWatch`] the stops of the
+//!   joints; `hysteresis`: how levels rise and fall; `drive`: while the tool is run up none does.
+//! - [`Hazards`]: all of these side by side, what alarms are made from.
 //! - [`IncidentLog`] makes a table of all this over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] sum up what happens between two outputs.
 //! - [`settings`]: every threshold, with its reason.
 
 mod classify;
 mod contact_statistics;
+mod drive;
 mod full_spectrum;
+mod hazards;
 mod hysteresis;
 mod incidents;
+mod joint_load;
 mod orbit;
 mod orbit_window;
 mod report;
@@ -31,11 +33,14 @@ mod watched_station;
 mod whirl;
 
 pub use contact_statistics::{ContactStatistics, RootMeanSquare};
+pub use drive::DriveState;
+pub use hazards::{Hazard, HazardKind, Hazards};
 pub use hysteresis::{Alarm, AlarmThresholds};
 pub use incidents::{Incident, IncidentKind, IncidentLocation, IncidentLog, Observation};
+pub use joint_load::{JointLoadLevel, JointLoadSettings, JointLoadWatch};
 pub use report::{Severity, ShockLevel, WhirlKind, WhirlReport, WhirlWarningLevel};
-pub use settings::{InputTrust, LevelThresholds, WhirlSettings};
-pub use shock::{ShockSettings, ShockWatch, Shocks};
+pub use settings::{InputTrust, WhirlSettings};
+pub use shock::{MOST_REPEATS, ShockSettings, ShockWatch, Shocks};
 pub use stick_slip::{StickSlip, StickSlipSettings};
 pub use watched_station::{StationSample, WatchedStation};
 pub use whirl::WhirlAnalysis;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::tool::description::Body;
 
-/// Kinds of whirl, in the words of D-WIS. The discriminants are those of the messages.
+/// Kinds of motion, in the words of D-WIS where it has one. The discriminants are those of the messages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
@@ -20,6 +20,9 @@ pub enum WhirlKind {
     Backward = 2,
     /// Large motion without a steady direction.
     Chaotic = 3,
+    /// A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS
+    /// has no word for it.
+    JointVibration = 4,
 }
 
 impl WhirlKind {
@@ -30,6 +33,7 @@ impl WhirlKind {
             Self::Forward => "forward whirl",
             Self::Backward => "backward whirl",
             Self::Chaotic => "chaotic whirl",
+            Self::JointVibration => "joint vibration",
         }
     }
 }
@@ -92,7 +96,8 @@ pub struct WhirlReport {
     pub kind: Vec<WhirlKind>,
     /// Signed rate of the orbit (rad/s), positive in the sense of the rotation.
     pub whirl_rate: Vec<f64>,
-    /// `whirl_rate` over the rotary speed; 0 when the tool does not turn.
+    /// `whirl_rate` over the rotary speed; NaN where the motion is no whirl of one rate, and when the tool does not
+    /// turn.
     pub whirl_ratio: Vec<f64>,
     /// Root mean square radius about the running mean (m).
     pub orbit_radius: Vec<f64>,
@@ -106,13 +111,23 @@ pub struct WhirlReport {
     pub severity: Vec<Severity>,
     /// Kind of whirl that the level stands for, also while it is only held.
     pub level_kind: Vec<WhirlKind>,
-    /// Whether the whirl is backward and so near to rolling without slip that it counts one level more.
+    /// Whether the whirl is backward and so near to rolling without slip that it counts as rolling.
     pub rolling: Vec<bool>,
     /// `whirl_rate` over that of rolling without slip, `-spin d / (D - d)`, for backward whirl of the driven pipe: 1
     /// rolls, less slides; 0 where there is no such whirl.
     pub rolling_share: Vec<f64>,
     /// Largest normal force in the window (N).
     pub peak_force: Vec<f64>,
+    /// Turns about the gap's centre per turn of the tool, in the sense of the rotation; NaN while it stands.
+    pub gap_turns: Vec<f64>,
+    /// Bending cycles per turn of the tool that whirl of one rate brings; 0 elsewhere.
+    pub bending_cycles: Vec<f64>,
+    /// Largest impulse above the resting one in the window (N s).
+    pub impulse: Vec<f64>,
+    /// Impacts of at least 1 N s per second (1/s).
+    pub impact_rate: Vec<f64>,
+    /// Work of the friction per second and metre of the tool (W/m).
+    pub friction_power: Vec<f64>,
 }
 
 /// State of the warning logic.
@@ -124,11 +139,11 @@ pub struct WhirlWarningLevel {
     pub kind: WhirlKind,
     /// Index into the [`WhirlReport`] of the station behind it.
     pub entry: usize,
-    /// rad/s over rad/s.
+    /// Whirl rate over rotary speed; NaN where there is none.
     pub whirl_ratio: f64,
     /// As in [`WhirlReport::rolling_share`].
     pub rolling_share: f64,
-    /// Backward whirl so near to rolling without slip that it counts one level more.
+    /// Backward whirl so near to rolling without slip that it counts as rolling.
     pub rolling: bool,
     /// Largest distance over clearance.
     pub clearance_ratio: f64,

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Severity;
 use crate::units::rpm_to_rad_per_s;
 
 /// How whirl is found and judged.
@@ -33,6 +32,9 @@ pub struct WhirlSettings {
     /// RMS orbit radius over clearance from which a motion counts as an orbit. Below a tenth of the clearance the
     /// motion is that of a pipe at rest on a wall with a trembling contact.
     pub min_orbit_ratio: f64,
+    /// RMS radius about its own mean over clearance from which a motion is judged as whirl although it does not go round
+    /// the gap's centre. Below half the clearance a body beside the centre keeps to its side of the gap.
+    pub large_orbit_ratio: f64,
     /// Minor over major axis below which the motion is a line, not an orbit. A pipe that rocks along the low side by
     /// 50 degrees to each side draws an arc of 0.23.
     pub min_axis_ratio: f64,
@@ -54,22 +56,19 @@ pub struct WhirlSettings {
     /// Confidence from which a station may raise the level.
     pub min_confidence: f64,
     /// Relative difference to the rate of rolling without slip, `- spin * d / (D - d)`, within which backward whirl
-    /// counts as rolling. Rolling loads the pipe with bending at several times its turning rate, so it raises the
-    /// level by one step when it is in contact.
+    /// counts as rolling.
     pub rolling_tolerance: f64,
-    /// Highest level that forward whirl reaches by itself: it wears one side but bends the pipe little per turn.
-    pub forward_limit: Severity,
-    /// Thresholds of WATCH.
-    pub watch: LevelThresholds,
-    /// Thresholds of WARNING.
-    pub warning: LevelThresholds,
-    /// Thresholds of CRITICAL.
-    pub critical: LevelThresholds,
+    /// Backward whirl: bending cycles per turn of the tool from which to watch, warn and call critical. A link that goes
+    /// round at `ratio` times the speed of the tool that turns it is bent |1 - ratio| times per turn; in a curved hole
+    /// without whirl once. Rolling is critical whatever the clearances make of it.
+    pub backward_cycles: [f64; 3],
+    /// Forward whirl: work of the friction per second and metre (W/m) at the place from which to watch and to warn. It
+    /// bends the pipe little and breaks nothing by itself, so it is never critical, but always the same side rubs.
+    pub forward_power: [f64; 2],
+    /// Turns of the tool for which it must last before a level counts, WATCH, WARNING and CRITICAL.
+    pub lasting_turns: [f64; 3],
     /// Time for which a level is held after its conditions have gone (s).
     pub hold_off: f64,
-    /// Time for which CRITICAL stands at least (s), so that a person sees it; a value longer
-    /// than any run means until acknowledged.
-    pub latch: f64,
 }
 
 /// Factors on the confidence, 0 to 1, when an input is not as it should be; fresh inputs have 1. The twin goes on with
@@ -99,19 +98,6 @@ impl Default for InputTrust {
     }
 }
 
-/// When a station reaches a level: whirl of any kind and *all* of these for `duration`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct LevelThresholds {
-    /// Largest distance from the gap's centre over the clearance.
-    pub clearance_ratio: f64,
-    /// Part of the time in contact, 0 to 1.
-    pub contact_duty: f64,
-    /// Peak normal force in the window (N).
-    pub force: f64,
-    /// How long it must last before the level counts (s).
-    pub duration: f64,
-}
-
 impl Default for WhirlSettings {
     fn default() -> Self {
         Self {
@@ -124,6 +110,7 @@ impl Default for WhirlSettings {
             confirmation_turns: 0.3,
             min_rotary_speed: rpm_to_rad_per_s(5.0),
             min_orbit_ratio: 0.1,
+            large_orbit_ratio: 0.5,
             min_axis_ratio: 0.25,
             steady_direction: 0.6,
             min_repetition: 0.8,
@@ -132,30 +119,14 @@ impl Default for WhirlSettings {
             input_trust: InputTrust::default(),
             min_confidence: 0.5,
             rolling_tolerance: 0.15,
-            forward_limit: Severity::Warning,
-            // Whirl that reaches half of the clearance, for one turn at 40 r/min.
-            watch: LevelThresholds {
-                clearance_ratio: 0.5,
-                contact_duty: 0.0,
-                force: 0.0,
-                duration: 1.5,
-            },
-            // It strikes: a quarter of the effective force at the paper's worst place (20 kN), for two turns.
-            warning: LevelThresholds {
-                clearance_ratio: 0.95,
-                contact_duty: 0.1,
-                force: 5e3,
-                duration: 3.0,
-            },
-            // The effective force of the paper's worst place itself.
-            critical: LevelThresholds {
-                clearance_ratio: 1.0,
-                contact_duty: 0.3,
-                force: 20e3,
-                duration: 3.0,
-            },
+            // Any; one turn against each turn of the tool; two, where links and joints tire three times as fast.
+            backward_cycles: [1.0, 2.0, 3.0],
+            // Steel on steel in mud loses some 3e-13 m2/N of its section per friction work (a casing wear factor of 20e-10
+            // per psi, abrasive mud): 100 W/m take 1 mm off a side 10 mm wide in four days, 300 W/m in 31 h.
+            forward_power: [100.0, 300.0],
+            // With the two whirl turns of its detection a critical level stands within three turns of the tool.
+            lasting_turns: [1.0, 1.5, 1.5],
             hold_off: 5.0,
-            latch: 30.0,
         }
     }
 }

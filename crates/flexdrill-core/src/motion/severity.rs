@@ -1,12 +1,16 @@
-//! From whirl, reach and contact to a level, with duration, hysteresis, hold-off and latch.
+//! From whirl to the level of a station: by what harms, for so many turns, with hysteresis and hold-off.
+//!
+//! Backward whirl is judged by the bending cycles that it brings per turn of the tool, forward whirl by the power of its
+//! friction. Neither depends on the stiffness of the contact. Chaotic motion harms by its collisions, which the shock
+//! watch judges; vibration of the joints is part of drilling.
 
 use serde::{Deserialize, Serialize};
 
-use super::hysteresis::{Change, Hysteresis};
-use super::settings::{LevelThresholds, WhirlSettings};
+use super::hysteresis::Hysteresis;
+use super::settings::WhirlSettings;
 use super::{Severity, WhirlKind};
 
-/// What a level is judged by, at one station.
+/// What is known of the motion at one station.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Evidence {
     pub(super) kind: WhirlKind,
@@ -17,219 +21,219 @@ pub(super) struct Evidence {
     pub(super) confidence: f64,
     /// Backward at the rate of rolling without slip.
     pub(super) rolling: bool,
+    /// Bending cycles per turn of the tool; 0 where there is no whirl of one rate.
+    pub(super) cycles: f64,
+    /// Largest impulse above the resting one in the window (N s).
+    pub(super) impulse: f64,
+    /// Impacts per second (1/s).
+    pub(super) impact_rate: f64,
+    /// Work of the friction per second and metre (W/m).
+    pub(super) friction_power: f64,
 }
 
-/// The level of one station.
+/// Time since the evaluation before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Elapsed {
+    /// Model time now (s).
+    pub(super) time: f64,
+    /// s.
+    pub(super) seconds: f64,
+    /// Turns of the tool.
+    pub(super) turns: f64,
+}
+
+/// The level of one station for one kind of whirl.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct StationSeverity {
     hysteresis: Hysteresis,
-    /// The kind that was seen last while the level's conditions were met.
-    pub(super) kind: WhirlKind,
-    /// How long the conditions of WATCH, WARNING and CRITICAL have been met (s).
+    /// For how many turns of the tool the conditions of WATCH, WARNING and CRITICAL have been met, less those for which
+    /// they have not: a pipe that bounces is not seen as the same at every moment.
     met_for: [f64; 3],
-    /// Model time until which CRITICAL is latched (s).
-    latched_until: f64,
 }
 
 impl StationSeverity {
-    /// Takes the evidence at model time `time` (s), `elapsed` (s) after the one before. `input_trust`, 0 to 1, is how
-    /// far the inputs behind the motion can be trusted: what they make doubtful raises no level, but does not end one
-    /// either.
+    /// Takes the evidence. `trust`, 0 to 1, is how far what is behind the motion can be trusted: what it makes doubtful
+    /// raises no level, but does not end one either. It is 0 while the drive does not turn steadily.
     pub(super) fn update(
         &mut self,
-        time: f64,
-        elapsed: f64,
+        kind: WhirlKind,
+        elapsed: Elapsed,
         evidence: &Evidence,
-        input_trust: f64,
+        trust: f64,
         settings: &WhirlSettings,
     ) {
-        let mut raised = Severity::Ok;
-        let mut held = Severity::Ok;
+        let (mut raised, mut held) = (Severity::Ok, Severity::Ok);
         for (index, level) in Severity::RAISED.into_iter().enumerate() {
             let stands = self.level() >= level;
             let (factor, trust) = if stands {
                 (1.0 - settings.hysteresis, 1.0)
             } else {
-                (1.0, input_trust)
+                (1.0, trust)
             };
-            let met = evidence.confidence * trust >= settings.min_confidence * factor
-                && meets(level, evidence, factor, settings);
-            let met_for = if met { self.met_for[index] + elapsed } else { 0.0 };
-            self.met_for[index] = met_for;
+            let met = evidence.kind == kind
+                && trust > 0.0
+                && evidence.confidence * trust >= settings.min_confidence * factor
+                && meets(index, evidence, factor, settings);
+            let lasting = settings.lasting_turns[index];
+            let met_for = &mut self.met_for[index];
+            *met_for = if met {
+                (*met_for + elapsed.turns).min(lasting)
+            } else {
+                (*met_for - elapsed.turns).max(0.0)
+            };
             if met && stands {
                 held = level;
             }
-            if met_for > 0.0 && met_for >= thresholds(level, settings).duration {
+            if met && *met_for >= lasting {
                 raised = level;
             }
         }
-        if evidence.kind != WhirlKind::None && raised.max(held) > Severity::Ok {
-            self.kind = evidence.kind;
-        }
-        let latched = self.level() == Severity::Critical && time < self.latched_until;
-        let change = self
-            .hysteresis
-            .update(elapsed, raised, held, settings.hold_off, latched);
-        if change == Change::Rose && raised == Severity::Critical {
-            self.latched_until = time + settings.latch;
-        }
+        self.hysteresis
+            .update(elapsed.time, elapsed.seconds, raised, held, settings.hold_off);
     }
 
     pub(super) fn level(&self) -> Severity {
         self.hysteresis.level
     }
-
-    /// Ends the latch.
-    pub(super) fn acknowledge(&mut self) {
-        self.latched_until = 0.0;
-    }
 }
 
-fn thresholds(level: Severity, settings: &WhirlSettings) -> &LevelThresholds {
-    match level {
-        Severity::Ok | Severity::Watch => &settings.watch,
-        Severity::Warning => &settings.warning,
-        Severity::Critical => &settings.critical,
+/// Whether level number `index` above OK is reached.
+fn meets(index: usize, evidence: &Evidence, factor: f64, settings: &WhirlSettings) -> bool {
+    match evidence.kind {
+        WhirlKind::Backward => evidence.rolling || evidence.cycles >= settings.backward_cycles[index] * factor,
+        WhirlKind::Forward => settings
+            .forward_power
+            .get(index)
+            .is_some_and(|power| evidence.friction_power >= power * factor),
+        WhirlKind::None | WhirlKind::Chaotic | WhirlKind::JointVibration => false,
     }
-}
-
-fn meets(level: Severity, evidence: &Evidence, factor: f64, settings: &WhirlSettings) -> bool {
-    if evidence.kind == WhirlKind::None {
-        return false;
-    }
-    if evidence.kind == WhirlKind::Forward && level > settings.forward_limit {
-        return false;
-    }
-    let within = |thresholds: &LevelThresholds| {
-        evidence.clearance_ratio >= thresholds.clearance_ratio * factor
-            && evidence.contact_duty >= thresholds.contact_duty * factor
-            && evidence.peak_force >= thresholds.force * factor
-    };
-    let one_below = match level {
-        Severity::Critical => &settings.warning,
-        _ => &settings.watch,
-    };
-    within(thresholds(level, settings))
-        || (evidence.rolling && evidence.contact_duty >= settings.warning.contact_duty * factor && within(one_below))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// s, a fifteenth of a turn at 40 r/min.
     const STEP: f64 = 0.1;
+    const TURNS: f64 = STEP / 1.5;
 
-    fn strong() -> Evidence {
+    fn backward(cycles: f64) -> Evidence {
         Evidence {
             kind: WhirlKind::Backward,
-            clearance_ratio: 1.1,
-            contact_duty: 0.8,
-            peak_force: 30e3,
+            cycles,
             confidence: 0.9,
-            rolling: false,
+            ..Evidence::default()
+        }
+    }
+
+    fn forward(friction_power: f64) -> Evidence {
+        Evidence {
+            kind: WhirlKind::Forward,
+            friction_power,
+            confidence: 0.9,
+            ..Evidence::default()
         }
     }
 
     /// Level after each evaluation.
-    fn run(watch: &mut StationSeverity, from: f64, evidence: &[Evidence]) -> Vec<Severity> {
+    fn run_trusted(watch: &mut StationSeverity, evidence: &[Evidence], trust: f64) -> Vec<Severity> {
         let settings = WhirlSettings::default();
         evidence
             .iter()
             .enumerate()
             .map(|(index, evidence)| {
-                watch.update(from + index as f64 * STEP, STEP, evidence, 1.0, &settings);
+                let elapsed = Elapsed {
+                    time: index as f64 * STEP,
+                    seconds: STEP,
+                    turns: TURNS,
+                };
+                let kind = if evidence.kind == WhirlKind::Forward {
+                    WhirlKind::Forward
+                } else {
+                    WhirlKind::Backward
+                };
+                watch.update(kind, elapsed, evidence, trust, &settings);
                 watch.level()
             })
             .collect()
     }
 
+    fn run(watch: &mut StationSeverity, evidence: &[Evidence]) -> Vec<Severity> {
+        run_trusted(watch, evidence, 1.0)
+    }
+
+    fn last(evidence: Evidence) -> Severity {
+        run(&mut StationSeverity::default(), &[evidence; 60])[59]
+    }
+
     #[test]
-    fn levels_need_their_duration() {
-        let levels = run(&mut StationSeverity::default(), 0.0, &[strong(); 40]);
+    fn levels_need_their_turns() {
+        let levels = run(&mut StationSeverity::default(), &[backward(4.7); 60]);
         let first = |level| levels.iter().position(|&got| got >= level);
-        assert_eq!(
-            (first(Severity::Watch), first(Severity::Critical)),
-            (Some(14), Some(29))
+        // One turn is 15 evaluations, one and a half are 23.
+        let about = |index: Option<usize>, expected: usize| index.is_some_and(|index| index.abs_diff(expected) <= 1);
+        assert!(
+            about(first(Severity::Watch), 14) && about(first(Severity::Critical), 22),
+            "{levels:?}"
         );
     }
 
     #[test]
-    fn critical_is_latched_then_falls_after_the_hold_off() {
+    fn a_level_falls_after_the_hold_off() {
         let mut watch = StationSeverity::default();
-        run(&mut watch, 0.0, &[strong(); 40]);
-        let calm = [Evidence::default(); 400];
-        let levels = run(&mut watch, 4.0, &calm);
-        let end = levels
-            .iter()
-            .position(|&level| level < Severity::Critical)
-            .map(|index| 4.0 + index as f64 * STEP);
-        assert!(end.is_some_and(|end| (end - 32.9).abs() < 0.2), "{end:?}");
-        let mut acknowledged = StationSeverity::default();
-        run(&mut acknowledged, 0.0, &[strong(); 40]);
-        acknowledged.acknowledge();
-        let end = run(&mut acknowledged, 4.0, &calm)
-            .iter()
-            .position(|&level| level < Severity::Critical);
+        run(&mut watch, &[backward(4.0); 60]);
+        let levels = run(&mut watch, &[Evidence::default(); 100]);
+        let end = levels.iter().position(|&level| level < Severity::Critical);
         assert!(end.is_some_and(|end| (48..=51).contains(&end)), "{end:?}");
     }
 
     #[test]
     fn no_flapping_at_a_threshold() {
         let mut watch = StationSeverity::default();
+        run(&mut watch, &[backward(3.1); 60]);
         let wavering: Vec<_> = (0..3000)
-            .map(|index| Evidence {
-                clearance_ratio: 0.5 + 0.04 * (index as f64 * 0.37).sin(),
-                peak_force: 0.0,
-                ..strong()
-            })
+            .map(|index| backward(3.0 + 0.3 * (f64::from(index) * 0.37).sin()))
             .collect();
-        let settled = [Evidence {
-            clearance_ratio: 0.52,
-            peak_force: 0.0,
-            ..strong()
-        }; 30];
-        run(&mut watch, 0.0, &settled);
         assert!(
-            run(&mut watch, 3.0, &wavering)
+            run(&mut watch, &wavering)
                 .iter()
-                .all(|&level| level == Severity::Watch)
+                .all(|&level| level == Severity::Critical)
         );
     }
 
     #[test]
-    fn forward_whirl_stops_at_its_limit_and_rolling_counts_one_more() {
-        let forward = Evidence {
-            kind: WhirlKind::Forward,
-            ..strong()
+    fn each_kind_is_judged_by_what_it_does() {
+        assert_eq!(last(backward(1.5)), Severity::Watch);
+        assert_eq!(last(backward(2.5)), Severity::Warning);
+        assert_eq!(last(backward(3.5)), Severity::Critical);
+        let rolling = Evidence {
+            rolling: true,
+            ..backward(2.2)
         };
-        assert_eq!(
-            run(&mut StationSeverity::default(), 0.0, &[forward; 60])[59],
-            Severity::Warning
-        );
-        let light = Evidence {
-            peak_force: 500.0,
-            ..strong()
+        assert_eq!(last(rolling), Severity::Critical);
+        assert_eq!(last(forward(20.0)), Severity::Ok);
+        assert_eq!(last(forward(100.0)), Severity::Watch);
+        assert_eq!(last(forward(1e6)), Severity::Warning);
+        let chaotic = Evidence {
+            kind: WhirlKind::Chaotic,
+            ..backward(5.0)
         };
-        assert_eq!(
-            run(&mut StationSeverity::default(), 0.0, &[light; 60])[59],
-            Severity::Watch
-        );
-        let rolling = Evidence { rolling: true, ..light };
-        assert_eq!(
-            run(&mut StationSeverity::default(), 0.0, &[rolling; 60])[59],
-            Severity::Warning
-        );
+        assert_eq!(last(chaotic), Severity::Ok);
     }
 
     #[test]
-    fn doubtful_evidence_raises_nothing() {
+    fn doubtful_evidence_raises_nothing_and_ends_nothing() {
         let doubtful = Evidence {
             confidence: 0.3,
-            ..strong()
+            ..backward(5.0)
         };
+        assert_eq!(last(doubtful), Severity::Ok);
+        let mut watch = StationSeverity::default();
+        assert_eq!(run_trusted(&mut watch, &[backward(5.0); 60], 0.0)[59], Severity::Ok);
+        run(&mut watch, &[backward(5.0); 60]);
         assert_eq!(
-            run(&mut StationSeverity::default(), 0.0, &[doubtful; 60])[59],
-            Severity::Ok
+            run_trusted(&mut watch, &[backward(5.0); 200], 0.4)[199],
+            Severity::Critical
         );
     }
 }

@@ -86,13 +86,22 @@ impl StickSlip {
         }
     }
 
-    /// Takes the speeds of bit and drive (rad/s) over a step of `dt` (s).
-    pub fn push(&mut self, dt: f64, bit: f64, drive: f64) {
+    /// Takes the speeds of bit and drive (rad/s) over a step of `dt` (s) until model time `time` (s). While the drive
+    /// stands or is run up (`judged` is false), the bit follows late and springs forward by itself: the window starts
+    /// anew.
+    pub fn push(&mut self, time: f64, dt: f64, bit: f64, drive: f64, judged: bool) {
+        if !judged {
+            self.alarm.update(time, dt, 0.0, &self.settings.thresholds);
+            if self.filled > 1 || self.blocks[self.current].duration > 0.0 {
+                self.empty();
+            }
+            return;
+        }
         let length = self.blocks[self.current].duration;
         // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
         if length + 0.5 * dt >= self.settings.window / BLOCKS as f64 {
             let index = self.index();
-            self.alarm.update(length, index, &self.settings.thresholds);
+            self.alarm.update(time, length, index, &self.settings.thresholds);
             self.current = (self.current + 1) % BLOCKS;
             self.blocks[self.current] = Block::EMPTY;
             self.filled = (self.filled + 1).min(BLOCKS);
@@ -132,11 +141,25 @@ impl StickSlip {
         self.alarm.severity()
     }
 
-    /// Empties the window.
+    /// Model time at which that level was reached (s).
+    pub fn since(&self) -> f64 {
+        self.alarm.since()
+    }
+
+    /// The settings in use.
+    pub fn settings(&self) -> &StickSlipSettings {
+        &self.settings
+    }
+
+    /// Empties the window and forgets the level.
     pub fn reset(&mut self) {
+        self.empty();
+        self.alarm = Alarm::default();
+    }
+
+    fn empty(&mut self) {
         self.blocks.fill(Block::EMPTY);
         (self.current, self.filled) = (0, 1);
-        self.alarm = Alarm::default();
     }
 }
 
@@ -153,7 +176,7 @@ mod tests {
         let dt = 5e-4;
         for step in 0..(seconds / dt) as usize {
             let time = step as f64 * dt;
-            watch.push(dt, bit(time), drive(time));
+            watch.push(time, dt, bit(time), drive(time), true);
         }
         watch
     }
@@ -189,6 +212,22 @@ mod tests {
     }
 
     #[test]
+    fn nothing_is_judged_before_the_drive_turns_steadily() {
+        let mut watch = StickSlip::new(StickSlipSettings::default());
+        for step in 0..20_000 {
+            let time = f64::from(step) * 5e-4;
+            // The bit sticks for 2 s, then springs forward, while the tool is run up.
+            let bit = if time < 2.0 { 0.0 } else { 4.0 * DRIVE };
+            watch.push(time, 5e-4, bit, DRIVE, time > 4.0);
+            assert!(
+                time > 5.4 || (watch.index() == 0.0 && watch.severity() == Severity::Ok),
+                "{time}"
+            );
+        }
+        assert!(watch.index() == 0.0, "{}", watch.index());
+    }
+
+    #[test]
     fn a_stuck_bit_is_seen_although_its_own_speed_is_nothing() {
         let stuck = watched(|_| DRIVE, |time| if time < 5.0 { DRIVE } else { 0.0 }, 12.0);
         assert!(stuck.index() >= 1.0, "{}", stuck.index());
@@ -201,9 +240,9 @@ mod tests {
     #[test]
     fn forgets_what_left_the_window() {
         let mut watch = StickSlip::new(StickSlipSettings::default());
-        watch.push(1e-3, 100.0, 4.0);
+        watch.push(0.0, 1e-3, 100.0, 4.0, true);
         for _ in 0..4000 {
-            watch.push(1e-3, 4.0, 4.0);
+            watch.push(0.0, 1e-3, 4.0, 4.0, true);
         }
         assert_eq!(watch.index(), 0.0);
     }

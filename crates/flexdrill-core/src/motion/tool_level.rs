@@ -1,44 +1,128 @@
-//! From the levels of all stations to the one warning of the tool.
+//! From the levels of all stations to the one place that leads, for each way round, and to the whirl warning.
 
+use serde::{Deserialize, Serialize};
+
+use super::hazards::{Hazard, HazardKind};
+use super::incidents::IncidentLocation;
+use super::settings::WhirlSettings;
 use super::watched_station::StationWatch;
 use super::{Severity, WhirlKind, WhirlWarningLevel};
 
-impl WhirlWarningLevel {
-    /// The worst station leads; it keeps the lead against others of the same level, so that the warning does not jump.
-    pub(super) fn update(&mut self, time: f64, watches: &[StationWatch], input_trust: f64) {
-        let worst = watches
-            .iter()
-            .map(|watch| watch.severity.level())
-            .max()
-            .unwrap_or_default();
-        let keeps = |watch: &StationWatch| watch.severity.level() == worst;
-        let entry = if worst == Severity::Ok {
-            0
-        } else if watches.get(self.entry).is_some_and(keeps) {
-            self.entry
-        } else {
-            let mut leader = 0;
-            let mut force = f64::NEG_INFINITY;
-            for (index, watch) in watches.iter().enumerate() {
-                if keeps(watch) && watch.evidence.peak_force > force {
-                    (leader, force) = (index, watch.evidence.peak_force);
-                }
+/// By how much worse a place of the same level must be to take the lead, and for how long (s): by less it would change
+/// hands with every bounce.
+const LEAD_MARGIN: f64 = 0.25;
+const LEAD_TIME: f64 = 2.0;
+
+/// The worst place of one kind of whirl.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Lead {
+    severity: Severity,
+    entry: usize,
+    since: f64,
+    /// How long another place has been worse by the margin (s).
+    outdone_for: f64,
+}
+
+impl Lead {
+    /// Finds the worst place for `kind` at model time `time` (s), `elapsed` (s) after the last time.
+    pub(super) fn update(&mut self, time: f64, elapsed: f64, kind: WhirlKind, watches: &[StationWatch]) {
+        let level = |watch: &StationWatch| watch.level_of(kind);
+        let severity = watches.iter().map(level).max().unwrap_or_default();
+        if severity != self.severity {
+            (self.severity, self.since) = (severity, time);
+        }
+        // While all is well the place of the strongest motion is shown, if there is any.
+        let (mut worst, mut most) = (self.entry, f64::NEG_INFINITY);
+        for (entry, watch) in watches.iter().enumerate() {
+            let strength = watch.strength(kind);
+            if level(watch) == severity && strength > most {
+                (worst, most) = (entry, strength);
             }
-            leader
+        }
+        let Some(leader) = watches.get(self.entry) else { return };
+        let outdone = most > (1.0 + LEAD_MARGIN) * leader.strength(kind);
+        self.outdone_for = if outdone { self.outdone_for + elapsed } else { 0.0 };
+        if level(leader) != severity || self.outdone_for >= LEAD_TIME {
+            (self.entry, self.outdone_for) = (worst, 0.0);
+        }
+    }
+
+    /// What is to be said of it.
+    pub(super) fn hazard(
+        &self,
+        kind: HazardKind,
+        watches: &[StationWatch],
+        input_trust: f64,
+        settings: &WhirlSettings,
+    ) -> Hazard {
+        let calm = Hazard {
+            since: self.since,
+            ..Hazard::calm(kind)
         };
-        let Some(watch) = watches.get(entry) else { return };
-        let kind = if worst == Severity::Ok {
+        let (thresholds, whirl): (&[f64], _) = match kind {
+            HazardKind::ForwardWhirl => (&settings.forward_power, WhirlKind::Forward),
+            _ => (&settings.backward_cycles, WhirlKind::Backward),
+        };
+        let index = (self.severity as usize).saturating_sub(1).min(thresholds.len() - 1);
+        let threshold = thresholds[index];
+        let Some(watch) = watches
+            .get(self.entry)
+            .filter(|watch| watch.strength(whirl) > 0.0 || self.severity > Severity::Ok)
+        else {
+            return Hazard { threshold, ..calm };
+        };
+        let (station, evidence) = (&watch.station, &watch.evidence);
+        Hazard {
+            severity: self.severity,
+            place: Some(IncidentLocation {
+                station: station.station,
+                body: station.body,
+                measured_depth: station.measured_depth,
+                inclination: station.inclination,
+            }),
+            value: match kind {
+                HazardKind::ForwardWhirl => evidence.friction_power,
+                _ => evidence.cycles,
+            },
+            threshold,
+            whirl_ratio: watch.whirl_ratio.unwrap_or(f64::NAN),
+            rolling_share: match watch.rolling_share() {
+                0.0 => f64::NAN,
+                share => share,
+            },
+            orbit_speed: watch.orbit_radius * watch.whirl_rate.abs(),
+            impulse: evidence.impulse,
+            impact_rate: evidence.impact_rate,
+            friction_power: evidence.friction_power,
+            confidence: evidence.confidence * input_trust,
+            ..calm
+        }
+    }
+}
+
+impl WhirlWarningLevel {
+    /// The worse of the two ways round leads, backward before forward.
+    pub(super) fn update(&mut self, backward: &Lead, forward: &Lead, watches: &[StationWatch], input_trust: f64) {
+        let (lead, kind) = if forward.severity > backward.severity {
+            (forward, WhirlKind::Forward)
+        } else {
+            (backward, WhirlKind::Backward)
+        };
+        let Some(watch) = watches.get(lead.entry) else { return };
+        let kind = if lead.severity == Severity::Ok {
             WhirlKind::None
         } else {
-            watch.level_kind()
+            kind
         };
-        let severity_changed = worst != self.severity;
-        let changed = severity_changed || kind != self.kind || entry != self.entry;
+        let severity_changed = lead.severity != self.severity;
+        // While all is well no place leads.
+        let moved = lead.severity > Severity::Ok && lead.entry != self.entry;
+        let changed = severity_changed || kind != self.kind || moved;
         *self = Self {
-            severity: worst,
+            severity: lead.severity,
             kind,
-            entry,
-            whirl_ratio: watch.whirl_ratio,
+            entry: lead.entry,
+            whirl_ratio: watch.whirl_ratio.unwrap_or(f64::NAN),
             rolling_share: watch.rolling_share(),
             rolling: watch.evidence.rolling,
             clearance_ratio: watch.evidence.clearance_ratio,
@@ -46,7 +130,7 @@ impl WhirlWarningLevel {
             peak_force: watch.evidence.peak_force,
             confidence: watch.evidence.confidence * input_trust,
             window: watch.used_window,
-            since: if severity_changed { time } else { self.since },
+            since: if severity_changed { lead.since } else { self.since },
             sequence: self.sequence + u64::from(changed),
         };
     }

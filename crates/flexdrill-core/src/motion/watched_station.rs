@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::classify::Verdict;
 use super::orbit_window::OrbitWindow;
 use super::settings::WhirlSettings;
-use super::severity::{Evidence, StationSeverity};
+use super::severity::{Elapsed, Evidence, StationSeverity};
 use super::{Severity, WhirlKind};
 use crate::tool::description::Body;
 
@@ -29,6 +29,8 @@ pub struct WatchedStation {
     pub clearance: f64,
     /// Outer diameter of the moving body where it touches (m), for the rate of rolling without slip.
     pub body_diameter: f64,
+    /// Length of the tool that the station stands for (m): half of the way to each neighbour.
+    pub length: f64,
 }
 
 impl WatchedStation {
@@ -50,6 +52,10 @@ pub struct StationSample {
     pub normal_force: f64,
     /// Part of the time since the sample before in contact, 0 to 1; 0 or 1 where only the instant is known.
     pub contact_share: f64,
+    /// Impulse of the normal force since the sample before (N s).
+    pub impulse: f64,
+    /// Work of the friction since the sample before (J, >= 0).
+    pub friction_work: f64,
 }
 
 impl StationSample {
@@ -61,6 +67,8 @@ impl StationSample {
             z: mix(self.z, next.z),
             normal_force: mix(self.normal_force, next.normal_force),
             contact_share: mix(self.contact_share, next.contact_share),
+            impulse: mix(self.impulse, next.impulse),
+            friction_work: mix(self.friction_work, next.friction_work),
         }
     }
 }
@@ -77,11 +85,16 @@ pub(super) struct StationWatch {
     /// How long the motion has looked chaotic (s), less the time that it did not.
     chaotic_for: f64,
     pub(super) whirl_rate: f64,
-    pub(super) whirl_ratio: f64,
+    /// Over the rotary speed; none where the motion is no whirl of one rate or the tool stands.
+    pub(super) whirl_ratio: Option<f64>,
     pub(super) orbit_radius: f64,
+    /// Turns about the gap's centre per turn of the tool, in the sense of the rotation; none while it stands.
+    pub(super) gap_turns: Option<f64>,
     pub(super) used_window: f64,
     pub(super) evidence: Evidence,
-    pub(super) severity: StationSeverity,
+    /// Levels of backward and of forward whirl.
+    backward: StationSeverity,
+    forward: StationSeverity,
     /// Model time of the newest evaluation (s).
     pub(super) evaluated: f64,
 }
@@ -89,7 +102,7 @@ pub(super) struct StationWatch {
 /// What an evaluation needs to know beside the motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Circumstances {
-    /// Mean rotary speed over the window (rad/s); none while the tool stands.
+    /// Size of the mean rotary speed over the window (rad/s); none while the tool stands.
     pub(super) rotary_speed: Option<f64>,
     /// +1 or -1, the sign of the rotation.
     pub(super) sense: f64,
@@ -100,6 +113,18 @@ pub(super) struct Circumstances {
 }
 
 impl StationWatch {
+    /// How bad whirl of this kind is here, to compare places: 0 where the motion is another.
+    pub(super) fn strength(&self, kind: WhirlKind) -> f64 {
+        if self.kind != kind {
+            return 0.0;
+        }
+        match kind {
+            WhirlKind::Backward => self.evidence.cycles * self.orbit_radius / self.station.clearance,
+            WhirlKind::Forward => self.evidence.friction_power,
+            _ => 0.0,
+        }
+    }
+
     pub(super) fn new(station: WatchedStation, window: OrbitWindow) -> Self {
         Self {
             station,
@@ -110,11 +135,13 @@ impl StationWatch {
             agreeing: 0,
             chaotic_for: 0.0,
             whirl_rate: 0.0,
-            whirl_ratio: 0.0,
+            whirl_ratio: None,
             orbit_radius: 0.0,
+            gap_turns: None,
             used_window: 0.0,
             evidence: Evidence::default(),
-            severity: StationSeverity::default(),
+            backward: StationSeverity::default(),
+            forward: StationSeverity::default(),
             evaluated: 0.0,
         }
     }
@@ -127,15 +154,16 @@ impl StationWatch {
         self.agreeing = 0;
         self.chaotic_for = 0.0;
         self.whirl_rate = 0.0;
-        self.whirl_ratio = 0.0;
+        self.whirl_ratio = None;
         self.orbit_radius = 0.0;
+        self.gap_turns = None;
         self.evidence = Evidence::default();
     }
 
     /// Forgets the level too.
     pub(super) fn reset(&mut self) {
         self.restart();
-        self.severity = StationSeverity::default();
+        (self.backward, self.forward) = Default::default();
         self.used_window = 0.0;
         self.evaluated = 0.0;
     }
@@ -157,7 +185,9 @@ impl StationWatch {
         let interval = circumstances.evaluation_interval;
         let confirmed_for = match verdict.kind {
             WhirlKind::None | WhirlKind::Chaotic => 0.0,
-            WhirlKind::Forward | WhirlKind::Backward => settings.confirmation_turns * TAU / verdict.rate.abs(),
+            WhirlKind::Forward | WhirlKind::Backward | WhirlKind::JointVibration => {
+                settings.confirmation_turns * TAU / verdict.rate.abs()
+            }
         };
         let needed = ((confirmed_for / interval).ceil() as u32).max(settings.confirmations);
         // By chance chaos looks like something else now and then, so its time is summed up instead of counted in a row.
@@ -176,9 +206,10 @@ impl StationWatch {
         if self.kind == verdict.kind {
             self.whirl_rate = verdict.rate * circumstances.sense;
         }
-        self.whirl_ratio = circumstances
-            .rotary_speed
-            .map_or(0.0, |speed| self.whirl_rate / speed.abs());
+        self.whirl_ratio = match (self.kind, circumstances.rotary_speed) {
+            (WhirlKind::Forward | WhirlKind::Backward, Some(speed)) => Some(self.whirl_rate / speed),
+            _ => None,
+        };
         self.orbit_radius = verdict.radius;
         self.used_window = verdict.window;
         // While the kind is in dispute the doubt shows.
@@ -187,24 +218,59 @@ impl StationWatch {
             kind: self.kind,
             confidence,
             rolling: self.rolls(settings),
+            cycles: self.cycles(),
             ..evidence
         };
     }
 
-    /// The kind that the level stands for: while it is held or latched, the one that led to it.
+    /// Bending cycles per turn of the tool: the orbit's turns as the body sees them that is bent. The pipe turns with the
+    /// tool, the guide does not.
+    fn cycles(&self) -> f64 {
+        let own = match self.station.body {
+            Body::Pipe => 1.0,
+            Body::Guide => 0.0,
+        };
+        self.whirl_ratio.map_or(0.0, |ratio| (own - ratio).abs())
+    }
+
+    /// Takes the evidence for the levels, see [`StationSeverity::update`].
+    pub(super) fn grade(&mut self, elapsed: Elapsed, trust: f64, settings: &WhirlSettings) {
+        for (level, kind) in [
+            (&mut self.backward, WhirlKind::Backward),
+            (&mut self.forward, WhirlKind::Forward),
+        ] {
+            level.update(kind, elapsed, &self.evidence, trust, settings);
+        }
+    }
+
+    /// Level of one kind of whirl.
+    pub(super) fn level_of(&self, kind: WhirlKind) -> Severity {
+        match kind {
+            WhirlKind::Backward => self.backward.level(),
+            WhirlKind::Forward => self.forward.level(),
+            _ => Severity::Ok,
+        }
+    }
+
+    /// Level of the station: the worse of both.
+    pub(super) fn level(&self) -> Severity {
+        self.backward.level().max(self.forward.level())
+    }
+
+    /// The kind that the level stands for, also while it is only held.
     pub(super) fn level_kind(&self) -> WhirlKind {
-        match (self.severity.level(), self.kind) {
-            (Severity::Ok, _) => WhirlKind::None,
-            (_, WhirlKind::None) => self.severity.kind,
-            (_, kind) => kind,
+        match self.level() {
+            Severity::Ok => WhirlKind::None,
+            level if self.backward.level() == level => WhirlKind::Backward,
+            _ => WhirlKind::Forward,
         }
     }
 
     /// Whirl rate over that of rolling without slip, for backward whirl of the driven pipe: 1 rolls, less slides, 0 is
     /// no such whirl. The sliding speed at the contact is spin x radius x (1 - this).
     pub(super) fn rolling_share(&self) -> f64 {
-        match self.station.rolling_ratio() {
-            Some(rolling) if self.kind == WhirlKind::Backward => self.whirl_ratio / rolling,
+        match (self.kind, self.whirl_ratio, self.station.rolling_ratio()) {
+            (WhirlKind::Backward, Some(ratio), Some(rolling)) => ratio / rolling,
             _ => 0.0,
         }
     }

@@ -4,14 +4,17 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::classify::{Gates, View, judge};
+use super::classify::{Gates, Rotation, View, judge};
+use super::drive::{DriveState, DriveWatch};
 use super::full_spectrum::{FullSpectrum, Lines};
+use super::hazards::{Hazard, HazardKind};
 use super::orbit::{measure_and_stretch, repetition, turning};
-use super::orbit_window::{OrbitWindow, Points};
+use super::orbit_window::{OrbitWindow, Points, Round};
 use super::settings::WhirlSettings;
-use super::severity::Evidence;
+use super::severity::{Elapsed, Evidence};
+use super::tool_level::Lead;
 use super::watched_station::{Circumstances, StationWatch};
-use super::{Severity, StationSample, WatchedStation, WhirlReport, WhirlWarningLevel};
+use super::{Severity, StationSample, WatchedStation, WhirlKind, WhirlReport, WhirlWarningLevel};
 
 /// Part of the long window that must be filled before anything is said.
 const MIN_FILL: f64 = 0.5;
@@ -49,6 +52,9 @@ pub struct WhirlAnalysis {
     /// Part of an evaluation that is due, carried from sample to sample.
     due: f64,
     input_trust: f64,
+    drive: DriveWatch,
+    backward: Lead,
+    forward: Lead,
     level: WhirlWarningLevel,
     #[serde(skip, default = "Points::new")]
     points: Points,
@@ -76,6 +82,9 @@ impl WhirlAnalysis {
             next_watch: 0,
             due: 0.0,
             input_trust: 1.0,
+            drive: DriveWatch::default(),
+            backward: Lead::default(),
+            forward: Lead::default(),
             level: WhirlWarningLevel::default(),
             points: Points::new(),
             spectrum: FullSpectrum::new(),
@@ -104,6 +113,8 @@ impl WhirlAnalysis {
             }
         }
         self.last_time = Some(time);
+        let elapsed = steps.clamp(1.0, longest) * self.sample_interval;
+        self.drive.update(elapsed, rotary_speed, self.settings.min_rotary_speed);
         self.store(rotary_speed, samples, 1.0);
         for (watch, sample) in self.watches.iter_mut().zip(samples) {
             watch.last = *sample;
@@ -117,7 +128,10 @@ impl WhirlAnalysis {
             self.next_watch = (self.next_watch + 1) % self.watches.len();
         }
         if evaluated > 0 {
-            self.level.update(time, &self.watches, self.input_trust);
+            self.backward.update(time, elapsed, WhirlKind::Backward, &self.watches);
+            self.forward.update(time, elapsed, WhirlKind::Forward, &self.watches);
+            self.level
+                .update(&self.backward, &self.forward, &self.watches, self.input_trust);
         }
     }
 
@@ -176,7 +190,10 @@ impl WhirlAnalysis {
         fill(&mut out.body, watches.clone().map(|at| at.station.body));
         fill(&mut out.kind, watches.clone().map(|at| at.kind));
         fill(&mut out.whirl_rate, watches.clone().map(|at| at.whirl_rate));
-        fill(&mut out.whirl_ratio, watches.clone().map(|at| at.whirl_ratio));
+        fill(
+            &mut out.whirl_ratio,
+            watches.clone().map(|at| at.whirl_ratio.unwrap_or(f64::NAN)),
+        );
         fill(&mut out.orbit_radius, watches.clone().map(|at| at.orbit_radius));
         fill(
             &mut out.clearance_ratio,
@@ -191,11 +208,22 @@ impl WhirlAnalysis {
             &mut out.confidence,
             watches.clone().map(|at| at.evidence.confidence * trust),
         );
-        fill(&mut out.severity, watches.clone().map(|at| at.severity.level()));
+        fill(&mut out.severity, watches.clone().map(|at| at.level()));
         fill(&mut out.level_kind, watches.clone().map(StationWatch::level_kind));
         fill(&mut out.rolling, watches.clone().map(|at| at.evidence.rolling));
         fill(&mut out.rolling_share, watches.clone().map(StationWatch::rolling_share));
         fill(&mut out.peak_force, watches.clone().map(|at| at.evidence.peak_force));
+        fill(
+            &mut out.gap_turns,
+            watches.clone().map(|at| at.gap_turns.unwrap_or(f64::NAN)),
+        );
+        fill(&mut out.bending_cycles, watches.clone().map(|at| at.evidence.cycles));
+        fill(&mut out.impulse, watches.clone().map(|at| at.evidence.impulse));
+        fill(&mut out.impact_rate, watches.clone().map(|at| at.evidence.impact_rate));
+        fill(
+            &mut out.friction_power,
+            watches.clone().map(|at| at.evidence.friction_power),
+        );
     }
 
     /// The level that the warning logic stands at.
@@ -203,9 +231,23 @@ impl WhirlAnalysis {
         self.level
     }
 
-    /// Ends the latch of CRITICAL everywhere.
-    pub fn acknowledge(&mut self) {
-        self.watches.iter_mut().for_each(|watch| watch.severity.acknowledge());
+    /// What the drive does. While it does not turn steadily no level rises.
+    pub fn drive(&self) -> DriveState {
+        self.drive.state
+    }
+
+    /// How backward whirl stands, at its worst place.
+    pub fn backward(&self) -> Hazard {
+        let kind = HazardKind::BackwardWhirl;
+        self.backward
+            .hazard(kind, &self.watches, self.input_trust, &self.settings)
+    }
+
+    /// How forward whirl stands, at its worst place.
+    pub fn forward(&self) -> Hazard {
+        let kind = HazardKind::ForwardWhirl;
+        self.forward
+            .hazard(kind, &self.watches, self.input_trust, &self.settings)
     }
 
     /// Forgets everything but the settings and the inputs' trust; the warnings' sequence goes on, so that listeners see
@@ -216,6 +258,8 @@ impl WhirlAnalysis {
         self.watches.iter_mut().for_each(StationWatch::reset);
         self.last_time = None;
         self.rotary_speed = 0.0;
+        self.drive = DriveWatch::default();
+        (self.backward, self.forward) = (Lead::default(), Lead::default());
         (self.next_watch, self.due) = (0, 0.0);
         let changed = u64::from(self.level.severity != Severity::Ok);
         self.level = WhirlWarningLevel {
@@ -280,13 +324,20 @@ impl WhirlAnalysis {
     fn evaluate(&mut self, index: usize, time: f64) {
         self.judge(index);
         let watch = &mut self.watches[index];
-        let elapsed = (time - watch.evaluated)
+        let seconds = (time - watch.evaluated)
             .max(0.0)
             .min(2.0 * self.settings.evaluation_interval);
         watch.evaluated = time;
-        watch
-            .severity
-            .update(time, elapsed, &watch.evidence, self.input_trust, &self.settings);
+        let elapsed = Elapsed {
+            time,
+            seconds,
+            turns: seconds * self.rotary_speed.abs() / TAU,
+        };
+        let trust = match self.drive.state {
+            DriveState::Turning => self.input_trust,
+            DriveState::Standing | DriveState::RunningUp => 0.0,
+        };
+        watch.grade(elapsed, trust, &self.settings);
     }
 
     fn judge(&mut self, index: usize) {
@@ -297,11 +348,12 @@ impl WhirlAnalysis {
         if (filled as f64) < MIN_FILL * wanted as f64 {
             return;
         }
-        let clearance = watch.station.clearance;
+        let (clearance, watch_length) = (watch.station.clearance, watch.station.length);
         let gates = Gates::new(clearance, watch.kind, &self.settings);
-        let touches = watch.window.touches(filled);
+        let touches = watch.window.touches(filled, interval);
+        let round = watch.window.round(filled);
         watch.window.long_points(filled, interval, &mut self.points);
-        let mut long = self.view(false, &gates);
+        let mut long = self.view(round, false, &gates);
         let moves = long.orbit.radius >= gates.radius;
         if moves && !gates.is_directed(&long.lines) {
             long.repetition = self.repetition();
@@ -315,13 +367,18 @@ impl WhirlAnalysis {
         // A short window almost as long as the long one would say the same again.
         let short = (moves && short_samples < filled * 4 / 5).then(|| {
             let window = &self.watches[index].window;
+            let round = window.round(short_samples);
             window.short_points(short_samples, interval, &mut self.points);
-            self.view(true, &gates)
+            self.view(round, true, &gates)
         });
         let sense = if self.rotary_speed < 0.0 { -1.0 } else { 1.0 };
-        let verdict = judge(&long, short.as_ref(), &gates, sense);
-        let rotary_speed = self.mean_rotary_speed(verdict.window);
-        let turns = rotary_speed.abs() >= self.settings.min_rotary_speed;
+        let turning = |speed: f64| Some(speed.abs()).filter(|speed| *speed >= self.settings.min_rotary_speed);
+        let rotation = Rotation {
+            sense,
+            speed: turning(self.mean_rotary_speed(long.duration)),
+        };
+        let verdict = judge(&long, short.as_ref(), &gates, &rotation);
+        let rotary_speed = turning(self.mean_rotary_speed(verdict.window));
         let evidence = Evidence {
             clearance_ratio: if clearance > 0.0 {
                 touches.reach / clearance
@@ -330,20 +387,25 @@ impl WhirlAnalysis {
             },
             contact_duty: touches.contact_duty.min(1.0),
             peak_force: touches.peak_force,
+            impulse: touches.impulse,
+            impact_rate: touches.impact_rate,
+            friction_power: touches.friction_power / watch_length,
             confidence: verdict.confidence * (filled as f64 / wanted as f64).min(1.0),
             ..Evidence::default()
         };
         let circumstances = Circumstances {
-            rotary_speed: turns.then_some(rotary_speed),
+            rotary_speed,
             sense,
             chaos_time: CHAOS_PART * long_window,
             evaluation_interval: self.evaluation_interval(),
         };
+        let turned = long.round.net * sense * TAU / long.duration.max(interval);
+        self.watches[index].gap_turns = rotation.speed.map(|speed| turned / speed);
         self.watches[index].accept(&verdict, evidence, &circumstances, &self.settings);
     }
 
     /// Both estimators' results for the points.
-    fn view(&mut self, detrend: bool, gates: &Gates) -> View {
+    fn view(&mut self, round: Round, detrend: bool, gates: &Gates) -> View {
         let orbit = measure_and_stretch(&mut self.points, detrend, gates.radius, gates.axis_ratio);
         let lines = if orbit.radius < gates.radius {
             Lines::default()
@@ -353,6 +415,7 @@ impl WhirlAnalysis {
         let mut view = View {
             orbit,
             lines,
+            round,
             turning: None,
             repetition: 0.0,
             duration: self.points.duration(),

@@ -11,8 +11,8 @@ use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Touch, gap};
 use crate::model::Model;
 use crate::motion::{
-    ContactStatistics, RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis,
-    WhirlSettings,
+    ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation, JointLoadWatch, RootMeanSquare,
+    ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings,
 };
 use crate::tool::description::{Body, Direction, JointKind};
 
@@ -26,6 +26,7 @@ pub(super) struct Observer {
     lateral: RootMeanSquare,
     stick_slip: StickSlip,
     shock: ShockWatch,
+    joint_load: JointLoadWatch,
     whirl: WhirlAnalysis,
     watched: Vec<(usize, Body)>,
     samples: Vec<StationSample>,
@@ -59,6 +60,7 @@ impl Observer {
             lateral: RootMeanSquare::default(),
             stick_slip: StickSlip::new(settings.stick_slip),
             shock: ShockWatch::new(&settings.shock, stations),
+            joint_load: JointLoadWatch::new(&settings.joint_load, model.joints.len()),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),
             samples: vec![StationSample::default(); watched.len()],
             watched,
@@ -94,6 +96,7 @@ impl Observer {
         self.end_interval();
         self.stick_slip.reset();
         self.shock.reset();
+        self.joint_load.reset();
         self.whirl.reset();
         self.samples.fill(StationSample::default());
         self.last_iterations = 0;
@@ -123,7 +126,12 @@ impl Observer {
             }
             statistics.advance(dt);
         }
-        self.shock.advance(step as f64 * dt, dt);
+        let (time, judged) = (step as f64 * dt, self.whirl.drive() == DriveState::Turning);
+        self.shock.advance(time, dt, judged);
+        for (joint, stop) in forces.joints.iter().enumerate() {
+            self.joint_load.push(joint, dt, stop.moment);
+        }
+        self.joint_load.advance(time, dt, judged);
 
         let bottom = &model.stations[model.last()];
         let spin = bottom.pipe_above + Direction::Psi as usize;
@@ -133,7 +141,8 @@ impl Observer {
         // The bit itself is held sideways by the hole.
         let above = translation(&state.a, model.stations[model.last() - 1].pipe_below);
         self.lateral.push_square(dt, above.y * above.y + above.z * above.z);
-        self.stick_slip.push(dt, state.v[spin], applied.rotary_speed);
+        self.stick_slip
+            .push(time, dt, state.v[spin], applied.rotary_speed, judged);
 
         let share = 1.0 / self.decimation as f64;
         for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
@@ -144,6 +153,8 @@ impl Observer {
             if let Some(touch) = touch {
                 sample.normal_force = sample.normal_force.max(touch.normal);
                 sample.contact_share += share;
+                sample.impulse += touch.normal * dt;
+                sample.friction_work += touch.friction_power * dt;
             }
         }
         if step.is_multiple_of(self.decimation) {
@@ -152,7 +163,7 @@ impl Observer {
                 (sample.y, sample.z) = (lateral.x, lateral.y);
                 sample.contact_share = sample.contact_share.min(1.0);
             }
-            self.whirl.push(step as f64 * dt, applied.rotary_speed, &self.samples);
+            self.whirl.push(time, applied.rotary_speed, &self.samples);
             self.samples.fill(StationSample::default());
         }
     }
@@ -250,6 +261,56 @@ impl Observer {
         };
         self.whirl.report(&mut out.whirl);
         out.warning = self.whirl.level();
+        out.hazards = self.hazards(model);
+    }
+
+    /// How every danger stands, each with its worst place.
+    fn hazards(&self, model: &Model) -> Hazards {
+        let place = |station: usize, body: Body| {
+            model.stations.get(station).map(|at| IncidentLocation {
+                station,
+                body,
+                measured_depth: at.depth,
+                inclination: at.inclination,
+            })
+        };
+        let shock = self.shock.level();
+        let (joint_load, joint_settings) = (self.joint_load.level(), self.joint_load.settings());
+        let list = HazardKind::ALL.map(|kind| match kind {
+            HazardKind::BackwardWhirl => self.whirl.backward(),
+            HazardKind::ForwardWhirl => self.whirl.forward(),
+            HazardKind::Shock => Hazard {
+                severity: shock.severity,
+                place: place(shock.station, if shock.layer == 0 { Body::Pipe } else { Body::Guide }),
+                value: shock.impulse,
+                threshold: self.shock.settings().thresholds.of(shock.severity),
+                impulse: shock.impulse,
+                since: shock.since,
+                ..Hazard::calm(kind)
+            },
+            HazardKind::StickSlip => Hazard {
+                severity: self.stick_slip.severity(),
+                value: self.stick_slip.index(),
+                threshold: self.stick_slip.settings().thresholds.of(self.stick_slip.severity()),
+                since: self.stick_slip.since(),
+                ..Hazard::calm(kind)
+            },
+            HazardKind::JointLoad => Hazard {
+                severity: joint_load.severity,
+                place: model
+                    .joint_stations
+                    .get(joint_load.joint)
+                    .and_then(|&station| place(station, Body::Pipe)),
+                value: joint_load.ratio,
+                threshold: joint_settings.thresholds.of(joint_load.severity),
+                since: joint_load.since,
+                ..Hazard::calm(kind)
+            },
+        });
+        Hazards {
+            list,
+            drive: self.whirl.drive(),
+        }
     }
 }
 
@@ -266,7 +327,14 @@ fn watched_station(model: &Model, station: usize, body: Body) -> WatchedStation 
         inclination: at.inclination,
         clearance,
         body_diameter,
+        length: tributary_length(model, station),
     }
+}
+
+/// Half of the way to each neighbour (m).
+fn tributary_length(model: &Model, station: usize) -> f64 {
+    let depth = |station: usize| model.stations[station].depth;
+    0.5 * (depth((station + 1).min(model.last())) - depth(station.saturating_sub(1)))
 }
 
 /// Lateral position (y, z) of a body in its gap (m): the pipe in the guide, the guide in the hole.

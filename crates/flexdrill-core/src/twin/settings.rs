@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::dynamics::Scheme;
 use crate::inputs::Inputs;
-use crate::motion::{ShockSettings, StickSlipSettings, WhirlSettings};
+use crate::motion::{JointLoadSettings, ShockSettings, StickSlipSettings, WhirlSettings};
 use crate::tool::Body;
 use crate::units::{kn_to_n, rpm_to_rad_per_s};
 
@@ -31,6 +31,8 @@ pub struct SimulationSettings {
     pub stick_slip: StickSlipSettings,
     /// How lateral shock is measured and judged.
     pub shock: ShockSettings,
+    /// How the load of the joints' stops is judged.
+    pub joint_load: JointLoadSettings,
     /// Stations and pipes whose orbits are watched; empty watches both pipes at every joint.
     pub watched: Vec<(usize, Body)>,
     /// Time between samples of the whirl analysis (s), rounded to whole steps.
@@ -52,6 +54,7 @@ impl Default for SimulationSettings {
             whirl: WhirlSettings::default(),
             stick_slip: StickSlipSettings::default(),
             shock: ShockSettings::default(),
+            joint_load: JointLoadSettings::default(),
             watched: Vec::new(),
             whirl_sample_interval: 1.0 / 250.0,
         }

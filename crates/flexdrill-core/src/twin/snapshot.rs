@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::outcome::{EnergyAudit, StepFailure};
-use crate::motion::{Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
+use crate::motion::{Hazards, Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
 
 /// State of the tool at the end of a step, with statistics over the publishing interval.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -30,6 +30,8 @@ pub struct Snapshot {
     pub warning: WhirlWarningLevel,
     /// The level of lateral shock.
     pub shock: ShockLevel,
+    /// All dangers side by side, each with its level and its worst place.
+    pub hazards: Hazards,
     /// Counters of the solver since the start.
     pub solver: SolverCounters,
     /// Energy since the start (J).

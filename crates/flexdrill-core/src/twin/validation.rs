@@ -2,8 +2,9 @@
 
 use super::settings::SimulationSettings;
 use crate::dynamics::Scheme;
-use crate::motion::settings::{LevelThresholds, WhirlSettings};
-use crate::motion::{AlarmThresholds, ShockSettings, StickSlipSettings};
+use crate::motion::{
+    AlarmThresholds, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings, WhirlSettings,
+};
 use crate::validation::{Bound, ValidationError, count, require};
 
 /// Shortest and longest step (s): below, the mass over its square drowns the stiffness; contacts last milliseconds.
@@ -12,7 +13,7 @@ const STEP: Bound = Bound::Within(1e-9, 1.0);
 const MOST_HALVINGS: usize = 20;
 /// Most samples of a whirl window: an hour at the default rate, some 30 MB per watched station.
 const MOST_SAMPLES: f64 = 1e6;
-/// Longest window, hold-off or latch (s): some thirty years.
+/// Longest window, hold-off or span (s): some thirty years.
 const LONGEST: f64 = 1e9;
 
 type Checked = Result<(), ValidationError>;
@@ -33,6 +34,7 @@ impl SimulationSettings {
         self.whirl.validate()?;
         self.stick_slip.validate()?;
         self.shock.validate()?;
+        self.joint_load.validate()?;
         for (index, &(station, _)) in self.watched.iter().enumerate() {
             count(&format!("watched[{index}].station"), station, 0, last_station)?;
         }
@@ -82,15 +84,12 @@ impl WhirlSettings {
             ("evaluation_interval", self.evaluation_interval),
         ];
         Bound::Above(0.0, LONGEST).check_all("whirl", &times, "s")?;
-        let times = [
-            ("max_bridged_gap", self.max_bridged_gap),
-            ("hold_off", self.hold_off),
-            ("latch", self.latch),
-        ];
+        let times = [("max_bridged_gap", self.max_bridged_gap), ("hold_off", self.hold_off)];
         Bound::Within(0.0, LONGEST).check_all("whirl", &times, "s")?;
         Bound::NotNegative.check("whirl.min_rotary_speed", self.min_rotary_speed, "rad/s")?;
         let shares = [
             ("min_orbit_ratio", self.min_orbit_ratio),
+            ("large_orbit_ratio", self.large_orbit_ratio),
             ("min_axis_ratio", self.min_axis_ratio),
             ("steady_direction", self.steady_direction),
             ("min_repetition", self.min_repetition),
@@ -104,38 +103,29 @@ impl WhirlSettings {
         Bound::Within(0.0, 1.0).check_all("whirl", &shares, "")?;
         // At 1 a level would never be left.
         Bound::Within(0.0, 0.99).check("whirl.hysteresis", self.hysteresis, "")?;
-        let levels = [
-            ("watch", &self.watch),
-            ("warning", &self.warning),
-            ("critical", &self.critical),
-        ];
-        for (name, level) in levels {
-            level.validate(&format!("whirl.{name}"))?;
-        }
-        for pair in levels.windows(2) {
-            let (low, (name, high)) = (pair[0].1, pair[1]);
-            require(
-                low.clearance_ratio <= high.clearance_ratio
-                    && low.contact_duty <= high.contact_duty
-                    && low.force <= high.force,
-                &format!("whirl.{name}"),
-                "a level with a threshold below that of the level before; thresholds must rise",
-            )?;
+        rising("whirl.backward_cycles", &self.backward_cycles, "")?;
+        rising("whirl.forward_power", &self.forward_power, "W/m")?;
+        for (index, &turns) in self.lasting_turns.iter().enumerate() {
+            Bound::Within(0.0, LONGEST).check(&format!("whirl.lasting_turns[{index}]"), turns, "turns")?;
         }
         Ok(())
     }
 }
 
-impl LevelThresholds {
-    fn validate(&self, under: &str) -> Checked {
-        let ratios = [
-            ("clearance_ratio", self.clearance_ratio),
-            ("contact_duty", self.contact_duty),
-        ];
-        Bound::NotNegative.check_all(under, &ratios, "")?;
-        Bound::NotNegative.check(&format!("{under}.force"), self.force, "N")?;
-        Bound::Within(0.0, LONGEST).check(&format!("{under}.duration"), self.duration, "s")
+/// Thresholds of levels: positive, and none below the one before.
+fn rising(field: &str, levels: &[f64], unit: &'static str) -> Checked {
+    let mut before = 0.0;
+    for (index, &level) in levels.iter().enumerate() {
+        let field = format!("{field}[{index}]");
+        Bound::Positive.check(&field, level, unit)?;
+        require(
+            level >= before,
+            &field,
+            "a level below the one before; thresholds must rise",
+        )?;
+        before = level;
     }
+    Ok(())
 }
 
 impl StickSlipSettings {
@@ -150,23 +140,25 @@ impl ShockSettings {
     fn validate(&self) -> Checked {
         let times = [("interval", self.interval), ("mean_time", self.mean_time)];
         Bound::Above(0.0, LONGEST).check_all("shock", &times, "s")?;
+        Bound::Above(0.0, LONGEST).check("shock.span", self.span, "s")?;
+        for (index, &repeats) in self.repeats.iter().enumerate() {
+            count(&format!("shock.repeats[{index}]"), repeats as usize, 1, MOST_REPEATS)?;
+        }
         self.thresholds.validate("shock.thresholds", "N s")
+    }
+}
+
+impl JointLoadSettings {
+    fn validate(&self) -> Checked {
+        Bound::Positive.check("joint_load.rated_moment", self.rated_moment, "N m")?;
+        Bound::Above(0.0, LONGEST).check("joint_load.interval", self.interval, "s")?;
+        self.thresholds.validate("joint_load.thresholds", "")
     }
 }
 
 impl AlarmThresholds {
     fn validate(&self, under: &str, unit: &'static str) -> Checked {
-        let mut before = 0.0;
-        for (index, &level) in self.levels.iter().enumerate() {
-            let field = format!("{under}.levels[{index}]");
-            Bound::Positive.check(&field, level, unit)?;
-            require(
-                level >= before,
-                &field,
-                "a level below the one before; thresholds must rise",
-            )?;
-            before = level;
-        }
+        rising(&format!("{under}.levels"), &self.levels, unit)?;
         Bound::Within(0.0, 0.99).check(&format!("{under}.hysteresis"), self.hysteresis, "")?;
         Bound::Within(0.0, LONGEST).check(&format!("{under}.hold_off"), self.hold_off, "s")
     }

@@ -50,7 +50,11 @@ pub struct Bench {
     pub report: WhirlReport,
     pub time: f64,
     step: u64,
+    friction_power: f64,
 }
+
+/// m of tool that the watched station stands for.
+const LENGTH: f64 = 0.0305;
 
 impl Bench {
     pub fn new() -> Self {
@@ -65,12 +69,14 @@ impl Bench {
             inclination: 0.237,
             clearance: CLEARANCE,
             body_diameter: 63e-3,
+            length: LENGTH,
         };
         let mut bench = Self {
             analysis: WhirlAnalysis::new(settings, SAMPLE_INTERVAL, vec![watched]),
             report: WhirlReport::default(),
             time: 0.0,
             step: 0,
+            friction_power: 0.0,
         };
         bench.analysis.report(&mut bench.report);
         bench
@@ -86,10 +92,17 @@ impl Bench {
             z,
             normal_force,
             contact_share,
+            impulse: normal_force * SAMPLE_INTERVAL,
+            friction_work: self.friction_power * LENGTH * SAMPLE_INTERVAL,
         };
         self.analysis.push(self.time, rotary_speed, &[sample]);
         self.analysis.report(&mut self.report);
         self.kind()
+    }
+
+    /// From the next sample on the friction takes that power per metre (W/m).
+    pub fn rub(&mut self, friction_power: f64) {
+        self.friction_power = friction_power;
     }
 
     /// Lets time pass without samples.
@@ -146,6 +159,18 @@ enum Motion {
         rate: f64,
         amplitude: f64,
     },
+    /// Thrown from wall to wall: straight flights between the points at which it leaves and meets the wall, which it
+    /// rolls along in between.
+    Bouncing {
+        /// Time and angle of leaving (s, rad), then of meeting the wall, in turn.
+        points: Vec<[f64; 2]>,
+    },
+    /// Along the wall at a rate that wavers.
+    Slipping {
+        rate: f64,
+        /// Part of the rate, and rate (rad/s) of the wavering.
+        wavering: [f64; 2],
+    },
 }
 
 impl Labelled {
@@ -162,7 +187,13 @@ impl Labelled {
         let radius = CLEARANCE * random.within(0.2, 1.0);
         let turn = TAU / rotary_speed;
         let (mut drift, mut ramp, mut gaps) = ([0.0; 2], 0.0, Vec::new());
-        let (family, kind, ratio, motion) = match index / 2 % 13 {
+        // Where the mean of the motion lies, from the gap's centre; by default so that the motion goes round that.
+        let mut centre = None;
+        let on_side = |distance: f64, random: &mut Random| {
+            let angle = random.within(0.0, TAU);
+            Some([CLEARANCE * distance * angle.cos(), CLEARANCE * distance * angle.sin()])
+        };
+        let (family, kind, ratio, motion) = match index / 2 % 20 {
             0 => (
                 "circle at the tool's rate",
                 whirl,
@@ -199,6 +230,9 @@ impl Labelled {
                 let angle = random.within(0.0, TAU);
                 let size = radius * random.within(0.2, 1.0) / (4.0 * turn);
                 drift = [size * angle.cos(), size * angle.sin()];
+                // It is at the gap's centre in the middle of the last four turns.
+                let middle = duration(rotary_speed) - 2.0 * turn;
+                centre = Some(drift.map(|drift| -drift * middle));
                 (
                     "circle with a drifting centre",
                     whirl,
@@ -310,6 +344,7 @@ impl Labelled {
                 ("noise at rest", WhirlKind::None, None, Motion::Lines(vec![noise]))
             }
             11 => {
+                let radius = CLEARANCE * random.within(0.6, 1.0);
                 // Many lines of both directions: band-limited noise that repeats only after minutes.
                 let lines = (0..60)
                     .map(|_| {
@@ -319,7 +354,8 @@ impl Labelled {
                     .collect();
                 ("broad-band motion", WhirlKind::Chaotic, None, Motion::Lines(lines))
             }
-            _ => {
+            12 => {
+                let radius = CLEARANCE * random.within(0.6, 1.0);
                 let rate = random.within(1.5, 5.0) * rotary_speed;
                 let mut at = 0.0;
                 let mut switches = Vec::new();
@@ -334,17 +370,94 @@ impl Labelled {
                     Motion::Turning { radius, rate, switches },
                 )
             }
+            13 => {
+                let times = [1.0, 2.0, 4.0][random.next_u64() as usize % 3];
+                let size = random.within(0.13, 0.3);
+                centre = on_side(1.0 - size, random);
+                let line = circle(CLEARANCE * size, sign * times * rotary_speed, random);
+                if times == 2.0 {
+                    let family = "small circle at rest, twice the spin";
+                    (family, WhirlKind::JointVibration, None, Motion::Lines(vec![line]))
+                } else {
+                    let family = "small circle at rest, once or four times the spin";
+                    (family, WhirlKind::None, None, Motion::Lines(vec![line]))
+                }
+            }
+            14 => {
+                let size = random.within(0.2, 0.4);
+                centre = on_side(1.0 - size, random);
+                let mut line = circle(CLEARANCE * size, sign * 2.0 * rotary_speed, random);
+                line.minor *= random.within(0.35, 0.9);
+                let family = "ellipse at the wall, twice the spin";
+                (family, WhirlKind::JointVibration, None, Motion::Lines(vec![line]))
+            }
+            15 | 16 => {
+                let ratio = -random.within(1.5, 4.0);
+                centre = Some([0.0; 2]);
+                let family = "bouncing backward whirl, in contact 2 to 30 % of the time";
+                let motion = bouncing(ratio * rotary_speed, duration(rotary_speed), random);
+                (family, WhirlKind::Backward, Some(ratio), motion)
+            }
+            17 => {
+                let ratio = -random.within(0.3, 0.95) * 63.0 / 17.0;
+                centre = Some([0.0; 2]);
+                let wavering = [random.within(0.0, 0.2), random.within(0.3, 2.0) * rotary_speed];
+                let rate = ratio * rotary_speed;
+                (
+                    "rolling with slip",
+                    WhirlKind::Backward,
+                    Some(ratio),
+                    Motion::Slipping { rate, wavering },
+                )
+            }
+            18 => {
+                let size = random.within(0.56, 0.66);
+                centre = on_side(1.0 - size, random);
+                let ratio = sign * random.within(0.5, 4.0);
+                let line = circle(CLEARANCE * size, ratio * rotary_speed, random);
+                (
+                    "circle of more than half the clearance, against one side",
+                    whirl,
+                    Some(ratio),
+                    Motion::Lines(vec![line]),
+                )
+            }
+            _ => {
+                let size = random.within(0.13, 0.4);
+                centre = on_side(1.0 - size, random);
+                let ratio = if random.sign() > 0.0 {
+                    random.within(0.5, 1.6)
+                } else {
+                    random.within(2.5, 5.0)
+                };
+                let line = circle(CLEARANCE * size, sign * ratio * rotary_speed, random);
+                (
+                    "circle of less than half the clearance, against one side",
+                    WhirlKind::None,
+                    None,
+                    Motion::Lines(vec![line]),
+                )
+            }
         };
         let power = match &motion {
             Motion::Lines(lines) => lines.iter().map(Ellipse::power).sum::<f64>(),
             Motion::Turning { radius, .. } => radius * radius,
             // About the middle of the arc, at most.
             Motion::Rocking { radius, amplitude, .. } => (radius * amplitude.min(1.0)).powi(2),
+            Motion::Bouncing { .. } | Motion::Slipping { .. } => CLEARANCE * CLEARANCE,
         };
-        let centre = [
-            CLEARANCE * random.within(-0.3, 0.3),
-            CLEARANCE * random.within(-0.3, 0.3),
-        ];
+        let least = match &motion {
+            Motion::Lines(lines) => lines.first().map_or(CLEARANCE, |line| line.minor),
+            _ => CLEARANCE,
+        };
+        let centre = centre.unwrap_or_else(|| {
+            let most = if matches!(kind, WhirlKind::Forward | WhirlKind::Backward) {
+                0.4 * least
+            } else {
+                0.3 * CLEARANCE
+            };
+            [most * random.next(), most * random.next()]
+        });
         Self {
             family,
             kind,
@@ -404,6 +517,31 @@ impl Labelled {
                     position[1] += z;
                 }
             }
+            Motion::Bouncing { points } => {
+                let next = points.partition_point(|[at, _]| *at <= time).clamp(1, points.len() - 1);
+                let ([from, left], [to, met]) = (points[next - 1], points[next]);
+                let part = ((time - from) / (to - from)).clamp(0.0, 1.0);
+                // From an even point to an odd one it flies.
+                let at = if next % 2 == 1 {
+                    [0, 1].map(|axis: usize| {
+                        let on = |angle: f64| [angle.cos(), angle.sin()][axis];
+                        on(left) + (on(met) - on(left)) * part
+                    })
+                } else {
+                    let angle = left + (met - left) * part;
+                    [angle.cos(), angle.sin()]
+                };
+                position[0] += CLEARANCE * at[0];
+                position[1] += CLEARANCE * at[1];
+            }
+            Motion::Slipping {
+                rate,
+                wavering: [part, pace],
+            } => {
+                let angle = rate * (time + part * (pace * time).sin() / pace);
+                position[0] += CLEARANCE * angle.cos();
+                position[1] += CLEARANCE * angle.sin();
+            }
             Motion::Turning { radius, rate, switches } => {
                 let (mut angle, mut sign, mut from) = (0.0, 1.0, 0.0);
                 for &switch in switches {
@@ -432,4 +570,22 @@ pub fn circle(radius: f64, rate: f64, random: &mut Random) -> Ellipse {
         rate,
         phase: random.within(0.0, TAU),
     }
+}
+
+/// Flights of 50 to 150 degrees that go round at `rate` (rad/s) in the mean, each as long as its share of it, and contacts
+/// in between that take 2 to 30 % of the time and roll on at the same rate.
+fn bouncing(rate: f64, duration: f64, random: &mut Random) -> Motion {
+    let duty = random.within(0.02, 0.3);
+    let (mut time, mut angle) = (0.0, random.within(0.0, TAU));
+    let mut points = vec![[time, angle]];
+    while time < duration + 1.0 {
+        let flight = random.within(50.0, 150.0).to_radians();
+        let contact = flight * duty / (1.0 - duty);
+        for part in [flight, contact] {
+            time += part / rate.abs();
+            angle += part.copysign(rate);
+            points.push([time, angle]);
+        }
+    }
+    Motion::Bouncing { points }
 }

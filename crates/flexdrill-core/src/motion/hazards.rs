@@ -1,0 +1,124 @@
+//! What endangers the tool, one by one: how bad it is, where it is worst, and by which figure.
+
+use serde::{Deserialize, Serialize};
+
+use super::Severity;
+use super::drive::DriveState;
+use super::incidents::IncidentLocation;
+
+/// A danger that an operator can do something about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[repr(u8)]
+pub enum HazardKind {
+    /// The pipe goes round the guide against the rotation: each link is bent several times per turn.
+    BackwardWhirl = 0,
+    /// The pipe goes round with the rotation: one side of it rubs.
+    ForwardWhirl = 1,
+    /// Collisions, by their impulse and number.
+    Shock = 2,
+    /// The bit stops, or nearly, and springs forward.
+    StickSlip = 3,
+    /// The stop of a joint carries more than the joint is rated for.
+    JointLoad = 4,
+}
+
+impl HazardKind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::BackwardWhirl,
+        Self::ForwardWhirl,
+        Self::Shock,
+        Self::StickSlip,
+        Self::JointLoad,
+    ];
+
+    /// As in sentences: `backward whirl`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BackwardWhirl => "backward whirl",
+            Self::ForwardWhirl => "forward whirl",
+            Self::Shock => "lateral shock",
+            Self::StickSlip => "stick-slip",
+            Self::JointLoad => "joint load",
+        }
+    }
+}
+
+/// How one danger stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hazard {
+    /// Which one.
+    pub kind: HazardKind,
+    /// Its level, with duration, hysteresis and hold-off in it.
+    pub severity: Severity,
+    /// Where it is worst; none for the bit, and for whirl while there is none.
+    pub place: Option<IncidentLocation>,
+    /// What it is judged by: bending cycles per turn of the tool, friction power (W/m), impulse (N s), stick-slip
+    /// index, stop moment over its rating.
+    pub value: f64,
+    /// Threshold of the level reached, or of the first one while all is well, in the same unit.
+    pub threshold: f64,
+    /// Whirl rate over rotary speed at the place; NaN where there is none.
+    pub whirl_ratio: f64,
+    /// Whirl rate over that of rolling without slip, for backward whirl of the driven pipe; NaN elsewhere.
+    pub rolling_share: f64,
+    /// Speed of the pipe's centre on its orbit at the place (m/s), for whirl; NaN elsewhere.
+    pub orbit_speed: f64,
+    /// Largest impulse above the resting one in the window at the place (N s); NaN where it is not known.
+    pub impulse: f64,
+    /// Impacts per second at the place (1/s), for whirl; NaN elsewhere.
+    pub impact_rate: f64,
+    /// Work of the friction per second and metre at the place (W/m), for whirl; NaN elsewhere.
+    pub friction_power: f64,
+    /// 0 to 1, lowered by doubtful inputs; 1 where nothing is estimated.
+    pub confidence: f64,
+    /// Model time at which the level was reached (s).
+    pub since: f64,
+}
+
+impl Hazard {
+    /// Nothing to say of it.
+    pub fn calm(kind: HazardKind) -> Self {
+        Self {
+            kind,
+            severity: Severity::Ok,
+            place: None,
+            value: 0.0,
+            threshold: f64::NAN,
+            whirl_ratio: f64::NAN,
+            rolling_share: f64::NAN,
+            orbit_speed: f64::NAN,
+            impulse: f64::NAN,
+            impact_rate: f64::NAN,
+            friction_power: f64::NAN,
+            confidence: 1.0,
+            since: 0.0,
+        }
+    }
+}
+
+/// All dangers, and whether the drive turns: while it does not, no level rises.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hazards {
+    /// In the order of [`HazardKind::ALL`].
+    pub list: [Hazard; HazardKind::ALL.len()],
+    /// What the drive does.
+    pub drive: DriveState,
+}
+
+impl Hazards {
+    /// How one danger stands.
+    pub fn of(&self, kind: HazardKind) -> &Hazard {
+        &self.list[kind as usize]
+    }
+}
+
+impl Default for Hazards {
+    fn default() -> Self {
+        Self {
+            list: HazardKind::ALL.map(Hazard::calm),
+            drive: DriveState::default(),
+        }
+    }
+}

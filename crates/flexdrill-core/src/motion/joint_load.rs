@@ -1,0 +1,157 @@
+//! Load of the joints' stops against what the joints are rated for.
+//!
+//! The moment counts as its mean over a short interval: the peak of a stop that strikes depends on its stiffness, which
+//! is a penalty; the mean, like an impulse, does not.
+
+use serde::{Deserialize, Serialize};
+
+use super::Severity;
+use super::hysteresis::{Alarm, AlarmThresholds};
+
+/// How the stops are judged.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct JointLoadSettings {
+    /// Moment (N m) that the stop of a joint may carry for as long as one likes.
+    pub rated_moment: f64,
+    /// Interval of the mean (s), as that of shock.
+    pub interval: f64,
+    /// Levels of the mean moment over `rated_moment`.
+    pub thresholds: AlarmThresholds,
+}
+
+impl Default for JointLoadSettings {
+    fn default() -> Self {
+        Self {
+            rated_moment: 100.0,
+            interval: 0.02,
+            thresholds: AlarmThresholds {
+                levels: [0.8, 1.0, 1.5],
+                hysteresis: 0.15,
+                hold_off: 5.0,
+            },
+        }
+    }
+}
+
+/// Where the joints' stops stand.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct JointLoadLevel {
+    /// Level.
+    pub severity: Severity,
+    /// Joint with the largest mean moment, from the top: since the level was reached, or of the last interval while all
+    /// is well.
+    pub joint: usize,
+    /// That moment over the rating.
+    pub ratio: f64,
+    /// Model time at which the level was reached (s).
+    pub since: f64,
+}
+
+/// Watches the stops of all joints.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JointLoadWatch {
+    settings: JointLoadSettings,
+    /// Integral of each stop's moment in the interval (N m s).
+    angular_impulse: Vec<f64>,
+    elapsed: f64,
+    alarm: Alarm,
+    level: JointLoadLevel,
+}
+
+impl JointLoadWatch {
+    /// For that many joints.
+    pub fn new(settings: &JointLoadSettings, joints: usize) -> Self {
+        Self {
+            settings: *settings,
+            angular_impulse: vec![0.0; joints],
+            elapsed: 0.0,
+            alarm: Alarm::default(),
+            level: JointLoadLevel::default(),
+        }
+    }
+
+    /// Takes the moment (N m) of a joint's stop over a step of `dt` (s).
+    pub fn push(&mut self, joint: usize, dt: f64, moment: f64) {
+        self.angular_impulse[joint] += moment * dt;
+    }
+
+    /// Ends a step of `dt` (s) at model time `time` (s). While the drive does not turn steadily, no level rises.
+    pub fn advance(&mut self, time: f64, dt: f64, judged: bool) {
+        self.elapsed += dt;
+        if self.elapsed + 0.5 * dt < self.settings.interval {
+            return;
+        }
+        let mut worst = (0.0, 0);
+        for (joint, impulse) in self.angular_impulse.iter_mut().enumerate() {
+            if *impulse > worst.0 {
+                worst = (*impulse, joint);
+            }
+            *impulse = 0.0;
+        }
+        let ratio = worst.0 / self.elapsed / self.settings.rated_moment;
+        let before = self.alarm.severity();
+        let value = if judged { ratio } else { 0.0 };
+        let counts = self.alarm.update(time, self.elapsed, value, &self.settings.thresholds);
+        self.elapsed = 0.0;
+        let now = self.alarm.severity();
+        if now == Severity::Ok || counts && (now > before || ratio > self.level.ratio) {
+            (self.level.ratio, self.level.joint) = (ratio, worst.1);
+        }
+        (self.level.severity, self.level.since) = (now, self.alarm.since());
+    }
+
+    /// How the joints stand.
+    pub fn level(&self) -> JointLoadLevel {
+        self.level
+    }
+
+    /// The thresholds in use.
+    pub fn settings(&self) -> &JointLoadSettings {
+        &self.settings
+    }
+
+    /// Forgets everything but the settings.
+    pub fn reset(&mut self) {
+        self.angular_impulse.fill(0.0);
+        self.elapsed = 0.0;
+        self.alarm = Alarm::default();
+        self.level = JointLoadLevel::default();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stop that strikes for `part` of each interval of 20 ms with the same angular impulse.
+    fn run(part: f64, mean: f64) -> JointLoadLevel {
+        let mut watch = JointLoadWatch::new(&JointLoadSettings::default(), 3);
+        for step in 0..2000 {
+            let struck = f64::from(step % 40) < 40.0 * part;
+            watch.push(1, 5e-4, if struck { mean / part } else { 0.0 });
+            watch.advance(f64::from(step) * 5e-4, 5e-4, true);
+        }
+        watch.level()
+    }
+
+    #[test]
+    fn a_hard_stop_counts_as_a_soft_one() {
+        for part in [1.0, 0.5, 0.1] {
+            let level = run(part, 110.0);
+            assert_eq!((level.severity, level.joint), (Severity::Warning, 1));
+            assert!((level.ratio - 1.1).abs() < 1e-9, "{level:?}");
+        }
+        assert_eq!(run(0.1, 60.0).severity, Severity::Ok);
+    }
+
+    #[test]
+    fn nothing_rises_while_the_tool_is_run_up() {
+        let mut watch = JointLoadWatch::new(&JointLoadSettings::default(), 1);
+        for step in 0..1000 {
+            watch.push(0, 1e-3, 500.0);
+            watch.advance(f64::from(step) * 1e-3, 1e-3, false);
+        }
+        assert_eq!(watch.level().severity, Severity::Ok);
+        assert!((watch.level().ratio - 5.0).abs() < 1e-9);
+    }
+}
