@@ -45,8 +45,10 @@ pub struct Outputs {
     whirl: WhirlState,
     warning: WhirlWarning,
     tool_shape: MarkerArray,
-    /// Sequence of the warning that was sent last.
-    warned: Option<u64>,
+    /// Sequence of the level that was sent last, and whether it was suppressed.
+    warned: Option<(u64, bool)>,
+    /// How often a warning was suppressed or released; counts as a change too.
+    suppressions: u64,
 }
 
 /// The publishing schedule of a configuration.
@@ -85,6 +87,7 @@ impl Outputs {
             warning: WhirlWarning::default(),
             tool_shape: MarkerArray::default(),
             warned: None,
+            suppressions: 0,
         }
     }
 
@@ -156,9 +159,15 @@ impl Outputs {
                 cdr: &self.bytes,
             })?;
         }
-        if snapshot.step == 0 || self.warned != Some(snapshot.warning.sequence) {
-            self.warned = Some(snapshot.warning.sequence);
+        let suppressed = fill::whirl_warning_is_suppressed(snapshot);
+        let warning = Some((snapshot.warning.sequence, suppressed));
+        if snapshot.step == 0 || self.warned != warning {
+            if self.warned.is_some_and(|(_, before)| before != suppressed) {
+                self.suppressions += 1;
+            }
+            self.warned = warning;
             fill::whirl_warning(snapshot, &header, frame.input_quality, &mut self.warning);
+            self.warning.sequence += self.suppressions;
             to_cdr_into(&self.warning, &mut self.bytes)?;
             send(Encoded {
                 topic: &topics::WHIRL_WARNINGS,
