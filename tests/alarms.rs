@@ -366,11 +366,11 @@ fn alarms_in(bag: &Path) -> Vec<(String, Vec<u8>)> {
 #[test]
 fn a_replay_has_its_alarms_and_a_second_one_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
-    let said = replay(folder.path(), "one.mcap");
-    replay(folder.path(), "two.mcap");
+    let said = replay(folder.path(), "one");
+    replay(folder.path(), "two");
     let (one, two) = (
-        alarms_in(&folder.path().join("one.mcap")),
-        alarms_in(&folder.path().join("two.mcap")),
+        alarms_in(&folder.path().join("one")),
+        alarms_in(&folder.path().join("two")),
     );
     assert!(one == two, "two replays differ");
     let events: Vec<AlarmEvent> = one

@@ -25,11 +25,10 @@ fn alarm_with(peer: &mut Peer, id: &str, condition: impl Fn(&Value) -> bool) -> 
     let mut last = Value::Null;
     while Instant::now() < deadline {
         for list in peer.take(ALARMS.0, 1, 2.0) {
-            let found = list["alarms"]
+            let alarms = list["alarms"]
                 .as_array()
-                .unwrap()
-                .iter()
-                .find(|alarm| alarm["id"] == id);
+                .unwrap_or_else(|| panic!("no alarms in {list}"));
+            let found = alarms.iter().find(|alarm| alarm["id"] == id);
             last = found.unwrap_or_else(|| panic!("no {id} in {list}")).clone();
             if condition(&last) {
                 return (last, list);
