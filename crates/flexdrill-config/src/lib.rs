@@ -302,6 +302,7 @@ impl Config {
             stick_slip: self.stick_slip.describe(),
             shock: self.shock.describe(),
             joint_load: self.joint_load.describe(),
+            ageing: self.joint_load.describe_ageing(),
             watched: self.whirl.places(self.mesh().last_station()),
             whirl_sample_interval: 1.0 / self.whirl.sample_rate,
         }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use super::section::section;
-use flexdrill_core::motion::{AlarmThresholds, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings};
+use flexdrill_core::motion::{AgeingSettings, AlarmThresholds, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings};
 use flexdrill_core::units::{rad_per_s_to_rpm, rpm_to_rad_per_s};
 
 section! {
@@ -81,6 +81,10 @@ section! {
         /// Moment that the stop of a joint may carry for as long as one likes: that of its maker.
         rated_moment_nm: f64 = JointLoadSettings::default().rated_moment, above(0.0, 1e7), "N m",
             "a stop that may carry nothing is always overloaded";
+        /// Slope of the Woehler line by which load cycles are counted as damage, relative between places: 3 for welds and
+        /// sharp notches, 5 for machined steel.
+        woehler_slope: f64 = AgeingSettings::default().slope, within(1.0, 20.0), "",
+            "steel has 3 to 8; at 1 only the number of cycles would count";
         /// Interval of the mean (s).
         interval: f64 = JointLoadSettings::default().interval, within(1e-3, 10.0), "s",
             "shorter shows the stop's stiffness, longer hides a blow";
@@ -191,6 +195,13 @@ impl Shock {
 }
 
 impl JointLoad {
+    pub(super) fn describe_ageing(&self) -> AgeingSettings {
+        AgeingSettings {
+            slope: self.woehler_slope,
+            rated_moment: self.rated_moment_nm,
+        }
+    }
+
     pub(super) fn check(&self, c: &mut Checker) {
         self.check_numbers(c);
         c.below("levels", |c| self.levels.check(c, 1e3, ""));

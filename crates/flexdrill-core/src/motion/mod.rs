@@ -9,10 +9,12 @@
 //! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact, [`JointLoadWatch`] the stops of the
 //!   joints; `hysteresis`: how levels rise and fall; `drive`: while the tool is run up none does.
 //! - [`Hazards`]: all of these side by side, what alarms are made from.
+//! - [`AgeingWatch`]: what ages fastest, by cycles counted in `rainflow` and the work of the friction.
 //! - [`IncidentLog`] makes a table of all this over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] sum up what happens between two outputs.
 //! - [`settings`]: every threshold, with its reason.
 
+mod ageing;
 mod classify;
 mod contact_statistics;
 mod drive;
@@ -23,6 +25,7 @@ mod incidents;
 mod joint_load;
 mod orbit;
 mod orbit_window;
+mod rainflow;
 mod report;
 pub mod settings;
 mod severity;
@@ -32,6 +35,7 @@ mod tool_level;
 mod watched_station;
 mod whirl;
 
+pub use ageing::{Ageing, AgeingSettings, AgeingWatch};
 pub use contact_statistics::{ContactStatistics, RootMeanSquare};
 pub use drive::DriveState;
 pub use hazards::{Hazard, HazardKind, Hazards};

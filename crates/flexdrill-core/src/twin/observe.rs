@@ -11,7 +11,7 @@ use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Touch, gap};
 use crate::model::Model;
 use crate::motion::{
-    ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation, JointLoadWatch, RootMeanSquare,
+    AgeingWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation, JointLoadWatch, RootMeanSquare,
     ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings,
 };
 use crate::tool::description::{Body, Direction, JointKind};
@@ -27,6 +27,7 @@ pub(super) struct Observer {
     stick_slip: StickSlip,
     shock: ShockWatch,
     joint_load: JointLoadWatch,
+    ageing: AgeingWatch,
     whirl: WhirlAnalysis,
     watched: Vec<(usize, Body)>,
     samples: Vec<StationSample>,
@@ -61,6 +62,7 @@ impl Observer {
             stick_slip: StickSlip::new(settings.stick_slip),
             shock: ShockWatch::new(&settings.shock, stations),
             joint_load: JointLoadWatch::new(&settings.joint_load, model.joints.len()),
+            ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),
             samples: vec![StationSample::default(); watched.len()],
             watched,
@@ -97,6 +99,7 @@ impl Observer {
         self.stick_slip.reset();
         self.shock.reset();
         self.joint_load.reset();
+        self.ageing.reset();
         self.whirl.reset();
         self.samples.fill(StationSample::default());
         self.last_iterations = 0;
@@ -122,6 +125,7 @@ impl Observer {
                 if let Some(touch) = touch {
                     statistics.touch(station, dt, touch.normal);
                     self.shock.push(layer, station, dt, touch.normal);
+                    self.ageing.rub(layer, station, touch.friction_power * dt);
                 }
             }
             statistics.advance(dt);
@@ -130,6 +134,7 @@ impl Observer {
         self.shock.advance(time, dt, judged);
         for (joint, stop) in forces.joints.iter().enumerate() {
             self.joint_load.push(joint, dt, stop.moment);
+            self.ageing.stop(joint, dt, stop.moment);
         }
         self.joint_load.advance(time, dt, judged);
 
@@ -165,6 +170,8 @@ impl Observer {
             }
             self.whirl.push(time, applied.rotary_speed, &self.samples);
             self.samples.fill(StationSample::default());
+            self.ageing
+                .sample(self.decimation as f64 * dt, |joint| bending_below(model, state, joint));
         }
     }
 
@@ -220,6 +227,7 @@ impl Observer {
             ..Snapshot::default()
         };
         self.whirl.report(&mut out.whirl);
+        self.ageing.write(&mut out.ageing);
         out
     }
 
@@ -262,6 +270,7 @@ impl Observer {
         self.whirl.report(&mut out.whirl);
         out.warning = self.whirl.level();
         out.hazards = self.hazards(model);
+        self.ageing.write(&mut out.ageing);
     }
 
     /// How every danger stands, each with its worst place.
@@ -329,6 +338,26 @@ fn watched_station(model: &Model, station: usize, body: Body) -> WatchedStation 
         body_diameter,
         length: tributary_length(model, station),
     }
+}
+
+/// Bending moment (N m) in the middle of the link below a joint, from its curvature, about two transverse axes that turn
+/// with the pipe: what a point of the pipe feels as it goes round.
+fn bending_below(model: &Model, state: &State, joint: usize) -> [f64; 2] {
+    let per_link = model.description.elements_per_link;
+    let upper = model.joint_stations[joint] + (per_link - 1) / 2;
+    let beam = &model.pipe[upper].beam;
+    let (from, to) = (
+        model.stations[upper].pipe_below,
+        model.stations[upper + 1].pipe_above,
+    );
+    let per_curvature = beam.section.bending / beam.length;
+    let about = |direction: Direction| {
+        let direction = direction as usize;
+        per_curvature * (state.q[to + direction] - state.q[from + direction])
+    };
+    let (about_y, about_z) = (about(Direction::PhiY), about(Direction::PhiZ));
+    let (sin, cos) = libm::sincos(state.q[from + Direction::Psi as usize]);
+    [about_y * cos + about_z * sin, about_z * cos - about_y * sin]
 }
 
 /// Half of the way to each neighbour (m).

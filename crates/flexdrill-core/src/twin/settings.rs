@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::dynamics::Scheme;
 use crate::inputs::Inputs;
-use crate::motion::{JointLoadSettings, ShockSettings, StickSlipSettings, WhirlSettings};
+use crate::motion::{AgeingSettings, JointLoadSettings, ShockSettings, StickSlipSettings, WhirlSettings};
 use crate::tool::Body;
 use crate::units::{kn_to_n, rpm_to_rad_per_s};
 
@@ -33,6 +33,8 @@ pub struct SimulationSettings {
     pub shock: ShockSettings,
     /// How the load of the joints' stops is judged.
     pub joint_load: JointLoadSettings,
+    /// How load cycles are counted as damage.
+    pub ageing: AgeingSettings,
     /// Stations and pipes whose orbits are watched; empty watches both pipes at every joint.
     pub watched: Vec<(usize, Body)>,
     /// Time between samples of the whirl analysis (s), rounded to whole steps.
@@ -55,6 +57,7 @@ impl Default for SimulationSettings {
             stick_slip: StickSlipSettings::default(),
             shock: ShockSettings::default(),
             joint_load: JointLoadSettings::default(),
+            ageing: AgeingSettings::default(),
             watched: Vec::new(),
             whirl_sample_interval: 1.0 / 250.0,
         }

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::outcome::{EnergyAudit, StepFailure};
-use crate::motion::{Hazards, Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
+use crate::motion::{Ageing, Hazards, Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
 
 /// State of the tool at the end of a step, with statistics over the publishing interval.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -32,6 +32,8 @@ pub struct Snapshot {
     pub shock: ShockLevel,
     /// All dangers side by side, each with its level and its worst place.
     pub hazards: Hazards,
+    /// What has aged since the start, joint by joint and station by station.
+    pub ageing: Ageing,
     /// Counters of the solver since the start.
     pub solver: SolverCounters,
     /// Energy since the start (J).

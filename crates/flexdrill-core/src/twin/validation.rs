@@ -35,6 +35,8 @@ impl SimulationSettings {
         self.stick_slip.validate()?;
         self.shock.validate()?;
         self.joint_load.validate()?;
+        Bound::Within(1.0, 20.0).check("ageing.slope", self.ageing.slope, "")?;
+        Bound::Positive.check("ageing.rated_moment", self.ageing.rated_moment, "N m")?;
         for (index, &(station, _)) in self.watched.iter().enumerate() {
             count(&format!("watched[{index}].station"), station, 0, last_station)?;
         }
