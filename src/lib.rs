@@ -9,11 +9,13 @@
 //! - [`cli`]: the subcommands, a file or folder each.
 //! - [`ros`]: the only module that knows ros2-client. [`bag`]: the only one that knows MCAP. [`field_log`]: CSV rig
 //!   logs. [`health`]: what is said of the node's state.
+//! - [`alarms`]: what the motion and the node's state mean for an operator.
 //! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
 //!
 //! Below them, as crates of their own: `flexdrill-paper`, `flexdrill-verify`, [`flexdrill_config`],
 //! [`flexdrill_realtime`] and [`flexdrill_core`], the mechanics. `docs/architecture.md` draws the house.
 
+pub mod alarms;
 pub mod bag;
 pub mod cli;
 pub mod field_log;

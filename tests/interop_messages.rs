@@ -14,8 +14,8 @@ use flexdrill::messages::sensor_msgs::JointState;
 use flexdrill::messages::std_msgs::{ColorRGBA, Float64, Header};
 use flexdrill::messages::visualization_msgs::{Marker, MarkerArray};
 use flexdrill::messages::{
-    AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo, TwinStatus, WhirlState,
-    WhirlWarning, rcl_interfaces, to_cdr,
+    Alarm, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo,
+    TwinStatus, WhirlState, WhirlWarning, rcl_interfaces, to_cdr,
 };
 
 /// A line for the script: type, hash, bytes.
@@ -93,6 +93,32 @@ fn interop_rosbags_agrees_on_hashes_and_bytes() {
             sequence: 9,
             message: "!".to_owned(),
             ..WhirlWarning::default()
+        }),
+        line(&AlarmList {
+            header: header(),
+            sequence: 3,
+            alarms: vec![
+                Alarm {
+                    id: "shock".to_owned(),
+                    active: true,
+                    measured_depth: f64::NAN,
+                    evidence: "Collisions.".to_owned(),
+                    annunciations: 2,
+                    ..Alarm::default()
+                };
+                2
+            ],
+            flood: true,
+            flood_share: 0.25,
+            ..AlarmList::default()
+        }),
+        line(&AlarmEvent {
+            header: header(),
+            change: AlarmEvent::SHELVED,
+            operator_name: "ann".to_owned(),
+            shelved_until: Time { sec: 9, nanosec: 1 },
+            value: 4.4,
+            ..AlarmEvent::default()
         }),
         line(&TwinStatus {
             header: header(),

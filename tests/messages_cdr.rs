@@ -9,8 +9,8 @@
 use flexdrill::messages::std_msgs::{Float64, Header};
 use flexdrill::messages::std_srvs::TriggerRequest;
 use flexdrill::messages::{
-    AppliedInputs, ContactForces, Message, TwinStatus, diagnostic_msgs, from_cdr, large_array, rcl_interfaces, to_cdr,
-    visualization_msgs,
+    AlarmList, AppliedInputs, ContactForces, Message, TwinStatus, diagnostic_msgs, from_cdr, large_array,
+    rcl_interfaces, to_cdr, visualization_msgs,
 };
 use proptest::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -98,6 +98,7 @@ proptest! {
         }
         decode::<TwinStatus>(&bytes);
         decode::<ContactForces>(&bytes);
+        decode::<AlarmList>(&bytes);
         decode::<visualization_msgs::MarkerArray>(&bytes);
         decode::<diagnostic_msgs::DiagnosticArray>(&bytes);
         decode::<rcl_interfaces::SetParametersRequest>(&bytes);

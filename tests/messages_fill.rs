@@ -5,7 +5,7 @@ use flexdrill::messages::fill::{self, ShapeStyle};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::visualization_msgs::{Marker, MarkerArray};
 use flexdrill::messages::{BitState, ContactForces, JointDeflections, WhirlWarning, sensor_msgs};
-use flexdrill_core::motion::{Severity, ShockLevel, WhirlKind};
+use flexdrill_core::motion::{DriveState, Severity, ShockLevel, WhirlKind};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ContactLayer, Snapshot};
 
@@ -36,6 +36,7 @@ fn snapshot() -> Snapshot {
         time: 3.0,
         ..Snapshot::default()
     };
+    snapshot.hazards.drive = DriveState::Turning;
     snapshot.joints.bend_angle = vec![0.01, 0.06, 0.05];
     snapshot.joints.limit_angle = vec![0.05; 3];
     snapshot.contacts.state = vec![ContactForces::INNER, ContactForces::FREE];
@@ -175,6 +176,12 @@ fn a_warning_names_its_place_and_when_it_began() {
         "{}",
         message.message
     );
+
+    // While the drive is run up the alarms of whirl are suppressed, and so is the warning.
+    snapshot.hazards.drive = DriveState::RunningUp;
+    fill::whirl_warning(&snapshot, &header(), WhirlWarning::INPUT_OK, &mut message);
+    assert_eq!(message.severity, WhirlWarning::OK);
+    assert!(message.message.contains("runs up"), "{}", message.message);
 
     snapshot.warning.entry = 9;
     fill::whirl_warning(&snapshot, &header(), 0, &mut message);

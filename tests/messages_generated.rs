@@ -89,6 +89,10 @@ fn packages_for_roslibrust(folder: &Path) -> Vec<PathBuf> {
         };
         for message in messages {
             let path = message.unwrap().path();
+            // Services stand beside our messages; only messages are compared.
+            if path.extension().is_some_and(|extension| extension == "srv") {
+                continue;
+            }
             std::fs::copy(&path, package.join("msg").join(path.file_name().unwrap())).unwrap();
         }
         packages.push(package);

@@ -18,7 +18,7 @@ use flexdrill::bag;
 use flexdrill::messages::TwinStatus;
 use serde_json::json;
 
-/// Messages of the topics that do not tell of wall-clock time, per topic in their order.
+/// Messages of the topics that do not tell of wall-clock time or of the node itself, per topic in their order.
 fn messages(path: &Path) -> BTreeMap<String, Vec<Vec<u8>>> {
     let mut found: BTreeMap<String, Vec<Vec<u8>>> = BTreeMap::new();
     let bag = bag::open(path).unwrap();
@@ -27,6 +27,8 @@ fn messages(path: &Path) -> BTreeMap<String, Vec<Vec<u8>>> {
         let clocked = [
             "twin/status",
             "diagnostics",
+            "twin/alarms",
+            "twin/alarm_events",
             "rig/rotary_speed_rpm",
             "rig/weight_on_bit_kn",
         ];

@@ -1,5 +1,6 @@
 //! `flexdrill replay`: a bag or a field log through the model as fast as it goes.
 
+mod alarms;
 mod incidents;
 mod inputs;
 mod player;
@@ -65,6 +66,7 @@ fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow
     let (recording, mut tally) = player.finish()?;
     println!("wrote {} messages to {}", recording.messages, recording.path.display());
     tally.print(wall, time_step);
+    print!("{}", tally.alarms);
     let found = tally.incidents();
     print!("{}", incidents::table(&found, &joints));
     if let Some(path) = json {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{WrongUse, signals};
+use crate::alarms::state_file;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
@@ -47,6 +48,10 @@ pub(super) struct RunArgs {
     /// End after so much model time (s).
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
+    /// Folder that keeps acknowledged and shelved alarms over a restart; default $XDG_STATE_HOME/flexdrill or
+    /// ~/.local/state/flexdrill.
+    #[arg(long, value_name = "DIR")]
+    state_dir: Option<PathBuf>,
     /// Start from a state that ~/save_checkpoint has written. A recording of such a run cannot be replayed.
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
@@ -64,6 +69,12 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .map_err(WrongUse::new)?;
     let started = parameters::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+    let state_dir = args
+        .state_dir
+        .clone()
+        .or_else(|| state_file::default_folder(|name| std::env::var(name).ok()));
+    let alarm_state =
+        state_dir.map(|folder| folder.join(state_file::file_name(network.domain_id, &identity.full_name())));
     let setup = NodeSetup {
         config: started.config,
         config_file,
@@ -75,6 +86,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         use_sim_time: started.use_sim_time,
         rosout: ros_args.rosout.unwrap_or(true),
         checkpoint: args.checkpoint.clone(),
+        alarm_state,
         duration: args.duration.or(config.run.duration),
     };
     print_banner(&setup)?;
@@ -151,6 +163,10 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             "output",
             format!("{} [{}, {rate}]", setup.topic_name(topic)?, topic.kind.ros_type),
         );
+    }
+    match &setup.alarm_state {
+        Some(path) => row("alarm state", path.display().to_string()),
+        None => row("alarm state", "not kept: no home folder; give --state-dir".to_owned()),
     }
     if let Some(path) = &setup.record {
         row("recording", path.display().to_string());

@@ -1,5 +1,6 @@
 //! `flexdrill watch`: a terminal dashboard over DDS. It sees what any outside client sees, and nothing else.
 
+mod alarms;
 mod board;
 mod feed;
 mod plain;

@@ -1,9 +1,10 @@
-//! `/diagnostics`: seven items judged from the status and the newest snapshot, with hysteresis.
+//! `/diagnostics`: items judged from the status, the newest snapshot and the alarms, with hysteresis.
 
+use super::alarms::alarms;
 use super::items::{inputs, pacing, recording, solver};
 use super::motion::MotionEvidence;
-use crate::messages::TwinStatus;
 use crate::messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
+use crate::messages::{AlarmList, TwinStatus};
 use flexdrill_core::dynamics::StepFailure;
 
 /// Judgements in a row that must be better before an item's level falls.
@@ -33,17 +34,19 @@ impl Hysteresis {
 /// Keeps what the next judgement needs.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
-    levels: [Hysteresis; 7],
+    levels: [Hysteresis; 8],
     previous: Option<TwinStatus>,
 }
 
 /// What beside the status is judged.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Evidence {
     /// Cause and place of the failed step, while the model stands still.
     pub failure: Option<StepFailure>,
     /// What the analysis says of the motion.
     pub motion: MotionEvidence,
+    /// The alarms as they stand.
+    pub alarms: AlarmList,
 }
 
 impl Diagnostics {
@@ -58,6 +61,7 @@ impl Diagnostics {
             evidence.motion.stick_slip(),
             evidence.motion.shock(),
             recording(status, &previous),
+            alarms(&evidence.alarms),
         ];
         judgements
             .into_iter()

@@ -1,6 +1,7 @@
 //! How the twin is doing, in figures (`twin/status`) and judgements (`/diagnostics`). It knows the messages, no
 //! middleware.
 
+mod alarms;
 pub mod diagnostics;
 mod items;
 mod judgement;

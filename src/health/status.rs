@@ -123,6 +123,11 @@ impl StatusKeeper {
         self.factor.note(wall, self.model_time_gained(gauges));
     }
 
+    /// Model time gained per second of wall time, over the last second; none before a second has passed.
+    pub fn real_time_factor(&self, wall: u64, gauges: &Gauges) -> Option<f64> {
+        self.factor.factor(wall, self.model_time_gained(gauges))
+    }
+
     fn model_time_gained(&self, gauges: &Gauges) -> f64 {
         gauges.steps_taken.load(Ordering::Relaxed) as f64 * self.time_step
     }

@@ -126,6 +126,221 @@ pub mod flexdrill {
 
     use crate::messages::Message;
 
+    /// One alarm as it stands: one thing that an operator can do something about. What each of them means is in docs/alarms.md.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Alarm {
+        /// Its name for programs and in requests, such as backward_whirl.
+        pub id: std::string::String,
+        /// Its name for people.
+        pub name: std::string::String,
+        /// NORMAL, ACTIVE_UNACKNOWLEDGED, ACTIVE_ACKNOWLEDGED, RETURNED_UNACKNOWLEDGED, SHELVED, SUPPRESSED_BY_DESIGN or OUT_OF_SERVICE.
+        pub state: u8,
+        /// That of the condition or of what is to be acknowledged, whichever is higher: NO_PRIORITY, LOW, MEDIUM or HIGH.
+        pub priority: u8,
+        /// The condition stands; under a shelf too.
+        pub active: bool,
+        /// Nothing is to be acknowledged.
+        pub acknowledged: bool,
+        /// When this state began, on the rig's clock; zero before the first change.
+        pub since: super::builtin_interfaces::Time,
+        /// When shelving ends at the latest, on the rig's clock; zero while not shelved.
+        pub shelved_until: super::builtin_interfaces::Time,
+        /// Shelving ends when the condition goes.
+        pub shelved_one_shot: bool,
+        /// Where it is worst now: NOWHERE, PIPE or GUIDE.
+        pub body: u8,
+        /// Place along the bore from the kick-off (m), NaN where there is none.
+        pub measured_depth: f64,
+        /// Inclination of the bore there, 0 is straight down (rad), NaN where there is none.
+        pub inclination: f64,
+        /// What it is judged by, in unit; NaN where there is no such number.
+        pub value: f64,
+        /// What value is held against, in unit; NaN where there is no such number.
+        pub threshold: f64,
+        /// Unit of value and threshold; empty where they have none.
+        pub unit: std::string::String,
+        /// How far the evidence can be trusted (0 to 1).
+        pub confidence: f64,
+        /// What is seen, in a sentence. This and the next three are of the last time that the condition was seen for as long as it
+        /// is to be acknowledged, and empty when nothing is to be known of it.
+        pub evidence: std::string::String,
+        /// Why it comes.
+        pub cause: std::string::String,
+        /// What it leads to when nobody acts.
+        pub consequence: std::string::String,
+        /// What to do.
+        pub what_to_do: std::string::String,
+        /// How often it has called for somebody since the count began, which a restart goes on with.
+        pub annunciations: u64,
+        /// How often in the last minute; from three on it chatters.
+        pub annunciations_last_minute: u32,
+    }
+
+    impl Alarm {
+        /// Nothing to do.
+        pub const NORMAL: u8 = 0;
+        /// The condition stands, and nobody has said that he knows.
+        pub const ACTIVE_UNACKNOWLEDGED: u8 = 1;
+        /// The condition stands, and somebody knows.
+        pub const ACTIVE_ACKNOWLEDGED: u8 = 2;
+        /// The condition has gone before somebody said that he knew.
+        pub const RETURNED_UNACKNOWLEDGED: u8 = 3;
+        /// An operator has put it aside for a time.
+        pub const SHELVED: u8 = 4;
+        /// The tool is in a state in which the condition means nothing: the drive stands or runs up.
+        pub const SUPPRESSED_BY_DESIGN: u8 = 5;
+        /// Switched off by the configuration.
+        pub const OUT_OF_SERVICE: u8 = 6;
+        /// No priority: nothing to do.
+        pub const NO_PRIORITY: u8 = 0;
+        /// When there is time.
+        pub const LOW: u8 = 1;
+        /// Soon.
+        pub const MEDIUM: u8 = 2;
+        /// At once.
+        pub const HIGH: u8 = 3;
+        /// The alarm is at no place along the tool, or at none now.
+        pub const NOWHERE: u8 = 0;
+        /// The flexible pipe.
+        pub const PIPE: u8 = 1;
+        /// The guide pipe.
+        pub const GUIDE: u8 = 2;
+    }
+
+    impl Message for Alarm {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "Alarm";
+        const ROS_TYPE: &'static str = "flexdrill/msg/Alarm";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Alarm_";
+        const RIHS01: &'static str = "RIHS01_1791eb7d90c69579e073832dbfc3353114d8f1a6298f2e601881d9ec3cc534be";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/Alarm.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// One change of one alarm: the journal. What the states and priorities are says Alarm.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct AlarmEvent {
+        /// Stamp: when, on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// One more in every event, over restarts.
+        pub sequence: u64,
+        /// Of the alarm, as in Alarm.
+        pub id: std::string::String,
+        /// Its name for people.
+        pub name: std::string::String,
+        /// ACTIVATED, RAISED, LOWERED, RETURNED, ACKNOWLEDGED, SHELVED, UNSHELVED, SUPPRESSED, RELEASED, TAKEN_OUT or PUT_BACK.
+        pub change: u8,
+        /// State before, as in Alarm.
+        pub from_state: u8,
+        /// State after.
+        pub to_state: u8,
+        /// The higher of the priorities before and after, as in Alarm.
+        pub priority: u8,
+        /// It calls for somebody.
+        pub annunciates: bool,
+        /// Who asked for it; empty where nobody did.
+        pub operator_name: std::string::String,
+        /// Why; for UNSHELVED by itself, why the shelving ended.
+        pub reason: std::string::String,
+        /// When shelving ends at the latest, for SHELVED.
+        pub shelved_until: super::builtin_interfaces::Time,
+        /// What is seen, in a sentence; empty where the condition is not there.
+        pub evidence: std::string::String,
+        /// What the operator is told to do; empty where nothing is to be done.
+        pub what_to_do: std::string::String,
+        /// Where it was worst, as in Alarm: NOWHERE, PIPE or GUIDE.
+        pub body: u8,
+        /// Place along the bore from the kick-off (m), NaN where there is none.
+        pub measured_depth: f64,
+        /// Inclination of the bore there (rad), NaN where there is none.
+        pub inclination: f64,
+        /// What it was judged by, NaN where there is no such number.
+        pub value: f64,
+    }
+
+    impl AlarmEvent {
+        /// The condition has stood for its on-delay.
+        pub const ACTIVATED: u8 = 0;
+        /// It has become worse.
+        pub const RAISED: u8 = 1;
+        /// It has become better, but stands.
+        pub const LOWERED: u8 = 2;
+        /// It has been gone for its off-delay.
+        pub const RETURNED: u8 = 3;
+        /// An operator knows.
+        pub const ACKNOWLEDGED: u8 = 4;
+        /// An operator has put it aside.
+        pub const SHELVED: u8 = 5;
+        /// It is back: asked for, after its time, as its condition went, or as it rose to HIGH.
+        pub const UNSHELVED: u8 = 6;
+        /// The drive stands or runs up: the condition means nothing.
+        pub const SUPPRESSED: u8 = 7;
+        /// The condition means something again.
+        pub const RELEASED: u8 = 8;
+        /// The configuration switches it off.
+        pub const TAKEN_OUT: u8 = 9;
+        /// The configuration switches it on again.
+        pub const PUT_BACK: u8 = 10;
+    }
+
+    impl Message for AlarmEvent {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "AlarmEvent";
+        const ROS_TYPE: &'static str = "flexdrill/msg/AlarmEvent";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmEvent_";
+        const RIHS01: &'static str = "RIHS01_9544c171e98e81aa04307a5c05938877a1ad9c519a05df43b74a429ef38fc91f";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/AlarmEvent.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
+    /// All alarms, the worst first, sent when one of them changes and every second. Latched: of several received, the one with
+    /// the highest sequence holds, and of those with the same the newest.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct AlarmList {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Events so far, over restarts: the sequence of the newest AlarmEvent.
+        pub sequence: u64,
+        /// All of them, normal ones too. What calls for somebody is first: unacknowledged before acknowledged, then what returned,
+        /// what is shelved, suppressed and normal, out of service last; within each by priority.
+        pub alarms: Vec<Alarm>,
+        /// Alarms to be acknowledged.
+        pub unacknowledged: u32,
+        /// How often alarms have called for somebody in the last ten minutes.
+        pub annunciations_last_ten_minutes: u32,
+        /// More than ten in the last ten minutes.
+        pub flood: bool,
+        /// How often per hour watched.
+        pub annunciations_per_hour: f64,
+        /// Part of the time watched that was in flood (0 to 1).
+        pub flood_share: f64,
+    }
+
+    impl Message for AlarmList {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "AlarmList";
+        const ROS_TYPE: &'static str = "flexdrill/msg/AlarmList";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmList_";
+        const RIHS01: &'static str = "RIHS01_d5100640eb884ed953751131fa14dc9ee21d7f444ae52fcce638b1bf9f7a237e";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/AlarmList.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: flexdrill/Alarm\n",
+            include_str!("../../msg/Alarm.msg"),
+        );
+    }
+
     /// What drives the model from a step on, sent when anything of it changes. The sequence of these messages and the
     /// configuration determine a run to the bit.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -714,6 +929,124 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+    }
+
+    /// Says that somebody knows of an alarm.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct AcknowledgeAlarmRequest {
+        /// Of the alarm, such as backward_whirl; empty or all: every alarm that is to be acknowledged.
+        pub id: std::string::String,
+        /// Who says so. Must not be empty.
+        pub operator_name: std::string::String,
+        /// For the journal; may be empty.
+        pub reason: std::string::String,
+    }
+
+    impl Message for AcknowledgeAlarmRequest {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "AcknowledgeAlarm_Request";
+        const ROS_TYPE: &'static str = "flexdrill/srv/AcknowledgeAlarm_Request";
+        const DDS_TYPE: &'static str = "flexdrill::srv::dds_::AcknowledgeAlarm_Request_";
+        const RIHS01: &'static str = "RIHS01_f79a38c9120398574da69bcb97cbfea7b2a75af0eff1ed18a6f487237848290a";
+        const SCHEMA: &'static str = "# Says that somebody knows of an alarm.\n\n# Of the alarm, such as backward_whirl; empty or all: every alarm that is to be acknowledged.\nstring id\n# Who says so. Must not be empty.\nstring operator_name\n# For the journal; may be empty.\nstring reason\n";
+    }
+
+    /// `flexdrill/srv/AcknowledgeAlarm_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct AcknowledgeAlarmResponse {
+        /// Whether the journal has it.
+        pub success: bool,
+        /// What was done, or why not.
+        pub message: std::string::String,
+    }
+
+    impl Message for AcknowledgeAlarmResponse {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "AcknowledgeAlarm_Response";
+        const ROS_TYPE: &'static str = "flexdrill/srv/AcknowledgeAlarm_Response";
+        const DDS_TYPE: &'static str = "flexdrill::srv::dds_::AcknowledgeAlarm_Response_";
+        const RIHS01: &'static str = "RIHS01_982e6903d0b88cc10f418258bf38db0249f8a0c1b33ea6c1986541d3e1868730";
+        const SCHEMA: &'static str = "# Whether the journal has it.\nbool success\n# What was done, or why not.\nstring message\n";
+    }
+
+    /// Puts an alarm aside for a time.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ShelveAlarmRequest {
+        /// Of the alarm, such as backward_whirl.
+        pub id: std::string::String,
+        /// Until the condition has gone, at most for the longest time of the configuration; duration is not looked at then.
+        pub one_shot: bool,
+        /// For so long (s), at most the longest time of the configuration.
+        pub duration: f64,
+        /// Who wants it. Must not be empty.
+        pub operator_name: std::string::String,
+        /// Why. Must not be empty.
+        pub reason: std::string::String,
+    }
+
+    impl Message for ShelveAlarmRequest {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "ShelveAlarm_Request";
+        const ROS_TYPE: &'static str = "flexdrill/srv/ShelveAlarm_Request";
+        const DDS_TYPE: &'static str = "flexdrill::srv::dds_::ShelveAlarm_Request_";
+        const RIHS01: &'static str = "RIHS01_3866739753c91bc6e370b97f9df74188b76166a9447cafc3d397eb710bf730ef";
+        const SCHEMA: &'static str = "# Puts an alarm aside for a time.\n\n# Of the alarm, such as backward_whirl.\nstring id\n# Until the condition has gone, at most for the longest time of the configuration; duration is not looked at then.\nbool one_shot\n# For so long (s), at most the longest time of the configuration.\nfloat64 duration\n# Who wants it. Must not be empty.\nstring operator_name\n# Why. Must not be empty.\nstring reason\n";
+    }
+
+    /// `flexdrill/srv/ShelveAlarm_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ShelveAlarmResponse {
+        /// Whether it is shelved.
+        pub success: bool,
+        /// Until when, or why not.
+        pub message: std::string::String,
+    }
+
+    impl Message for ShelveAlarmResponse {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "ShelveAlarm_Response";
+        const ROS_TYPE: &'static str = "flexdrill/srv/ShelveAlarm_Response";
+        const DDS_TYPE: &'static str = "flexdrill::srv::dds_::ShelveAlarm_Response_";
+        const RIHS01: &'static str = "RIHS01_08f2120785f28bfdee73a05f02403c5148f0c329cc732190381602da11261d7e";
+        const SCHEMA: &'static str = "# Whether it is shelved.\nbool success\n# Until when, or why not.\nstring message\n";
+    }
+
+    /// Takes an alarm back from the shelf.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct UnshelveAlarmRequest {
+        /// Of the alarm, such as backward_whirl.
+        pub id: std::string::String,
+        /// Who wants it. Must not be empty.
+        pub operator_name: std::string::String,
+        /// For the journal; may be empty.
+        pub reason: std::string::String,
+    }
+
+    impl Message for UnshelveAlarmRequest {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "UnshelveAlarm_Request";
+        const ROS_TYPE: &'static str = "flexdrill/srv/UnshelveAlarm_Request";
+        const DDS_TYPE: &'static str = "flexdrill::srv::dds_::UnshelveAlarm_Request_";
+        const RIHS01: &'static str = "RIHS01_b7d3b33cc977e3739b3e05be7729d5b4218c4542821b13bae8075ce872ff253c";
+        const SCHEMA: &'static str = "# Takes an alarm back from the shelf.\n\n# Of the alarm, such as backward_whirl.\nstring id\n# Who wants it. Must not be empty.\nstring operator_name\n# For the journal; may be empty.\nstring reason\n";
+    }
+
+    /// `flexdrill/srv/UnshelveAlarm_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct UnshelveAlarmResponse {
+        /// Whether it is back.
+        pub success: bool,
+        /// What was done, or why not.
+        pub message: std::string::String,
+    }
+
+    impl Message for UnshelveAlarmResponse {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "UnshelveAlarm_Response";
+        const ROS_TYPE: &'static str = "flexdrill/srv/UnshelveAlarm_Response";
+        const DDS_TYPE: &'static str = "flexdrill::srv::dds_::UnshelveAlarm_Response_";
+        const RIHS01: &'static str = "RIHS01_a2c420ea33db6edd380a9599a50564c47cabf1e7d292c4a15efd0ad61032f37a";
+        const SCHEMA: &'static str = "# Whether it is back.\nbool success\n# What was done, or why not.\nstring message\n";
     }
 }
 
@@ -1643,6 +1976,9 @@ pub const TYPES: &[TypeInfo] = &[
     <diagnostic_msgs::DiagnosticArray as super::Message>::INFO,
     <diagnostic_msgs::DiagnosticStatus as super::Message>::INFO,
     <diagnostic_msgs::KeyValue as super::Message>::INFO,
+    <flexdrill::Alarm as super::Message>::INFO,
+    <flexdrill::AlarmEvent as super::Message>::INFO,
+    <flexdrill::AlarmList as super::Message>::INFO,
     <flexdrill::AppliedInputs as super::Message>::INFO,
     <flexdrill::BitState as super::Message>::INFO,
     <flexdrill::ContactForces as super::Message>::INFO,
@@ -1651,6 +1987,12 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::TwinStatus as super::Message>::INFO,
     <flexdrill::WhirlState as super::Message>::INFO,
     <flexdrill::WhirlWarning as super::Message>::INFO,
+    <flexdrill::AcknowledgeAlarmRequest as super::Message>::INFO,
+    <flexdrill::AcknowledgeAlarmResponse as super::Message>::INFO,
+    <flexdrill::ShelveAlarmRequest as super::Message>::INFO,
+    <flexdrill::ShelveAlarmResponse as super::Message>::INFO,
+    <flexdrill::UnshelveAlarmRequest as super::Message>::INFO,
+    <flexdrill::UnshelveAlarmResponse as super::Message>::INFO,
     <geometry_msgs::Point as super::Message>::INFO,
     <geometry_msgs::Pose as super::Message>::INFO,
     <geometry_msgs::Quaternion as super::Message>::INFO,

@@ -14,6 +14,10 @@ use super::{
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
 
+/// How often the alarms of the tool are judged, per second of model time: ten times within the shortest duration that a
+/// level has by default.
+const ALARM_RATE: f64 = 10.0;
+
 /// A message ready to be sent and recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct Encoded<'a> {
@@ -41,8 +45,10 @@ pub struct Outputs {
     whirl: WhirlState,
     warning: WhirlWarning,
     tool_shape: MarkerArray,
-    /// Sequence of the warning that was sent last.
-    warned: Option<u64>,
+    /// Sequence of the level that was sent last, and whether it was suppressed.
+    warned: Option<(u64, bool)>,
+    /// How often a warning was suppressed or released; counts as a change too.
+    suppressions: u64,
 }
 
 /// The publishing schedule of a configuration.
@@ -55,6 +61,7 @@ pub fn schedule(config: &Config) -> Schedule {
         Output::BitState => rates.bit_state,
         Output::Whirl => rates.whirl,
         Output::ToolShape => rates.tool_shape,
+        Output::Alarms => ALARM_RATE,
     })
 }
 
@@ -80,6 +87,7 @@ impl Outputs {
             warning: WhirlWarning::default(),
             tool_shape: MarkerArray::default(),
             warned: None,
+            suppressions: 0,
         }
     }
 
@@ -143,6 +151,7 @@ impl Outputs {
                     to_cdr_into(&self.tool_shape, &mut self.bytes)?;
                     &topics::TOOL_SHAPE
                 }
+                Output::Alarms => continue,
             };
             send(Encoded {
                 topic,
@@ -150,9 +159,15 @@ impl Outputs {
                 cdr: &self.bytes,
             })?;
         }
-        if snapshot.step == 0 || self.warned != Some(snapshot.warning.sequence) {
-            self.warned = Some(snapshot.warning.sequence);
+        let suppressed = fill::whirl_warning_is_suppressed(snapshot);
+        let warning = Some((snapshot.warning.sequence, suppressed));
+        if snapshot.step == 0 || self.warned != warning {
+            if self.warned.is_some_and(|(_, before)| before != suppressed) {
+                self.suppressions += 1;
+            }
+            self.warned = warning;
             fill::whirl_warning(snapshot, &header, frame.input_quality, &mut self.warning);
+            self.warning.sequence += self.suppressions;
             to_cdr_into(&self.warning, &mut self.bytes)?;
             send(Encoded {
                 topic: &topics::WHIRL_WARNINGS,

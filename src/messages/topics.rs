@@ -1,8 +1,8 @@
 //! All topics: name, type, rate and quality of service. The node and the bags share this table.
 
 use super::{
-    AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo, TwinStatus, TypeInfo, WhirlState,
-    WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, visualization_msgs,
+    AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo, TwinStatus,
+    TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -109,6 +109,11 @@ pub const WHIRL: TopicInfo = TopicInfo::new("twin/whirl", WhirlState::INFO, Cade
 /// Output: the warning level.
 pub const WHIRL_WARNINGS: TopicInfo =
     TopicInfo::new("twin/whirl_warnings", WhirlWarning::INFO, Cadence::OnChange, LATCHED);
+/// Output: all alarms as they stand, on change and every second.
+pub const ALARMS: TopicInfo = TopicInfo::new("twin/alarms", AlarmList::INFO, Cadence::OnChange, LATCHED);
+/// Output: the alarms' journal.
+pub const ALARM_EVENTS: TopicInfo =
+    TopicInfo::new("twin/alarm_events", AlarmEvent::INFO, Cadence::OnChange, reliable(100));
 /// Output: the bit.
 pub const BIT_STATE: TopicInfo = TopicInfo::new(
     "twin/bit_state",
@@ -150,7 +155,7 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 );
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 14] = [
+pub const ALL: [TopicInfo; 16] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     CLOCK,
@@ -158,6 +163,8 @@ pub const ALL: [TopicInfo; 14] = [
     CONTACT_FORCES,
     WHIRL,
     WHIRL_WARNINGS,
+    ALARMS,
+    ALARM_EVENTS,
     BIT_STATE,
     STATUS,
     TOOL_SHAPE,

@@ -1,7 +1,8 @@
 //! Codes of the messages as words for a person, the same in messages, tables and dashboards. What the core has a name
 //! for has that name.
 
-use super::{TwinStatus, WhirlState};
+use super::{Alarm, TwinStatus, WhirlState};
+use flexdrill_alarms::{Priority, State};
 use flexdrill_core::motion::Severity;
 use flexdrill_core::tool::Body;
 
@@ -13,6 +14,23 @@ pub fn severity(code: u8) -> &'static str {
     let known = [Severity::Ok, Severity::Watch, Severity::Warning, Severity::Critical];
     let found = known.into_iter().find(|severity| *severity as u8 == code);
     found.map_or(UNKNOWN, Severity::name)
+}
+
+/// An alarm's state, in the words of ISA-18.2.
+pub fn alarm_state(code: u8) -> &'static str {
+    let found = State::ALL.into_iter().find(|state| *state as u8 == code);
+    found.map_or(UNKNOWN, State::name)
+}
+
+/// An alarm's priority: `low`, `medium` or `high`; a dash where there is none.
+pub fn alarm_priority(code: u8) -> &'static str {
+    match code {
+        Alarm::NO_PRIORITY => "-",
+        Alarm::LOW => Priority::Low.name(),
+        Alarm::MEDIUM => Priority::Medium.name(),
+        Alarm::HIGH => Priority::High.name(),
+        _ => UNKNOWN,
+    }
 }
 
 /// The kind of whirl in one word.

@@ -1,6 +1,7 @@
 //! A network that nobody else is in.
 
 use std::io::{BufRead, BufReader};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 use super::peer::Peer;
@@ -12,6 +13,8 @@ use super::{python, root, small_config};
 pub struct Network {
     holder: Child,
     root: bool,
+    /// What a node keeps over a restart, it keeps here.
+    state: tempfile::TempDir,
 }
 
 impl Network {
@@ -39,7 +42,8 @@ impl Network {
             let _ = holder.wait();
             return skipped("no private network namespace can be made (needs root or user namespaces, and iproute2)");
         }
-        Some(Self { holder, root })
+        let state = tempfile::tempdir().unwrap();
+        Some(Self { holder, root, state })
     }
 
     /// A command within it.
@@ -59,7 +63,13 @@ impl Network {
         ] {
             command.env_remove(variable);
         }
+        command.env("XDG_STATE_HOME", self.state.path());
         command
+    }
+
+    /// The folder that states are kept in.
+    pub fn state(&self) -> &Path {
+        self.state.path()
     }
 
     /// The twin, with a configuration that a busy machine can hold, and these arguments.

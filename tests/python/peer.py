@@ -50,7 +50,9 @@ class Peer:
         """Messages until there are `count` or time is up."""
         found, deadline = [], time.monotonic() + seconds
         while True:
-            found += [ros_types.to_plain(sample) for sample in self.readers[topic].take(N=1000) if hasattr(sample, "__dataclass_fields__") and not hasattr(sample, "key")]
+            # That a writer has gone comes as a sample without data.
+            samples = [sample for sample in self.readers[topic].take(N=1000) if sample.sample_info.valid_data]
+            found += [ros_types.to_plain(sample) for sample in samples]
             if len(found) >= count or time.monotonic() >= deadline:
                 return {"messages": found}
             time.sleep(0.005)

@@ -38,7 +38,7 @@ def _definition(package, kind, name):
     half = None
     if kind == "srv":
         name, half = name.rsplit("_", 1)
-    own = ROOT / kind / f"{name}.{kind}"
+    own = ROOT / "msg" / f"{name}.{kind}"
     foreign = ROOT / "src" / "messages" / "external" / package / kind / f"{name}.{kind}"
     text = (own if package == "flexdrill" else foreign).read_text()
     if half:

@@ -8,6 +8,7 @@
 //! The plain structs here are the schema; [`Config`] is a checked whole of them and cannot be changed but by
 //! [`Config::with_value`], which checks again.
 
+mod alarms;
 mod boundary;
 pub mod checker;
 mod contact;
@@ -39,6 +40,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+pub use alarms::{Advice, AdviceTable, Alarms, NodeAlarm, ToolAlarm};
 pub use boundary::{BottomAxial, Boundary, Drive, Held, Preset};
 pub use checker::NumberKey;
 pub use contact::{Contact, Layer};
@@ -134,6 +136,9 @@ pub struct Schema {
     /// Load of the joints' stops.
     #[serde(default)]
     pub joint_load: JointLoad,
+    /// What calls for an operator.
+    #[serde(default)]
+    pub alarms: Alarms,
     /// Publishing.
     #[serde(default)]
     pub outputs: Outputs,
@@ -392,6 +397,7 @@ impl Schema {
         c.below("stick_slip", |c| self.stick_slip.check(c));
         c.below("shock", |c| self.shock.check(c));
         c.below("joint_load", |c| self.joint_load.check(c));
+        c.below("alarms", |c| self.alarms.check(c));
         c.below("outputs", |c| self.outputs.check(c));
     }
 }

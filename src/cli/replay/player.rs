@@ -1,17 +1,19 @@
 //! Drives a run as fast as it goes and writes what the node would have published.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
 
 use super::summary::Tally;
+use crate::alarms::AlarmBook;
 use crate::bag::{BagError, Recorder, Recording, Topic};
 use crate::messages::CdrError;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
-use flexdrill_core::twin::{Frame, Run, RunInputs, Simulation};
+use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation};
 use flexdrill_realtime::monotonic;
 
 /// Topics that a replay can give: those that do not speak of wall-clock time.
@@ -36,6 +38,7 @@ pub(super) struct Player {
     config: Config,
     frame: Frame,
     outputs: Outputs,
+    alarms: AlarmBook,
     recorder: Recorder,
     topics: Vec<&'static TopicInfo>,
     /// What is printed at the end.
@@ -63,6 +66,7 @@ impl Player {
             frame: run.new_frame(),
             run,
             outputs: Outputs::new(&config, start),
+            alarms: AlarmBook::fresh(Arc::new(config.clone()), start),
             config,
             recorder,
             topics,
@@ -99,6 +103,7 @@ impl Player {
     /// Takes over a changed configuration.
     pub(super) fn reconfigure(&mut self, config: Config) {
         self.outputs.reconfigure(&config);
+        self.alarms.reconfigure(&Arc::new(config.clone()));
         self.config = config;
     }
 
@@ -158,12 +163,26 @@ impl Player {
         let began = monotonic::now();
         self.outputs
             .frame(&self.frame, |encoded| write(recorder, topics, encoded))?;
+        if self.frame.due.has(Output::Alarms) {
+            let (header, stamp) = (
+                self.outputs.header_at(self.frame.ticks),
+                self.outputs.instant(self.frame.ticks),
+            );
+            self.alarms.advance(stamp);
+            self.alarms.observe_tool(&self.frame.snapshot, stamp);
+            let events = self
+                .alarms
+                .publish(header, stamp, |encoded| write(recorder, topics, encoded))?;
+            let run = (stamp - self.outputs.instant(0)) as f64 * 1e-9;
+            self.tally.alarms.take(run, events);
+        }
         self.tally.publishing(monotonic::now().saturating_sub(began));
         Ok(())
     }
 
     /// Ends the bag.
     pub(super) fn finish(mut self) -> anyhow::Result<(Recording, Tally)> {
+        self.tally.alarms.figures = self.alarms.figures();
         self.tally.phases(self.run.simulation().phase_times());
         let recording = self.recorder.finish().context("the bag could not be finished")?;
         Ok((recording, self.tally))

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::alarms::AlarmTally;
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
 use flexdrill_core::motion::{Incident, IncidentLocation, IncidentLog, Observation};
 use flexdrill_core::tool::Body;
@@ -35,6 +36,8 @@ impl Peak {
 pub(super) struct Tally {
     /// Times that the model went back to its start.
     pub resets: u64,
+    /// Alarms and their figures.
+    pub alarms: AlarmTally,
     steps: u64,
     iterations: u64,
     halvings: BTreeMap<u32, u64>,

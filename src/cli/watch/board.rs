@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use super::profile::HeldPeaks;
-use crate::messages::{BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
 use flexdrill_core::units::rad_per_s_to_rpm;
 
 /// A heart that has not beaten for this long is lost: ten beats at the default 5 Hz.
@@ -31,6 +31,7 @@ pub(super) struct Board {
     joints: Option<JointDeflections>,
     whirl: Option<WhirlState>,
     warning: Option<WhirlWarning>,
+    alarms: Option<AlarmList>,
     history: VecDeque<BitPoint>,
     pipe_guide: HeldPeaks,
     guide_wall: HeldPeaks,
@@ -57,6 +58,7 @@ impl Board {
             joints: None,
             whirl: None,
             warning: None,
+            alarms: None,
             history: VecDeque::new(),
             pipe_guide: HeldPeaks::default(),
             guide_wall: HeldPeaks::default(),
@@ -125,6 +127,17 @@ impl Board {
         }
     }
 
+    /// As with warnings; of lists with the same sequence the newest holds.
+    pub(super) fn update_alarms(&mut self, alarms: AlarmList) {
+        let newer = |last: &AlarmList| {
+            (alarms.sequence, alarms.header.stamp.to_nanoseconds())
+                >= (last.sequence, last.header.stamp.to_nanoseconds())
+        };
+        if self.alarms.as_ref().is_none_or(newer) {
+            self.alarms = Some(alarms);
+        }
+    }
+
     pub(super) fn add_unreadable(&mut self, count: u64) {
         self.unreadable += count;
     }
@@ -159,6 +172,10 @@ impl Board {
 
     pub(super) fn warning(&self) -> Option<&WhirlWarning> {
         self.warning.as_ref()
+    }
+
+    pub(super) fn alarms(&self) -> Option<&AlarmList> {
+        self.alarms.as_ref()
     }
 
     pub(super) fn history(&self) -> &VecDeque<BitPoint> {

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::board::Board;
 use crate::messages::topics;
-use crate::messages::{BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
 use crate::ros::NodeError;
 use crate::ros::network::Network;
 use crate::ros::subscriber::{Listener, TopicReader};
@@ -16,6 +16,7 @@ pub(super) struct Feed {
     joints: TopicReader<JointDeflections>,
     whirl: TopicReader<WhirlState>,
     warning: TopicReader<WhirlWarning>,
+    alarms: TopicReader<AlarmList>,
     status_topic: String,
     // Last: the readers go before the participant they belong to.
     _listener: Listener,
@@ -31,6 +32,7 @@ impl Feed {
             joints: listener.subscribe(&topics::JOINT_DEFLECTIONS)?,
             whirl: listener.subscribe(&topics::WHIRL)?,
             warning: listener.subscribe(&topics::WHIRL_WARNINGS)?,
+            alarms: listener.subscribe(&topics::ALARMS)?,
             status_topic: listener.topic_name(&topics::STATUS)?,
             _listener: listener,
         })
@@ -47,7 +49,8 @@ impl Feed {
             + self.contacts.drain(|message| board.update_contacts(message))
             + self.joints.drain(|message| board.update_joints(message))
             + self.whirl.drain(|message| board.update_whirl(message))
-            + self.warning.drain(|message| board.update_warning(message));
+            + self.warning.drain(|message| board.update_warning(message))
+            + self.alarms.drain(|message| board.update_alarms(message));
         board.add_unreadable(unreadable);
     }
 }

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::time::Instant;
 
 use super::board::Board;
-use super::texts;
+use super::{alarms, texts};
 use flexdrill_core::units::rad_per_s_to_rpm;
 
 pub(super) fn print(board: &Board, now: Instant) -> anyhow::Result<()> {
@@ -78,6 +78,13 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
         writeln!(text, "whirl      {}", texts::whirl_counts(whirl))?;
     }
     writeln!(text, "warning    {}", texts::warning(board.warning()))?;
+    if let Some(list) = board.alarms() {
+        writeln!(text, "alarms     {}", alarms::summary(list))?;
+        for alarm in alarms::shown(list) {
+            writeln!(text, "alarm      {}", alarms::headline(alarm))?;
+            writeln!(text, "           {}", alarms::sentences(alarm))?;
+        }
+    }
     if board.unreadable() > 0 {
         writeln!(
             text,

@@ -13,7 +13,7 @@ use ratatui::style::Color;
 
 use super::board::Board;
 use charts::{draw_bit, draw_forces, draw_whirl};
-use lines::{inputs, levels_line, pace, title_line, warning_lines};
+use lines::{alarm_lines, inputs, levels_line, pace, title_line, warning_lines};
 
 const GOOD: Color = Color::Green;
 const DOUBTFUL: Color = Color::Yellow;
@@ -35,17 +35,23 @@ pub(super) fn quit_pressed(patience: Duration) -> std::io::Result<bool> {
 
 /// Draws the board as it is at `now`.
 pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
+    // What is left over 24 lines goes to the alarms by a third, as far as they can use it.
+    let spare = frame.area().height.saturating_sub(24) / 3;
     let [title, warning, levels, top, middle, bottom] = Layout::vertical([
         Constraint::Length(1),
-        Constraint::Length(2),
+        Constraint::Length(4 + spare.min(10)),
         Constraint::Length(1),
         Constraint::Length(6),
         Constraint::Min(7),
-        Constraint::Length(7),
+        Constraint::Length(5),
     ])
     .areas(frame.area());
     frame.render_widget(title_line(board, now), title);
-    frame.render_widget(warning_lines(board.warning()), warning);
+    match board.alarms() {
+        Some(list) => frame.render_widget(alarm_lines(list), warning),
+        // A twin of an older version.
+        None => frame.render_widget(warning_lines(board.warning()), warning),
+    }
     frame.render_widget(levels_line(board), levels);
     let [left, right] = Layout::horizontal([Constraint::Percentage(50); 2]).areas(top);
     frame.render_widget(inputs(board), left);
@@ -59,7 +65,9 @@ pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::messages::{BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+    use crate::messages::{
+        Alarm, AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning,
+    };
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
 
@@ -149,6 +157,52 @@ mod tests {
         ] {
             assert!(text.contains(part), "'{part}' is not in\n{text}");
         }
+    }
+
+    #[test]
+    fn alarms_go_before_the_warning() {
+        let now = Instant::now();
+        let mut board = full_board(now);
+        let alarm = |name: &str, state, priority| Alarm {
+            name: name.into(),
+            state,
+            priority,
+            body: Alarm::PIPE,
+            measured_depth: 2.31,
+            inclination: 0.733,
+            evidence: "It rolls.".into(),
+            what_to_do: "Lower the speed below 40 r/min.".into(),
+            ..Alarm::default()
+        };
+        board.update_alarms(AlarmList {
+            sequence: 4,
+            alarms: vec![
+                alarm("backward whirl", Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::HIGH),
+                alarm("lateral shock", Alarm::SHELVED, Alarm::LOW),
+                alarm("stick-slip", Alarm::NORMAL, Alarm::NO_PRIORITY),
+            ],
+            unacknowledged: 1,
+            ..AlarmList::default()
+        });
+        // Older than what is there.
+        board.update_alarms(AlarmList {
+            sequence: 3,
+            ..AlarmList::default()
+        });
+        let text = picture(&board, now, 80, 24);
+        for part in [
+            "1 to acknowledge, 1 shelved",
+            "HIGH backward whirl, active, unacknowledged, pipe at 2.31 m (42 deg)",
+            "It rolls. Lower the speed below 40 r/min.",
+            "stick-slip OK 0.20",
+            "from 0 deg (left) to 90 deg",
+        ] {
+            assert!(text.contains(part), "'{part}' is not in\n{text}");
+        }
+        assert!(
+            !text.contains("stick-slip, normal") && !text.contains("LOW lateral shock"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -12,7 +12,7 @@ pub use bit::bit_state;
 pub use contacts::contact_forces;
 pub use joints::{joint_deflections, joint_state};
 pub use shape::{ShapeStyle, tool_shape};
-pub use whirl::{whirl_state, whirl_warning};
+pub use whirl::{whirl_state, whirl_warning, whirl_warning_is_suppressed};
 
 use super::std_msgs::Header;
 

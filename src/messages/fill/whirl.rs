@@ -3,7 +3,7 @@
 use super::copy;
 use crate::messages::std_msgs::Header;
 use crate::messages::{WhirlState, WhirlWarning};
-use flexdrill_core::motion::{Severity, WhirlKind, WhirlWarningLevel};
+use flexdrill_core::motion::{DriveState, Severity, WhirlKind, WhirlWarningLevel};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
@@ -42,12 +42,20 @@ pub fn whirl_state(snapshot: &Snapshot, header: &Header, out: &mut WhirlState) {
     copy(&mut out.friction_power, &whirl.friction_power);
 }
 
+/// Whether a level stands that means nothing, as the drive does not turn steadily: the whirl alarms are suppressed by
+/// design then, and the warning is OK.
+pub fn whirl_warning_is_suppressed(snapshot: &Snapshot) -> bool {
+    snapshot.warning.severity != Severity::Ok && snapshot.hazards.drive != DriveState::Turning
+}
+
 /// Fills `out`. `input_quality` is the worse of the inputs' states, in the message's INPUT_ constants.
 pub fn whirl_warning(snapshot: &Snapshot, header: &Header, input_quality: u8, out: &mut WhirlWarning) {
     super::stamp(&mut out.header, header);
     let (level, whirl) = (&snapshot.warning, &snapshot.whirl);
     let body = whirl.body.get(level.entry).copied().unwrap_or_default();
-    out.severity = level.severity as u8;
+    let suppressed = whirl_warning_is_suppressed(snapshot);
+    let severity = if suppressed { Severity::Ok } else { level.severity };
+    out.severity = severity as u8;
     out.kind = level.kind as u8;
     out.body = body_code(body);
     out.measured_depth = whirl.measured_depth.get(level.entry).copied().unwrap_or_default();
@@ -62,7 +70,11 @@ pub fn whirl_warning(snapshot: &Snapshot, header: &Header, input_quality: u8, ou
     out.peak_force = level.peak_force;
     out.rolling_share = level.rolling_share;
     out.confidence = level.confidence;
-    out.message = sentence(out, level, body);
+    out.message = if suppressed {
+        "No whirl that needs attention: the drive stands or runs up.".to_owned()
+    } else {
+        sentence(out, level, body)
+    };
     if let Some(doubt) = doubt(input_quality) {
         out.message.push(' ');
         out.message.push_str(doubt);

@@ -4,6 +4,7 @@
 //! - the publisher's thread: `publish`; the recorder's thread: [`RecordingThread`];
 //! - tokio tasks: inputs and clock (`rig`), services and parameters (`control`).
 
+pub mod alarms;
 pub mod control;
 pub mod publish;
 pub mod publishers;
@@ -19,6 +20,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use ros2_client::{Context, NodeName, NodeOptions};
 use tokio::task::JoinSet;
 
+use self::alarms::AlarmDesk;
 use self::control::Control;
 use self::publish::{Publisher, PublisherParts};
 use self::publishers::Publishers;
@@ -67,6 +69,8 @@ pub struct NodeSetup {
     pub rosout: bool,
     /// State to start from.
     pub checkpoint: Option<PathBuf>,
+    /// File that the alarms' state is kept in over a restart.
+    pub alarm_state: Option<PathBuf>,
     /// Model time after which it ends (s).
     pub duration: Option<f64>,
 }
@@ -168,6 +172,10 @@ async fn run_in(
     for task in control::serve(&mut node, &participant, setup.mapping, &control, service_name)? {
         tasks.spawn(task);
     }
+    let (asked_sender, asked) = channel();
+    for task in alarms::serve(&mut node, &participant, setup.mapping, &asked_sender, service_name)? {
+        tasks.spawn(task);
+    }
     let (received_sender, received) = sync_channel(RECEIVED);
     for (kind, topic) in [
         (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
@@ -201,6 +209,7 @@ async fn run_in(
         changes,
         config: Arc::clone(&config),
         gauges: Arc::clone(&gauges),
+        alarms: AlarmDesk::new(Arc::clone(&config), setup.alarm_state.as_deref(), asked, rig_time()),
         conditioner,
         now,
         rig_time,

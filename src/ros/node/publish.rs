@@ -6,9 +6,11 @@ use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use super::alarms::AlarmDesk;
 use super::control::Change;
 use super::publishers::Publishers;
 use super::rig::{Now, Received};
+use crate::alarms::{NodeState, RecordingState};
 use crate::bag::RecordingThread;
 use crate::health::diagnostics::{Diagnostics, Evidence};
 use crate::health::motion::MotionEvidence;
@@ -20,12 +22,14 @@ use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind};
-use flexdrill_core::twin::RunInputs;
+use flexdrill_core::twin::{Output, RunInputs};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
 
 /// How often the rings are polled: the delay that publishing adds.
 const POLL: Duration = Duration::from_millis(1);
+/// How often the node's own alarms are judged (Hz): ten times within their shortest default delay.
+const NODE_ALARM_RATE: f64 = 5.0;
 
 /// What the publisher's thread is made of.
 pub struct PublisherParts {
@@ -43,6 +47,8 @@ pub struct PublisherParts {
     pub config: Arc<Config>,
     /// Of the solver.
     pub gauges: Arc<Gauges>,
+    /// Alarms.
+    pub alarms: AlarmDesk,
     /// Inputs.
     pub conditioner: Arc<Mutex<Conditioner>>,
     /// Time as the conditioner counts it.
@@ -65,6 +71,7 @@ pub struct Publisher {
     pending: Vec<Change>,
     next_status: u64,
     next_diagnostics: u64,
+    next_alarms: u64,
     newest_status: TwinStatus,
     late: bool,
 }
@@ -86,6 +93,7 @@ impl Publisher {
             pending: Vec::new(),
             next_status: now,
             next_diagnostics: now,
+            next_alarms: now,
             newest_status: TwinStatus::default(),
             late: false,
         })
@@ -104,6 +112,7 @@ impl Publisher {
             }
         }
         self.send_status();
+        self.send_alarms(monotonic::now());
         (self.parts.recording, self.newest_status)
     }
 
@@ -134,6 +143,14 @@ impl Publisher {
         if due(&mut self.next_diagnostics, now, rates.diagnostics) {
             self.send_diagnostics();
         }
+        if due(&mut self.next_alarms, now, NODE_ALARM_RATE) {
+            self.judge_node(now);
+        }
+        let parts = &mut self.parts;
+        parts.alarms.answer(|| (parts.rig_time)());
+        if self.parts.alarms.is_due(now) {
+            self.send_alarms(now);
+        }
         worked
     }
 
@@ -163,6 +180,10 @@ impl Publisher {
                     .as_mut()
                     .map_or(Ok(()), |outputs| outputs.frame(&frame, |encoded| parts.send(encoded)));
                 self.status.add_publishing(monotonic::now().saturating_sub(began));
+                if let Some(outputs) = self.outputs.as_ref().filter(|_| frame.due.has(Output::Alarms)) {
+                    let stamp = outputs.instant(frame.ticks);
+                    self.parts.alarms.observe_tool(&frame.snapshot, stamp);
+                }
                 // There is room: no more frames are in circulation than the ring holds.
                 let _ = self.parts.end.empty.push(frame);
                 sent
@@ -206,6 +227,7 @@ impl Publisher {
             values.extend(change.values);
             self.parts.config = change.config;
         }
+        self.parts.alarms.reconfigure(&self.parts.config);
         let parts = &self.parts;
         let Some(outputs) = self.outputs.as_mut() else {
             return Ok(());
@@ -261,7 +283,44 @@ impl Publisher {
         self.late = skipping;
     }
 
+    /// The alarms of the node itself follow the wall clock, so that they go on when the model does not.
+    fn judge_node(&mut self, wall: u64) {
+        let parts = &mut self.parts;
+        let conditioner = parts.conditioner.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let state = NodeState {
+            conditioner: &conditioner,
+            now: (parts.now)(),
+            run_state: parts.gauges.run_state(),
+            failure: self.evidence.failure,
+            real_time_factor: self.status.real_time_factor(wall, &parts.gauges),
+            recording: parts.recording.as_ref().map(|recording| RecordingState {
+                error: recording.health().error(),
+                drops: recording.health().drops(),
+            }),
+        };
+        let time = (parts.rig_time)();
+        parts.alarms.observe_node(&state, time);
+    }
+
+    fn send_alarms(&mut self, wall: u64) {
+        let header = self.header();
+        let PublisherParts {
+            alarms,
+            publishers,
+            recording,
+            ..
+        } = &mut self.parts;
+        let sent = alarms.publish(header, wall, |encoded| {
+            send(publishers, recording.as_ref(), encoded);
+            Ok(())
+        });
+        if let Err(error) = sent {
+            tracing::error!("an alarm could not be encoded: {error}");
+        }
+    }
+
     fn send_diagnostics(&mut self) {
+        self.evidence.alarms = self.parts.alarms.list(self.header());
         let message = DiagnosticArray {
             header: self.header(),
             status: self
@@ -289,10 +348,7 @@ impl Publisher {
 
 impl PublisherParts {
     fn send(&self, encoded: Encoded<'_>) -> Result<(), CdrError> {
-        self.publishers.publish(encoded.topic, encoded.cdr);
-        if let Some(recording) = &self.recording {
-            recording.record(encoded.topic, encoded.stamp, encoded.cdr);
-        }
+        send(&self.publishers, self.recording.as_ref(), encoded);
         Ok(())
     }
 
@@ -306,6 +362,14 @@ impl PublisherParts {
             })),
             Err(error) => tracing::error!("{error}"),
         }
+    }
+}
+
+/// The same bytes to DDS and to the recording.
+fn send(publishers: &Publishers, recording: Option<&RecordingThread>, encoded: Encoded<'_>) {
+    publishers.publish(encoded.topic, encoded.cdr);
+    if let Some(recording) = recording {
+        recording.record(encoded.topic, encoded.stamp, encoded.cdr);
     }
 }
 

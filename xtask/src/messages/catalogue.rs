@@ -1,4 +1,5 @@
-//! All definitions of the repository: our own in `msg/`, the foreign ones that we use in `src/messages/external/`.
+//! All definitions of the repository: our own messages and services in `msg/`, the foreign ones that we use in
+//! `src/messages/external/`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -6,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::definition::{Definition, Source, TypeName};
 use super::{GenerateError, parser};
 
-/// Folder of our own messages, from the repository's root.
+/// Folder of our own messages and services, from the repository's root.
 const OWN: &str = "msg";
 /// Folder of the foreign messages, from the repository's root.
 const EXTERNAL: &str = "src/messages/external";
@@ -26,12 +27,12 @@ impl Catalogue {
     /// When a folder or file cannot be read, a definition cannot be parsed, or names a message that is not there.
     pub fn read(root: &Path) -> Result<Self, GenerateError> {
         let mut catalogue = Self::default();
-        catalogue.read_folder(root, PACKAGE, "msg", OWN)?;
+        catalogue.read_folder(root, PACKAGE, OWN)?;
         for package in entries(&root.join(EXTERNAL))? {
             let name = file_name(&package);
             for kind in entries(&package)? {
                 let folder = format!("{EXTERNAL}/{name}/{}", file_name(&kind));
-                catalogue.read_folder(root, &name, if kind.ends_with("srv") { "srv" } else { "msg" }, &folder)?;
+                catalogue.read_folder(root, &name, &folder)?;
             }
         }
         for definition in catalogue.definitions.values() {
@@ -40,13 +41,7 @@ impl Catalogue {
         Ok(catalogue)
     }
 
-    fn read_folder(
-        &mut self,
-        root: &Path,
-        package: &str,
-        kind: &'static str,
-        folder: &str,
-    ) -> Result<(), GenerateError> {
+    fn read_folder(&mut self, root: &Path, package: &str, folder: &str) -> Result<(), GenerateError> {
         for path in entries(&root.join(folder))? {
             let text = std::fs::read_to_string(&path).map_err(|source| GenerateError::Read {
                 path: path.clone(),
@@ -55,9 +50,9 @@ impl Catalogue {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
             let file = format!("{folder}/{}", file_name(&path));
-            let added = match extension.as_str() {
-                "msg" => self.add_message(package, &stem, &text, Source::File(file)),
-                "srv" => self.add_service(package, &stem, &text),
+            let (kind, added) = match extension.as_str() {
+                "msg" => ("msg", self.add_message(package, &stem, &text, Source::File(file))),
+                "srv" => ("srv", self.add_service(package, &stem, &text)),
                 _ => continue,
             };
             added.map_err(|source| GenerateError::Parse { path, kind, source })?;

@@ -20,17 +20,20 @@ pub enum Output {
     Whirl,
     /// Output `twin/tool_shape`.
     ToolShape,
+    /// Not a message of its own: the alarms of the tool are judged, whatever else is published.
+    Alarms,
 }
 
 impl Output {
     /// All of them, in order.
-    pub const ALL: [Output; 6] = [
+    pub const ALL: [Output; 7] = [
         Output::JointDeflections,
         Output::JointStates,
         Output::ContactForces,
         Output::BitState,
         Output::Whirl,
         Output::ToolShape,
+        Output::Alarms,
     ];
 }
 
@@ -130,7 +133,7 @@ mod tests {
             Output::JointDeflections | Output::JointStates | Output::BitState => 50.0,
             Output::ContactForces => 25.0,
             Output::Whirl => 10.0,
-            Output::ToolShape => 0.0,
+            Output::ToolShape | Output::Alarms => 0.0,
         })
     }
 

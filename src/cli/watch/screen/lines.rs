@@ -8,8 +8,8 @@ use ratatui::widgets::{Block, Paragraph, Wrap};
 
 use super::{BAD, DOUBTFUL, GOOD};
 use crate::cli::watch::board::Board;
-use crate::cli::watch::texts;
-use crate::messages::{TwinStatus, WhirlWarning};
+use crate::cli::watch::{alarms, texts};
+use crate::messages::{Alarm, AlarmList, TwinStatus, WhirlWarning};
 use flexdrill_realtime::KEEPS_UP;
 
 pub(super) fn title_line(board: &Board, now: Instant) -> Line<'static> {
@@ -45,6 +45,26 @@ pub(super) fn warning_lines(warning: Option<&WhirlWarning>) -> Paragraph<'static
             warning.map_or(WhirlWarning::OK, |warning| warning.severity),
         ))
         .wrap(Wrap { trim: true })
+}
+
+/// The summary, then the alarms that call for somebody, the worst first.
+pub(super) fn alarm_lines(list: &AlarmList) -> Paragraph<'static> {
+    let mut lines = vec![Line::raw(format!("alarms: {}", alarms::summary(list)))];
+    for alarm in alarms::shown(list) {
+        lines.push(Line::styled(alarms::headline(alarm), alarm_style(alarm)));
+        lines.push(Line::raw(alarms::sentences(alarm)));
+    }
+    Paragraph::new(lines).wrap(Wrap { trim: true })
+}
+
+fn alarm_style(alarm: &Alarm) -> Style {
+    let calls = alarm.state == Alarm::ACTIVE_UNACKNOWLEDGED;
+    match (alarm.priority, calls) {
+        (Alarm::HIGH, true) => Style::new().fg(Color::White).bg(BAD).add_modifier(Modifier::BOLD),
+        (Alarm::HIGH, false) => Style::new().fg(BAD),
+        (Alarm::MEDIUM, true) => Style::new().fg(Color::Black).bg(DOUBTFUL),
+        _ => Style::new().fg(DOUBTFUL),
+    }
 }
 
 pub(super) fn severity_style(severity: u8) -> Style {

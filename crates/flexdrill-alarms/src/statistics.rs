@@ -1,0 +1,181 @@
+//! How many alarms there are: the figures by which ISA-18.2 (clause 16) and EEMUA 191 judge an alarm system.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Priority, Time, span};
+
+/// Span in which alarms make a flood (s).
+const FLOOD_SPAN: f64 = 600.0;
+/// More than so many in that span are a flood.
+const FLOOD: usize = 10;
+/// Span in which an alarm that repeats itself chatters (s).
+const CHATTER_SPAN: f64 = 60.0;
+
+/// Annunciations: each time that an alarm calls for somebody.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// Per alarm.
+    counts: Vec<u64>,
+    /// Per priority, rising.
+    of_priority: [u64; 3],
+    /// Those of the last ten minutes.
+    recent: VecDeque<Time>,
+    /// Per alarm those of the last minute.
+    repeats: Vec<VecDeque<Time>>,
+    /// Per alarm the most in any minute.
+    most_repeats: Vec<usize>,
+    /// The most in any ten minutes.
+    most_recent: usize,
+    /// Time watched so far, and of it in flood.
+    watched: Time,
+    flooded: Time,
+    last: Option<Time>,
+}
+
+/// The figures so far.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Figures {
+    /// Time watched (s).
+    pub watched: f64,
+    /// Annunciations in all.
+    pub annunciations: u64,
+    /// Of them low, medium, high.
+    pub of_priority: [u64; 3],
+    /// Annunciations per hour watched; 0 before any time has passed.
+    pub per_hour: f64,
+    /// In the last ten minutes.
+    pub last_ten_minutes: usize,
+    /// The most in any ten minutes.
+    pub most_in_ten_minutes: usize,
+    /// More than ten in the last ten minutes.
+    pub flood: bool,
+    /// Part of the time watched that was in flood, 0 to 1.
+    pub flood_share: f64,
+    /// The most annunciations of one alarm within any minute.
+    pub most_repeats: usize,
+}
+
+impl Statistics {
+    /// Of so many alarms.
+    pub(crate) fn new(alarms: usize) -> Self {
+        Self {
+            counts: vec![0; alarms],
+            repeats: vec![VecDeque::new(); alarms],
+            most_repeats: vec![0; alarms],
+            ..Self::default()
+        }
+    }
+
+    /// Lets time pass. A clock that goes back begins a new stretch.
+    pub(crate) fn advance(&mut self, time: Time) {
+        if let Some(last) = self.last {
+            let passed = (time - last).max(0);
+            self.watched += passed;
+            if self.recent.len() > FLOOD {
+                self.flooded += passed;
+            }
+        }
+        self.last = Some(time);
+        forget(&mut self.recent, time, FLOOD_SPAN);
+        for repeats in &mut self.repeats {
+            forget(repeats, time, CHATTER_SPAN);
+        }
+    }
+
+    /// Where time stands: the last [`Statistics::advance`].
+    pub(crate) fn last(&self) -> Option<Time> {
+        self.last
+    }
+
+    /// Counts an annunciation, at the time that was passed last: an event may carry that of another clock.
+    pub(crate) fn count(&mut self, alarm: usize, priority: Option<Priority>) {
+        let time = self.last.unwrap_or_default();
+        self.recent.push_back(time);
+        self.most_recent = self.most_recent.max(self.recent.len());
+        if let Some(priority) = priority {
+            self.of_priority[priority as usize] += 1;
+        }
+        if let Some(count) = self.counts.get_mut(alarm) {
+            *count += 1;
+            self.repeats[alarm].push_back(time);
+            self.most_repeats[alarm] = self.most_repeats[alarm].max(self.repeats[alarm].len());
+        }
+    }
+
+    /// Annunciations of an alarm.
+    pub fn annunciations(&self, alarm: usize) -> u64 {
+        self.counts.get(alarm).copied().unwrap_or_default()
+    }
+
+    /// Annunciations of an alarm in the last minute; three are a chattering alarm.
+    pub fn last_minute(&self, alarm: usize) -> usize {
+        self.repeats.get(alarm).map_or(0, VecDeque::len)
+    }
+
+    /// The most annunciations of an alarm within any minute.
+    pub fn most_repeats(&self, alarm: usize) -> usize {
+        self.most_repeats.get(alarm).copied().unwrap_or_default()
+    }
+
+    /// The figures so far.
+    pub fn figures(&self) -> Figures {
+        let annunciations = self.counts.iter().sum();
+        let share = |part: f64, whole: Time| if whole > 0 { part / whole as f64 } else { 0.0 };
+        Figures {
+            watched: self.watched as f64 * 1e-9,
+            annunciations,
+            of_priority: self.of_priority,
+            per_hour: share(annunciations as f64 * span(3600.0) as f64, self.watched),
+            last_ten_minutes: self.recent.len(),
+            most_in_ten_minutes: self.most_recent,
+            flood: self.recent.len() > FLOOD,
+            flood_share: share(self.flooded as f64, self.watched),
+            most_repeats: self.most_repeats.iter().copied().max().unwrap_or_default(),
+        }
+    }
+}
+
+/// Drops what is older than a span, or later than the present of a clock that went back.
+fn forget(times: &mut VecDeque<Time>, now: Time, length: f64) {
+    times.retain(|time| now - time < span(length) && *time <= now);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flood_is_more_than_ten_in_ten_minutes() {
+        let mut statistics = Statistics::new(2);
+        statistics.advance(0);
+        for minute in 0..12 {
+            statistics.advance(span(f64::from(minute) * 30.0));
+            statistics.count(0, Some(Priority::Low));
+        }
+        // The eleventh comes at 300 s, the first is forgotten at 600 s, the second at 630 s: 330 s with eleven or more.
+        for second in 331..1200 {
+            statistics.advance(span(f64::from(second)));
+        }
+        let figures = statistics.figures();
+        assert_eq!(
+            (figures.annunciations, figures.most_in_ten_minutes, figures.flood),
+            (12, 12, false)
+        );
+        assert!((figures.flood_share - 330.0 / 1199.0).abs() < 1e-9, "{figures:?}");
+        assert!((figures.per_hour - 12.0 * 3600.0 / 1199.0).abs() < 1e-9, "{figures:?}");
+    }
+
+    #[test]
+    fn repeats_are_counted_within_a_minute() {
+        let mut statistics = Statistics::new(2);
+        for second in [0.0, 30.0, 59.0, 65.0, 200.0] {
+            statistics.advance(span(second));
+            statistics.count(1, Some(Priority::High));
+        }
+        assert_eq!((statistics.most_repeats(0), statistics.most_repeats(1)), (0, 3));
+        assert_eq!((statistics.last_minute(1), statistics.annunciations(1)), (1, 5));
+        assert_eq!(statistics.figures().of_priority, [0, 0, 5]);
+    }
+}

@@ -1,0 +1,155 @@
+//! `alarms`: which of them there are, their delays, and what an operator is told to do.
+
+use serde::{Deserialize, Serialize};
+
+use super::checker::{Bound, Checker};
+use super::section::section;
+
+section! {
+    /// Alarms. `docs/alarms.md` says what each of them means.
+    pub struct Alarms(this) {
+        /// Longest time for which an operator can shelve an alarm (s).
+        longest_shelving: f64 = 3600.0, within(1.0, 86_400.0), "s", "a shift's end must not be forgotten; a day";
+        /// The pipe goes round against the rotation.
+        backward_whirl: ToolAlarm = ToolAlarm::default(), below;
+        /// The pipe goes round with the rotation.
+        forward_whirl: ToolAlarm = ToolAlarm::default(), below;
+        /// Collisions.
+        shock: ToolAlarm = ToolAlarm::default(), below;
+        /// The bit stops and springs forward.
+        stick_slip: ToolAlarm = ToolAlarm::default(), below;
+        /// Joints beyond their rating.
+        joint_load: ToolAlarm = ToolAlarm::default(), below;
+        /// `rig/rotary_speed_rpm` not received, refused or stale.
+        rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
+        /// `rig/weight_on_bit_kn` not received, refused or stale.
+        weight_on_bit_input: NodeAlarm = NodeAlarm::default(), below;
+        /// The model is slower than time.
+        real_time: NodeAlarm = NodeAlarm::default(), below;
+        /// A step failed.
+        solver: NodeAlarm = NodeAlarm::default(), below;
+        /// The recording stopped or loses messages.
+        recording: NodeAlarm = NodeAlarm::default(), below;
+        /// Limits that the operator is told to keep.
+        advice: AdviceTable = AdviceTable::default();
+    }
+}
+
+section! {
+    /// An alarm of the tool's motion, in model time.
+    #[derive(Copy)]
+    pub struct ToolAlarm(this) {
+        /// False takes the alarm out of service. Default true.
+        in_service: bool = true;
+        /// Time that a level must stand before it calls (s).
+        on_delay: f64 = 0.0, within(0.0, 600.0), "s", "levels have their own duration; longer would call too late";
+        /// Time that it must be gone before the alarm has returned (s).
+        off_delay: f64 = 2.0, within(0.0, 600.0), "s", "levels have their own hold-off; longer says nothing of now";
+    }
+}
+
+section! {
+    /// An alarm of the node, in time on the rig's clock.
+    #[derive(Copy)]
+    pub struct NodeAlarm(this) {
+        /// False takes the alarm out of service. Default true.
+        in_service: bool = true;
+        /// Time that the condition must stand before it calls (s).
+        on_delay: f64 = 2.0, within(0.0, 600.0), "s", "a moment's lateness is nothing to act on";
+        /// Time that it must be gone before the alarm has returned (s).
+        off_delay: f64 = 5.0, within(0.0, 600.0), "s", "longer says nothing of now";
+    }
+}
+
+/// Per alarm of the tool. What is given for an alarm replaces its default as a whole.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AdviceTable {
+    /// Default: below 40 r/min or below 8 kN.
+    pub backward_whirl: Advice,
+    /// Default: below 8 kN.
+    pub forward_whirl: Advice,
+    /// Default: below 30 r/min or below 8 kN.
+    pub shock: Advice,
+    /// Default: above 55 r/min or below 8 kN.
+    pub stick_slip: Advice,
+    /// Default: below 8 kN.
+    pub joint_load: Advice,
+}
+
+impl Default for AdviceTable {
+    fn default() -> Self {
+        Self {
+            backward_whirl: Advice::lower(Some(40.0), Some(8.0)),
+            forward_whirl: Advice::lower(None, Some(8.0)),
+            shock: Advice::lower(Some(30.0), Some(8.0)),
+            stick_slip: Advice {
+                raise_rotary_speed_rpm: Some(55.0),
+                ..Advice::lower(None, Some(8.0))
+            },
+            joint_load: Advice::lower(None, Some(8.0)),
+        }
+    }
+}
+
+/// What to bring an input to. Only what changes the present inputs in the right direction, within
+/// the inputs' own limits, is told.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Advice {
+    /// Bring the weight on bit below this.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lower_weight_on_bit_kn: Option<f64>,
+    /// Bring the weight on bit above this.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub raise_weight_on_bit_kn: Option<f64>,
+    /// Bring the rotary speed below this.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lower_rotary_speed_rpm: Option<f64>,
+    /// Bring the rotary speed above this.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub raise_rotary_speed_rpm: Option<f64>,
+}
+
+impl Advice {
+    const fn lower(rotary_speed_rpm: Option<f64>, weight_on_bit_kn: Option<f64>) -> Self {
+        Self {
+            lower_weight_on_bit_kn: weight_on_bit_kn,
+            raise_weight_on_bit_kn: None,
+            lower_rotary_speed_rpm: rotary_speed_rpm,
+            raise_rotary_speed_rpm: None,
+        }
+    }
+
+    fn check(&self, c: &mut Checker) {
+        for (key, value, unit) in [
+            ("lower_weight_on_bit_kn", self.lower_weight_on_bit_kn, "kN"),
+            ("raise_weight_on_bit_kn", self.raise_weight_on_bit_kn, "kN"),
+            ("lower_rotary_speed_rpm", self.lower_rotary_speed_rpm, "r/min"),
+            ("raise_rotary_speed_rpm", self.raise_rotary_speed_rpm, "r/min"),
+        ] {
+            if let Some(value) = value {
+                let reason = "far above any drive and any rig";
+                c.number(key, value, Bound::within(0.0, 1000.0), unit, reason);
+            }
+        }
+    }
+}
+
+impl Alarms {
+    pub(super) fn check(&self, c: &mut Checker) {
+        self.check_numbers(c);
+        let advice = &self.advice;
+        c.below("advice", |c| {
+            for (key, advice) in [
+                ("backward_whirl", advice.backward_whirl),
+                ("forward_whirl", advice.forward_whirl),
+                ("shock", advice.shock),
+                ("stick_slip", advice.stick_slip),
+                ("joint_load", advice.joint_load),
+            ] {
+                c.below(key, |c| advice.check(c));
+            }
+        });
+    }
+}

@@ -1,0 +1,74 @@
+//! What to do, from the rules of the configuration: limits that the inputs are to be brought to.
+
+use flexdrill_config::{Advice, InputsConfig};
+use flexdrill_core::twin::Applied;
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+
+/// What is said where no rule would change anything.
+const NO_RULE: &str = "Pick up off bottom and bring the tool to rest; nothing in the rules would change it now.";
+
+/// The sentence for inputs as they act now. Only what changes them in the right direction, within the limits that the
+/// inputs have anyway, is said.
+pub(super) fn what_to_do(advice: &Advice, applied: &Applied, inputs: &InputsConfig) -> String {
+    let (speed, weight) = (rad_per_s_to_rpm(applied.rotary_speed), n_to_kn(applied.weight_on_bit));
+    let mut ways = Vec::new();
+    if let Some(limit) = advice.lower_weight_on_bit_kn.filter(|limit| weight > *limit) {
+        ways.push(format!("lower the weight on bit below {limit} kN ({weight:.1} kN now)"));
+    }
+    let reachable = |limit: &f64| weight < *limit && *limit < inputs.weight_on_bit.max_kn;
+    if let Some(limit) = advice.raise_weight_on_bit_kn.filter(reachable) {
+        ways.push(format!("raise the weight on bit above {limit} kN ({weight:.1} kN now)"));
+    }
+    if let Some(limit) = advice.lower_rotary_speed_rpm.filter(|limit| speed > *limit) {
+        ways.push(format!("lower the speed below {limit} r/min ({speed:.0} r/min now)"));
+    }
+    let reachable = |limit: &f64| speed < *limit && *limit < inputs.rotary_speed.max_rpm;
+    if let Some(limit) = advice.raise_rotary_speed_rpm.filter(reachable) {
+        ways.push(format!("raise the speed above {limit} r/min ({speed:.0} r/min now)"));
+    }
+    if ways.is_empty() {
+        return NO_RULE.to_owned();
+    }
+    let sentence = format!("{}.", ways.join(" or "));
+    let (first, rest) = sentence.split_at(1);
+    first.to_uppercase() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+
+    fn told(advice: &Advice, rpm: f64, kn: f64) -> String {
+        let applied = Applied {
+            rotary_speed: rpm_to_rad_per_s(rpm),
+            weight_on_bit: kn_to_n(kn),
+            ..Applied::default()
+        };
+        what_to_do(advice, &applied, &InputsConfig::default())
+    }
+
+    #[test]
+    fn only_what_moves_in_the_right_direction_is_said() {
+        let advice = Advice {
+            lower_weight_on_bit_kn: Some(8.0),
+            raise_rotary_speed_rpm: Some(55.0),
+            ..Advice::default()
+        };
+        assert_eq!(
+            told(&advice, 40.0, 10.0),
+            "Lower the weight on bit below 8 kN (10.0 kN now) or raise the speed above 55 r/min (40 r/min now)."
+        );
+        assert_eq!(
+            told(&advice, 40.0, 5.0),
+            "Raise the speed above 55 r/min (40 r/min now)."
+        );
+        assert_eq!(told(&advice, 60.0, 5.0), NO_RULE);
+        // The drive does not go there.
+        let fast = Advice {
+            raise_rotary_speed_rpm: Some(500.0),
+            ..Advice::default()
+        };
+        assert_eq!(told(&fast, 40.0, 10.0), NO_RULE);
+    }
+}

@@ -1,0 +1,185 @@
+//! Messages from alarms, their findings and events.
+
+use std::cmp::Reverse;
+
+use super::catalogue::AlarmId;
+use super::finding::Finding;
+use crate::messages::builtin_interfaces::Time;
+use crate::messages::std_msgs::Header;
+use crate::messages::{Alarm, AlarmEvent, AlarmList};
+use flexdrill_alarms::{AlarmSystem, Change, Event, Priority, State, Unshelving};
+use flexdrill_core::tool::Body;
+
+/// All alarms, the worst first.
+pub(super) fn list(system: &AlarmSystem, findings: &[Finding], header: Header) -> AlarmList {
+    let mut order: Vec<usize> = (0..AlarmId::ALL.len()).collect();
+    order.sort_by_key(|index| {
+        let standing = system.alarm(*index).standing;
+        (rank(standing.state()), Reverse(standing.priority()), *index)
+    });
+    let figures = system.statistics().figures();
+    let alarms: Vec<Alarm> = order
+        .into_iter()
+        .filter_map(|index| Some(alarm(system, AlarmId::ALL[index], findings.get(index)?)))
+        .collect();
+    AlarmList {
+        header,
+        sequence: system.sequence(),
+        unacknowledged: alarms.iter().filter(|alarm| !alarm.acknowledged).count() as u32,
+        alarms,
+        annunciations_last_ten_minutes: figures.last_ten_minutes as u32,
+        flood: figures.flood,
+        annunciations_per_hour: figures.per_hour,
+        flood_share: figures.flood_share,
+    }
+}
+
+/// What calls for somebody is first.
+fn rank(state: State) -> u8 {
+    match state {
+        State::ActiveUnacknowledged => 0,
+        State::ActiveAcknowledged => 1,
+        State::ReturnedUnacknowledged => 2,
+        State::Shelved => 3,
+        State::SuppressedByDesign => 4,
+        State::Normal => 5,
+        State::OutOfService => 6,
+    }
+}
+
+fn alarm(system: &AlarmSystem, id: AlarmId, finding: &Finding) -> Alarm {
+    let index = id as usize;
+    let alarm = system.alarm(index);
+    let standing = alarm.standing;
+    let (body, measured_depth, inclination) = place(finding);
+    Alarm {
+        id: id.id().to_owned(),
+        name: id.name().to_owned(),
+        state: standing.state() as u8,
+        priority: priority(standing.priority()),
+        active: standing.active().is_some(),
+        acknowledged: standing.unacknowledged().is_none(),
+        since: Time::from_nanoseconds(alarm.since),
+        shelved_until: Time::from_nanoseconds(standing.shelf().map_or(0, |shelf| shelf.until)),
+        shelved_one_shot: standing.shelf().is_some_and(|shelf| shelf.one_shot),
+        body,
+        measured_depth,
+        inclination,
+        value: finding.value,
+        threshold: finding.threshold,
+        unit: finding.unit.to_owned(),
+        confidence: finding.confidence,
+        evidence: finding.evidence.clone(),
+        cause: finding.cause.clone(),
+        consequence: finding.consequence.clone(),
+        what_to_do: finding.what_to_do.clone(),
+        annunciations: system.statistics().annunciations(index),
+        annunciations_last_minute: system.statistics().last_minute(index) as u32,
+    }
+}
+
+/// One event, with what is known of its alarm's condition now.
+pub(super) fn event(event: &Event, finding: &Finding, frame_id: &str) -> AlarmEvent {
+    let (body, measured_depth, inclination) = place(finding);
+    let (id, name) = AlarmId::ALL
+        .get(event.alarm)
+        .map_or(("", ""), |alarm| (alarm.id(), alarm.name()));
+    let reason = match event.change {
+        Change::Unshelved(why) if event.operator.is_empty() => unshelved(why),
+        _ => &event.reason,
+    };
+    let shelved_until = match event.change {
+        Change::Shelved(shelf) => shelf.until,
+        _ => 0,
+    };
+    AlarmEvent {
+        header: Header {
+            stamp: Time::from_nanoseconds(event.time),
+            frame_id: frame_id.to_owned(),
+        },
+        sequence: event.sequence,
+        id: id.to_owned(),
+        name: name.to_owned(),
+        change: change(&event.change),
+        from_state: event.from as u8,
+        to_state: event.to as u8,
+        priority: priority(event.priority),
+        annunciates: event.annunciates(),
+        operator_name: event.operator.clone(),
+        reason: reason.to_owned(),
+        shelved_until: Time::from_nanoseconds(shelved_until),
+        evidence: event.evidence.clone(),
+        what_to_do: finding.what_to_do.clone(),
+        body,
+        measured_depth,
+        inclination,
+        value: finding.value,
+    }
+}
+
+fn place(finding: &Finding) -> (u8, f64, f64) {
+    match &finding.place {
+        None => (Alarm::NOWHERE, f64::NAN, f64::NAN),
+        Some(place) => {
+            let body = match place.body {
+                Body::Pipe => Alarm::PIPE,
+                Body::Guide => Alarm::GUIDE,
+            };
+            (body, place.measured_depth, place.inclination)
+        }
+    }
+}
+
+fn priority(priority: Option<Priority>) -> u8 {
+    match priority {
+        None => Alarm::NO_PRIORITY,
+        Some(Priority::Low) => Alarm::LOW,
+        Some(Priority::Medium) => Alarm::MEDIUM,
+        Some(Priority::High) => Alarm::HIGH,
+    }
+}
+
+fn change(change: &Change) -> u8 {
+    match change {
+        Change::Activated(_) => AlarmEvent::ACTIVATED,
+        Change::Raised(_) => AlarmEvent::RAISED,
+        Change::Lowered(_) => AlarmEvent::LOWERED,
+        Change::Returned => AlarmEvent::RETURNED,
+        Change::Acknowledged => AlarmEvent::ACKNOWLEDGED,
+        Change::Shelved(_) => AlarmEvent::SHELVED,
+        Change::Unshelved(_) => AlarmEvent::UNSHELVED,
+        Change::Suppressed => AlarmEvent::SUPPRESSED,
+        Change::Released => AlarmEvent::RELEASED,
+        Change::TakenOut => AlarmEvent::TAKEN_OUT,
+        Change::PutBack => AlarmEvent::PUT_BACK,
+    }
+}
+
+fn unshelved(why: Unshelving) -> &'static str {
+    match why {
+        Unshelving::Asked => "",
+        Unshelving::Expired => "its time is over",
+        Unshelving::Returned => "its condition has gone",
+        Unshelving::Raised => "its priority rose to high",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_have_the_codes_of_the_message() {
+        for (state, code) in State::ALL.into_iter().zip([
+            Alarm::NORMAL,
+            Alarm::ACTIVE_UNACKNOWLEDGED,
+            Alarm::ACTIVE_ACKNOWLEDGED,
+            Alarm::RETURNED_UNACKNOWLEDGED,
+            Alarm::SHELVED,
+            Alarm::SUPPRESSED_BY_DESIGN,
+            Alarm::OUT_OF_SERVICE,
+        ]) {
+            assert_eq!(state as u8, code, "{}", state.name());
+        }
+    }
+}

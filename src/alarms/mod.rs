@@ -1,0 +1,221 @@
+//! Alarms: what the motion and the node's own state mean for an operator, from condition to message. The life of an
+//! alarm is the crate [`flexdrill_alarms`]; here are the conditions and the words.
+//!
+//! # Layout
+//! - [`AlarmBook`] joins them: conditions and requests in, [`AlarmList`] and [`AlarmEvent`]s out.
+//! - `catalogue`: which alarms there are. `finding`: a condition with its words.
+//! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
+//!   inputs, pace, solver and recording. `advice`: what to do, from the rules of the configuration.
+//! - `fill`: messages. `state_file`: what is kept over a restart.
+//!
+//! `docs/alarms.md` is for those who use them.
+
+mod advice;
+mod catalogue;
+mod fill;
+mod finding;
+mod node;
+mod request;
+pub mod state_file;
+mod tool;
+
+pub use catalogue::AlarmId;
+pub use finding::Finding;
+pub use node::{NodeState, RecordingState};
+pub use request::Request;
+
+use std::sync::Arc;
+
+use crate::messages::outputs::Encoded;
+use crate::messages::std_msgs::Header;
+use crate::messages::topics;
+use crate::messages::{AlarmEvent, AlarmList, CdrError, to_cdr_into};
+use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Saved, SavedError, Statistics, Time};
+use flexdrill_config::Config;
+use flexdrill_core::twin::Snapshot;
+
+/// Longest time between two lists (ns).
+const LIST_INTERVAL: Time = 1_000_000_000;
+
+/// All alarms with what is known of their conditions.
+pub struct AlarmBook {
+    system: AlarmSystem,
+    config: Arc<Config>,
+    /// Per alarm, while it stands or is to be acknowledged: what was seen last.
+    findings: Vec<Finding>,
+    memory: node::Memory,
+    /// Not yet published.
+    journal: Vec<AlarmEvent>,
+    /// When the list was published last, and the newest event in it.
+    listed: Option<(Time, u64)>,
+    bytes: Vec<u8>,
+}
+
+impl AlarmBook {
+    /// Alarms as a run before has left them in `saved`, where there is one.
+    ///
+    /// # Errors
+    /// When another version saved it.
+    pub fn new(config: Arc<Config>, saved: Option<&Saved>, time: Time) -> Result<Self, SavedError> {
+        let mut system = system(&config);
+        if let Some(saved) = saved {
+            system.restore(saved)?;
+        }
+        Ok(Self::with(system, config, time))
+    }
+
+    /// All alarms normal, defined by a configuration.
+    pub fn fresh(config: Arc<Config>, time: Time) -> Self {
+        Self::with(system(&config), config, time)
+    }
+
+    fn with(system: AlarmSystem, config: Arc<Config>, time: Time) -> Self {
+        let mut book = Self {
+            findings: vec![Finding::default(); AlarmId::ALL.len()],
+            memory: node::Memory::default(),
+            journal: Vec::new(),
+            listed: None,
+            bytes: Vec::new(),
+            system,
+            config,
+        };
+        let mut events = Vec::new();
+        book.system.follow_definitions(time, &mut events);
+        book.keep(events);
+        book
+    }
+
+    /// Takes over limits and rules that may change while running.
+    pub fn reconfigure(&mut self, config: &Arc<Config>) {
+        self.config = Arc::clone(config);
+    }
+
+    /// Lets time pass on the clock of requests. To be called before what happens then is taken.
+    pub fn advance(&mut self, time: Time) {
+        let mut events = Vec::new();
+        self.system.advance(time, &mut events);
+        self.keep(events);
+    }
+
+    /// Takes the hazards of a snapshot, at its stamp.
+    pub fn observe_tool(&mut self, snapshot: &Snapshot, stamp: Time) {
+        let config = Arc::clone(&self.config);
+        for (id, finding) in tool::findings(snapshot, &config) {
+            self.observe(id, stamp, finding);
+        }
+    }
+
+    /// Takes the node's own state.
+    pub fn observe_node(&mut self, state: &NodeState<'_>, time: Time) {
+        for (id, finding) in node::findings(state, &mut self.memory) {
+            self.observe(id, time, finding);
+        }
+    }
+
+    fn observe(&mut self, id: AlarmId, time: Time, finding: Finding) {
+        let observed = Observation {
+            priority: finding.priority,
+            suppressed: finding.suppressed,
+            evidence: &finding.evidence,
+        };
+        let mut events = Vec::new();
+        self.system.observe(id as usize, time, &observed, &mut events);
+        let standing = self.system.alarm(id as usize).standing;
+        // What has gone is shown as it was last, for as long as somebody is to know of it.
+        if finding.priority.is_some() || standing.priority().is_none() {
+            self.findings[id as usize] = finding;
+        }
+        self.keep(events);
+    }
+
+    /// Carries out what somebody asks for, at the present time of the clock of requests. What was done.
+    ///
+    /// # Errors
+    /// When it is refused.
+    pub fn request(&mut self, request: &Request, time: Time) -> Result<String, flexdrill_alarms::Refusal> {
+        self.advance(time);
+        let mut events = Vec::new();
+        let answer = request.carry_out(&mut self.system, time, &mut events);
+        self.keep(events);
+        answer
+    }
+
+    fn keep(&mut self, events: Vec<Event>) {
+        let frame_id = &self.config.outputs.frame_id;
+        let calm = Finding::default();
+        let messages = events.iter().map(|event| {
+            let finding = self.findings.get(event.alarm).unwrap_or(&calm);
+            fill::event(event, finding, frame_id)
+        });
+        self.journal.extend(messages);
+    }
+
+    /// Whether there is something to publish at an instant of any steady clock (ns): events, or the list, which goes
+    /// out with every event and every second.
+    pub fn is_due(&self, clock: Time) -> bool {
+        !self.journal.is_empty() || self.list_is_due(clock)
+    }
+
+    fn list_is_due(&self, clock: Time) -> bool {
+        self.listed.is_none_or(|(at, sequence)| {
+            sequence != self.system.sequence() || !(0..LIST_INTERVAL).contains(&(clock - at))
+        })
+    }
+
+    /// Sends the events that have not been sent, and the list when it is due. The events.
+    ///
+    /// # Errors
+    /// When a message cannot be encoded, or what `send` says.
+    pub fn publish<E: From<CdrError>>(
+        &mut self,
+        header: Header,
+        clock: Time,
+        mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<Vec<AlarmEvent>, E> {
+        let events = std::mem::take(&mut self.journal);
+        for event in &events {
+            to_cdr_into(event, &mut self.bytes)?;
+            send(Encoded {
+                topic: &topics::ALARM_EVENTS,
+                stamp: event.header.stamp.to_nanoseconds(),
+                cdr: &self.bytes,
+            })?;
+        }
+        if self.list_is_due(clock) {
+            self.listed = Some((clock, self.system.sequence()));
+            let stamp = header.stamp.to_nanoseconds();
+            to_cdr_into(&self.list(header), &mut self.bytes)?;
+            send(Encoded {
+                topic: &topics::ALARMS,
+                stamp,
+                cdr: &self.bytes,
+            })?;
+        }
+        Ok(events)
+    }
+
+    /// All alarms as they stand, the worst first.
+    pub fn list(&self, header: Header) -> AlarmList {
+        fill::list(&self.system, &self.findings, header)
+    }
+
+    /// What is to be kept over a restart.
+    pub fn save(&self) -> Saved {
+        self.system.save()
+    }
+
+    /// How many alarms there have been.
+    pub fn figures(&self) -> Figures {
+        self.system.statistics().figures()
+    }
+
+    /// How many of each alarm there have been.
+    pub fn statistics(&self) -> &Statistics {
+        self.system.statistics()
+    }
+}
+
+fn system(config: &Config) -> AlarmSystem {
+    let definitions = AlarmId::ALL.map(|id| id.define(&config.alarms)).to_vec();
+    AlarmSystem::new(definitions, config.alarms.longest_shelving)
+}

@@ -1,0 +1,187 @@
+//! Alarms of the node itself: inputs, pace, solver, recording.
+
+use super::catalogue::AlarmId;
+use super::finding::Finding;
+use flexdrill_alarms::{Priority, Setpoints};
+use flexdrill_core::dynamics::StepFailure;
+use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
+use flexdrill_realtime::link::RunState;
+use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
+
+/// Deadband of the real-time factor: less than that between the two setpoints.
+const FACTOR_DEADBAND: f64 = 0.01;
+
+/// What the node knows of itself at an instant.
+#[derive(Debug)]
+pub struct NodeState<'a> {
+    /// Inputs.
+    pub conditioner: &'a Conditioner,
+    /// Present time as the conditioner counts it (s).
+    pub now: f64,
+    /// What the solver does.
+    pub run_state: RunState,
+    /// Why and where the last step failed, while the model stands still for it.
+    pub failure: Option<StepFailure>,
+    /// Model time gained per second; none before a second has passed.
+    pub real_time_factor: Option<f64>,
+    /// The recording, if there is one.
+    pub recording: Option<RecordingState>,
+}
+
+/// How the recording is.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct RecordingState {
+    /// Why writing failed; nothing more is recorded then.
+    pub error: Option<String>,
+    /// Messages lost so far.
+    pub drops: u64,
+}
+
+/// What judging needs from one time to the next.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Memory {
+    pace: Option<Priority>,
+    drops: u64,
+}
+
+/// What the node's state says of every alarm of the node.
+pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 5] {
+    let [speed, weight] = InputKind::ALL.map(|kind| (AlarmId::of_input(kind), input(kind, state)));
+    [
+        speed,
+        weight,
+        (AlarmId::RealTime, real_time(state, memory)),
+        (AlarmId::Solver, solver(state.failure)),
+        (AlarmId::Recording, recording(state.recording.as_ref(), memory)),
+    ]
+}
+
+fn input(kind: InputKind, state: &NodeState<'_>) -> Finding {
+    let (conditioner, topic) = (state.conditioner, kind.topic());
+    let rule = conditioner.rule(kind);
+    let age = conditioner.age(kind, state.now);
+    let acts = format!(
+        "{:.1} {} asked for instead",
+        conditioner.target(kind, state.now),
+        kind.unit()
+    );
+    let (priority, evidence, cause) = match conditioner.state(kind, state.now) {
+        InputState::Ok | InputState::Slow => return Finding::default(),
+        InputState::NotReceived => (
+            Priority::Low,
+            format!("Nothing received on {topic}, {acts}."),
+            "No rig is there, or it is in another domain or namespace.",
+        ),
+        InputState::Rejected => (
+            Priority::Low,
+            match conditioner.last_rejection(kind) {
+                Some(rejection) => format!("{rejection}."),
+                None => format!("The newest sample on {topic} was refused, {acts}."),
+            },
+            "The sensor or what sends it is out of order, or the limits are too narrow.",
+        ),
+        InputState::Stale => {
+            let age = age.unwrap_or(f64::INFINITY);
+            // Then the model no longer holds what was, and what it says of the tool is not the tool's.
+            let safe = age >= rule.max_age + rule.hold_before_safe;
+            (
+                if safe { Priority::High } else { Priority::Medium },
+                format!("No good sample on {topic} for {age:.0} s, {acts}."),
+                "The rig's software or the network has stopped.",
+            )
+        }
+    };
+    Finding {
+        priority: Some(priority),
+        value: age.unwrap_or(f64::NAN),
+        threshold: rule.max_age,
+        unit: "s",
+        evidence,
+        cause: cause.to_owned(),
+        consequence: "The model no longer follows the rig: its hazards may be missed.".to_owned(),
+        what_to_do: format!("Look after what sends {topic}; go by the rig's own instruments until it is back."),
+        ..Finding::default()
+    }
+}
+
+fn real_time(state: &NodeState<'_>, memory: &mut Memory) -> Finding {
+    // Less is worse.
+    let setpoints = Setpoints {
+        at: [Some(-KEEPS_UP), Some(-FAR_BEHIND), None],
+        deadband: FACTOR_DEADBAND,
+    };
+    let suppressed = state.run_state != RunState::Running;
+    let factor = state.real_time_factor.unwrap_or(f64::NAN);
+    memory.pace = if suppressed {
+        None
+    } else {
+        setpoints.judge(-factor, memory.pace)
+    };
+    let Some(priority) = memory.pace else {
+        return Finding {
+            suppressed,
+            ..Finding::default()
+        };
+    };
+    Finding {
+        priority: Some(priority),
+        value: factor,
+        threshold: if priority == Priority::Low {
+            KEEPS_UP
+        } else {
+            FAR_BEHIND
+        },
+        unit: "s/s",
+        evidence: format!("The model gains {factor:.2} s per second and skips the rest."),
+        cause: "The machine is too slow for this mesh, or other programs take its time.".to_owned(),
+        consequence: "The model is right for a tool that drills slower in time: what comes is seen late.".to_owned(),
+        what_to_do: "Take a coarser mesh (config/coarse.yaml) or a faster machine, or end other programs.".to_owned(),
+        ..Finding::default()
+    }
+}
+
+fn solver(failure: Option<StepFailure>) -> Finding {
+    let Some(failure) = failure else {
+        return Finding::default();
+    };
+    Finding {
+        priority: Some(Priority::High),
+        evidence: format!("A step failed at model time {:.4} s: {failure}.", failure.time),
+        cause: "The motion is too hard for the step at its smallest size.".to_owned(),
+        consequence: "The outputs stand still: no hazard is seen.".to_owned(),
+        what_to_do: "Change the inputs or call ~/reset; a smaller solver.time_step or softer contact helps.".to_owned(),
+        ..Finding::default()
+    }
+}
+
+fn recording(recording: Option<&RecordingState>, memory: &mut Memory) -> Finding {
+    let Some(recording) = recording else {
+        return Finding::default();
+    };
+    let lost = recording.drops.saturating_sub(memory.drops);
+    memory.drops = recording.drops;
+    let (priority, evidence, cause) = match &recording.error {
+        Some(error) => (
+            Priority::Medium,
+            format!("The recording stopped: {error}."),
+            "The disk is full or has gone, or the file was removed.",
+        ),
+        None if lost > 0 => (
+            Priority::Low,
+            format!(
+                "{lost} messages did not get into the recording, {} so far.",
+                recording.drops
+            ),
+            "The disk is too slow.",
+        ),
+        None => return Finding::default(),
+    };
+    Finding {
+        priority: Some(priority),
+        evidence,
+        cause: cause.to_owned(),
+        consequence: "The run cannot be replayed to the bit, and the journal of alarms has gaps.".to_owned(),
+        what_to_do: "Free the disk or record to another, and start the node again with --record.".to_owned(),
+        ..Finding::default()
+    }
+}

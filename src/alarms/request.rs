@@ -1,0 +1,68 @@
+//! What an operator asks for by service.
+
+use crate::messages::{AcknowledgeAlarmRequest, ShelveAlarmRequest, UnshelveAlarmRequest};
+use flexdrill_alarms::{AlarmSystem, Event, Operator, Refusal, Shelving, Time};
+
+/// Stands for every alarm in an acknowledgement.
+const ALL: &str = "all";
+
+/// A request of an operator.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Request {
+    /// Somebody knows.
+    Acknowledge(AcknowledgeAlarmRequest),
+    /// To be put aside.
+    Shelve(ShelveAlarmRequest),
+    /// To be taken back.
+    Unshelve(UnshelveAlarmRequest),
+}
+
+impl Request {
+    /// Carries it out; what was done.
+    pub(super) fn carry_out(
+        &self,
+        system: &mut AlarmSystem,
+        time: Time,
+        events: &mut Vec<Event>,
+    ) -> Result<String, Refusal> {
+        let by = self.operator();
+        match self {
+            Request::Acknowledge(request) if ["", ALL].contains(&request.id.as_str()) => {
+                let count = system.acknowledge_all(time, &by, events)?;
+                Ok(format!("{count} alarms acknowledged"))
+            }
+            Request::Acknowledge(request) => {
+                system.acknowledge(system.find(&request.id)?, time, &by, events)?;
+                Ok(format!("{} acknowledged", request.id))
+            }
+            Request::Shelve(request) => {
+                let how = if request.one_shot {
+                    Shelving::OneShot
+                } else {
+                    Shelving::Timed(request.duration)
+                };
+                let until = system.shelve(system.find(&request.id)?, time, how, &by, events)?;
+                let seconds = (until - time) as f64 * 1e-9;
+                let when = if request.one_shot {
+                    format!("until its condition has gone, at most for {seconds:.0} s")
+                } else {
+                    format!("for {seconds:.0} s")
+                };
+                Ok(format!("{} shelved {when}", request.id))
+            }
+            Request::Unshelve(request) => {
+                system.unshelve(system.find(&request.id)?, time, &by, events)?;
+                Ok(format!("{} is back from the shelf", request.id))
+            }
+        }
+    }
+
+    fn operator(&self) -> Operator<'_> {
+        let (name, reason) = match self {
+            Request::Acknowledge(request) => (&request.operator_name, &request.reason),
+            Request::Shelve(request) => (&request.operator_name, &request.reason),
+            Request::Unshelve(request) => (&request.operator_name, &request.reason),
+        };
+        Operator { name, reason }
+    }
+}

@@ -1,0 +1,73 @@
+//! Alarms in lines, the same for the screen and the plain output.
+
+use std::fmt::Write as _;
+
+use crate::messages::{Alarm, AlarmList, words};
+use flexdrill_core::units::rad_to_deg;
+
+/// Those that call for somebody, the worst first as in the list.
+pub(super) fn shown(list: &AlarmList) -> impl Iterator<Item = &Alarm> {
+    list.alarms.iter().filter(|alarm| {
+        [
+            Alarm::ACTIVE_UNACKNOWLEDGED,
+            Alarm::ACTIVE_ACKNOWLEDGED,
+            Alarm::RETURNED_UNACKNOWLEDGED,
+        ]
+        .contains(&alarm.state)
+    })
+}
+
+/// How many of which state there are.
+pub(super) fn summary(list: &AlarmList) -> String {
+    let count = |state: u8| list.alarms.iter().filter(|alarm| alarm.state == state).count();
+    let counts = [
+        (list.unacknowledged as usize, "to acknowledge"),
+        (count(Alarm::ACTIVE_ACKNOWLEDGED), "acknowledged"),
+        (count(Alarm::SHELVED), "shelved"),
+        (count(Alarm::SUPPRESSED_BY_DESIGN), "suppressed by design"),
+        (count(Alarm::OUT_OF_SERVICE), "out of service"),
+    ];
+    let said: Vec<String> = counts
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("{count} {what}"))
+        .collect();
+    let mut text = if said.is_empty() {
+        "none".to_owned()
+    } else {
+        said.join(", ")
+    };
+    if list.flood {
+        let _ = write!(text, "; FLOOD: {} in 10 min", list.annunciations_last_ten_minutes);
+    }
+    text
+}
+
+/// Priority, name, state and place.
+pub(super) fn headline(alarm: &Alarm) -> String {
+    let place = match alarm.body {
+        Alarm::NOWHERE => String::new(),
+        body => format!(
+            ", {} at {:.2} m ({:.0} deg)",
+            if body == Alarm::GUIDE { "guide" } else { "pipe" },
+            alarm.measured_depth,
+            rad_to_deg(alarm.inclination)
+        ),
+    };
+    let chatters = if alarm.annunciations_last_minute >= 3 {
+        format!(", {} times in the last minute", alarm.annunciations_last_minute)
+    } else {
+        String::new()
+    };
+    format!(
+        "{} {}, {}{place}{chatters}",
+        words::alarm_priority(alarm.priority).to_uppercase(),
+        alarm.name,
+        words::alarm_state(alarm.state)
+    )
+}
+
+/// What is seen and what to do.
+pub(super) fn sentences(alarm: &Alarm) -> String {
+    format!("{} {}", alarm.evidence, alarm.what_to_do).trim().to_owned()
+}

@@ -1,0 +1,399 @@
+//! From hazards and the node's state to alarms, their words, and what is kept over a restart; the alarms of a replay.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
+
+use flexdrill::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use flexdrill::messages::std_msgs::Header;
+use flexdrill::messages::{
+    AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, from_cdr, topics,
+};
+use flexdrill_config::Config;
+use flexdrill_core::inputs::{Conditioner, InputKind};
+use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
+use flexdrill_core::tool::Body;
+use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_realtime::link::RunState;
+
+const SECOND: i64 = 1_000_000_000;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn config() -> Arc<Config> {
+    Arc::new(Config::load(root().join("config/default.yaml")).unwrap())
+}
+
+/// A tool that turns at 40 r/min under 10 kN with these hazards.
+fn snapshot(hazards: &[Hazard]) -> Snapshot {
+    let mut snapshot = Snapshot::default();
+    snapshot.applied.rotary_speed = rpm_to_rad_per_s(40.0);
+    snapshot.applied.weight_on_bit = kn_to_n(10.0);
+    snapshot.hazards.drive = DriveState::Turning;
+    for hazard in hazards {
+        snapshot.hazards.list[hazard.kind as usize] = *hazard;
+    }
+    snapshot
+}
+
+fn rolling() -> Hazard {
+    Hazard {
+        severity: Severity::Critical,
+        place: Some(IncidentLocation {
+            station: 75,
+            body: Body::Pipe,
+            measured_depth: 2.31,
+            inclination: 0.733,
+        }),
+        value: 4.4,
+        threshold: 3.0,
+        whirl_ratio: -3.4,
+        rolling_share: 0.92,
+        confidence: 0.9,
+        ..Hazard::calm(HazardKind::BackwardWhirl)
+    }
+}
+
+fn stick_slip() -> Hazard {
+    Hazard {
+        severity: Severity::Watch,
+        value: 0.6,
+        threshold: 0.5,
+        ..Hazard::calm(HazardKind::StickSlip)
+    }
+}
+
+/// Shows a snapshot for so many seconds, every 0.1 s, from an instant (s) on.
+fn show(book: &mut AlarmBook, from: i64, seconds: i64, snapshot: &Snapshot) {
+    for tenth in 0..seconds * 10 {
+        let stamp = from * SECOND + tenth * SECOND / 10;
+        book.advance(stamp);
+        book.observe_tool(snapshot, stamp);
+    }
+}
+
+/// What is published: events as given back, and the list, if any, as sent.
+fn publish(book: &mut AlarmBook, second: i64) -> (Vec<AlarmEvent>, Option<AlarmList>) {
+    let mut list = None;
+    let sent = book.publish::<CdrError>(Header::default(), second * SECOND, |encoded| {
+        if encoded.topic.name == topics::ALARMS.name {
+            list = Some(from_cdr(encoded.cdr)?);
+        }
+        Ok(())
+    });
+    (sent.unwrap(), list)
+}
+
+fn find<'a>(list: &'a AlarmList, id: &str) -> &'a Alarm {
+    list.alarms.iter().find(|alarm| alarm.id == id).unwrap()
+}
+
+fn acknowledge(id: &str) -> Request {
+    Request::Acknowledge(AcknowledgeAlarmRequest {
+        id: id.to_owned(),
+        operator_name: "ann".to_owned(),
+        reason: "seen".to_owned(),
+    })
+}
+
+fn shelve(id: &str, duration: f64) -> Request {
+    Request::Shelve(ShelveAlarmRequest {
+        id: id.to_owned(),
+        one_shot: false,
+        duration,
+        operator_name: "ann".to_owned(),
+        reason: "reaming".to_owned(),
+    })
+}
+
+#[test]
+fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
+    let mut book = AlarmBook::fresh(config(), 0);
+    show(&mut book, 10, 1, &snapshot(&[stick_slip(), rolling()]));
+    let (events, list) = publish(&mut book, 11);
+    let list = list.unwrap();
+    assert_eq!(list.alarms.len(), 10, "all of them are listed");
+    assert_eq!((list.sequence, list.unacknowledged, events.len()), (2, 2, 2));
+    let worst = &list.alarms[0];
+    assert_eq!((worst.id.as_str(), worst.priority), ("backward_whirl", Alarm::HIGH));
+    assert_eq!((worst.state, worst.body), (Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::PIPE));
+    assert_eq!((worst.value, worst.threshold, worst.measured_depth), (4.4, 3.0, 2.31));
+    assert_eq!(
+        worst.evidence,
+        "The flexible pipe rolls round the guide against the rotation at 3.4 times its speed at 2.31 m (inclination 42 deg)."
+    );
+    assert_eq!(worst.cause, "Friction between pipe and guide drives it.");
+    assert_eq!(
+        worst.consequence,
+        "Each link is bent 4.4 times per turn of the tool: fatigue of the joints."
+    );
+    // At 40 r/min already the rule has nothing to say of the speed.
+    assert_eq!(
+        worst.what_to_do,
+        "Lower the weight on bit below 8 kN (10.0 kN now). If it does not end, pick up off bottom and stop the drive."
+    );
+    let next = &list.alarms[1];
+    assert_eq!((next.id.as_str(), next.priority), ("stick_slip", Alarm::LOW));
+    assert_eq!(
+        next.what_to_do,
+        "Lower the weight on bit below 8 kN (10.0 kN now) or raise the speed above 55 r/min (40 r/min now)."
+    );
+    assert!(next.measured_depth.is_nan() && next.body == Alarm::NOWHERE);
+    assert!(
+        events
+            .iter()
+            .all(|event| event.annunciates && event.change == AlarmEvent::ACTIVATED)
+    );
+    // Nothing changes, so the list is due again after a second only.
+    assert_eq!(publish(&mut book, 11), (Vec::new(), None));
+    assert!(!book.is_due(11 * SECOND + SECOND / 2) && book.is_due(12 * SECOND));
+}
+
+#[test]
+fn what_has_gone_is_shown_until_it_is_acknowledged() {
+    let mut book = AlarmBook::fresh(config(), 0);
+    show(&mut book, 10, 1, &snapshot(&[rolling()]));
+    show(&mut book, 11, 3, &snapshot(&[]));
+    let list = publish(&mut book, 14).1.unwrap();
+    let returned = &list.alarms[0];
+    assert_eq!(
+        (returned.id.as_str(), returned.state, returned.priority, returned.active),
+        ("backward_whirl", Alarm::RETURNED_UNACKNOWLEDGED, Alarm::HIGH, false)
+    );
+    assert!(returned.evidence.contains("rolls"), "{}", returned.evidence);
+    assert_eq!(
+        book.request(&acknowledge(""), 15 * SECOND).unwrap(),
+        "1 alarms acknowledged"
+    );
+    show(&mut book, 15, 1, &snapshot(&[]));
+    let (events, list) = publish(&mut book, 16);
+    let list = list.unwrap();
+    let normal = find(&list, "backward_whirl");
+    assert_eq!((normal.state, normal.evidence.as_str()), (Alarm::NORMAL, ""));
+    let last = events.last().unwrap();
+    assert_eq!(
+        (last.change, last.operator_name.as_str(), last.reason.as_str()),
+        (AlarmEvent::ACKNOWLEDGED, "ann", "seen")
+    );
+}
+
+#[test]
+fn a_drive_that_runs_up_suppresses_the_tool_by_design() {
+    let mut book = AlarmBook::fresh(config(), 0);
+    let mut running_up = snapshot(&[rolling()]);
+    running_up.hazards.drive = DriveState::RunningUp;
+    show(&mut book, 10, 5, &running_up);
+    let list = publish(&mut book, 15).1.unwrap();
+    let suppressed = list
+        .alarms
+        .iter()
+        .filter(|alarm| alarm.state == Alarm::SUPPRESSED_BY_DESIGN);
+    assert_eq!((suppressed.count(), list.unacknowledged), (5, 0));
+    show(&mut book, 15, 1, &snapshot(&[rolling()]));
+    let (events, list) = publish(&mut book, 16);
+    assert_eq!(
+        find(&list.unwrap(), "backward_whirl").state,
+        Alarm::ACTIVE_UNACKNOWLEDGED
+    );
+    assert!(events.iter().any(|event| event.change == AlarmEvent::RELEASED));
+}
+
+#[test]
+fn acknowledged_and_shelved_outlast_a_restart() {
+    let mut book = AlarmBook::fresh(config(), 0);
+    let motion = snapshot(&[rolling(), stick_slip()]);
+    show(&mut book, 10, 1, &motion);
+    book.request(&acknowledge("backward_whirl"), 11 * SECOND).unwrap();
+    assert_eq!(
+        book.request(&shelve("stick_slip", 60.0), 11 * SECOND).unwrap(),
+        "stick_slip shelved for 60 s"
+    );
+    let refused = book
+        .request(&shelve("stick_slip", 1e9), 11 * SECOND)
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("at most 3600 s"), "{refused}");
+    let refused = book
+        .request(&acknowledge("wobble"), 11 * SECOND)
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("backward_whirl, forward_whirl"), "{refused}");
+    let before = publish(&mut book, 12).1.unwrap();
+
+    let text = serde_json::to_string(&book.save()).unwrap();
+    let mut again = AlarmBook::new(config(), Some(&serde_json::from_str(&text).unwrap()), 20 * SECOND).unwrap();
+    show(&mut again, 20, 1, &motion);
+    let (events, after) = publish(&mut again, 21);
+    let after = after.unwrap();
+    assert_eq!(events, [], "nothing has changed");
+    assert_eq!(after.sequence, before.sequence);
+    for id in ["backward_whirl", "stick_slip"] {
+        let (was, is) = (find(&before, id), find(&after, id));
+        assert_eq!(
+            (was.state, &was.since, &was.shelved_until),
+            (is.state, &is.since, &is.shelved_until)
+        );
+    }
+    show(&mut again, 70, 2, &motion);
+    let (events, list) = publish(&mut again, 72);
+    assert_eq!(find(&list.unwrap(), "stick_slip").state, Alarm::ACTIVE_UNACKNOWLEDGED);
+    assert_eq!(
+        (events[0].change, events[0].reason.as_str()),
+        (AlarmEvent::UNSHELVED, "its time is over")
+    );
+}
+
+#[test]
+fn out_of_service_is_the_configurations_word() {
+    let config = Arc::new(config().with_value("alarms.stick_slip.in_service", false).unwrap());
+    let mut book = AlarmBook::fresh(config, 0);
+    show(&mut book, 10, 3, &snapshot(&[stick_slip()]));
+    let (events, list) = publish(&mut book, 13);
+    let list = list.unwrap();
+    let last = list.alarms.last().unwrap();
+    assert_eq!((last.id.as_str(), last.state), ("stick_slip", Alarm::OUT_OF_SERVICE));
+    assert_eq!(
+        events.iter().map(|event| event.change).collect::<Vec<_>>(),
+        [AlarmEvent::TAKEN_OUT]
+    );
+    let refused = book
+        .request(&shelve("stick_slip", 60.0), 13 * SECOND)
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("out of service"), "{refused}");
+}
+
+#[test]
+fn inputs_pace_and_recording_call_too() {
+    let config = config();
+    let mut conditioner = Conditioner::new(config.inputs.rules());
+    for kind in InputKind::ALL {
+        conditioner.offer(kind, 10.0, 0.0).unwrap();
+    }
+    let mut book = AlarmBook::fresh(config, 0);
+    // 15 s without a sample: past max_age and hold_before_safe, so that the safe values act.
+    for tenth in 0..200 {
+        let state = NodeState {
+            conditioner: &conditioner,
+            now: tenth as f64 * 0.1,
+            run_state: RunState::Running,
+            failure: None,
+            real_time_factor: Some(0.85),
+            recording: Some(RecordingState {
+                error: Some("no space left".to_owned()),
+                drops: 3,
+            }),
+        };
+        book.observe_node(&state, tenth * SECOND / 10);
+    }
+    let (events, list) = publish(&mut book, 20);
+    let list = list.unwrap();
+    let priority = |id: &str| find(&list, id).priority;
+    assert_eq!(
+        (priority("rotary_speed_input"), priority("weight_on_bit_input")),
+        (Alarm::HIGH, Alarm::HIGH)
+    );
+    assert_eq!(
+        (priority("real_time"), priority("recording")),
+        (Alarm::MEDIUM, Alarm::MEDIUM)
+    );
+    assert_eq!(priority("solver"), Alarm::NO_PRIORITY);
+    let recording = &find(&list, "recording").evidence;
+    assert!(recording.contains("no space left"), "{recording}");
+    // Stale for some seconds first, on safe values then.
+    let speed: Vec<_> = events
+        .iter()
+        .filter(|event| event.id == "rotary_speed_input")
+        .map(|event| (event.change, event.priority))
+        .collect();
+    assert_eq!(
+        speed,
+        [
+            (AlarmEvent::ACTIVATED, Alarm::MEDIUM),
+            (AlarmEvent::RAISED, Alarm::HIGH)
+        ]
+    );
+}
+
+/// A replay of the small tool with levels so low that there are alarms; what it says.
+fn replay(folder: &Path, name: &str) -> String {
+    let text = std::fs::read_to_string(root().join("tests/data/small.yaml")).unwrap();
+    let config = folder.join("small.yaml");
+    std::fs::write(
+        &config,
+        text + "\nshock:\n  levels: {watch: 0.01, warning: 0.02, critical: 0.03}\n",
+    )
+    .unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .arg("replay")
+        .arg(root().join("config/field_logs/demo.csv"))
+        .arg("--mapping")
+        .arg(root().join("config/field_logs/rig_1hz.yaml"))
+        .args(["--from", "45", "--duration", "20", "--config"])
+        .arg(&config)
+        .arg("--out")
+        .arg(folder.join(name))
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.success(),
+        "{said}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    said
+}
+
+/// Bytes of the alarms' messages in their order.
+fn alarms_in(bag: &Path) -> Vec<(String, Vec<u8>)> {
+    flexdrill::bag::open(bag)
+        .unwrap()
+        .map(Result::unwrap)
+        .filter(|message| message.topic.is("twin/alarms") || message.topic.is("twin/alarm_events"))
+        .map(|message| (message.topic.name.clone(), message.data))
+        .collect()
+}
+
+#[test]
+fn a_replay_has_its_alarms_and_a_second_one_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = replay(folder.path(), "one");
+    replay(folder.path(), "two");
+    let (one, two) = (
+        alarms_in(&folder.path().join("one")),
+        alarms_in(&folder.path().join("two")),
+    );
+    assert!(one == two, "two replays differ");
+    let events: Vec<AlarmEvent> = one
+        .iter()
+        .filter(|(topic, _)| topic == "/twin/alarm_events")
+        .map(|(_, bytes)| from_cdr(bytes).unwrap())
+        .collect();
+    for (index, event) in events.iter().enumerate() {
+        assert_eq!(event.sequence, index as u64 + 1);
+    }
+    assert!(
+        events.iter().any(|event| event.id == "shock" && event.annunciates),
+        "no shock at such levels: {events:?}"
+    );
+    let lists: Vec<AlarmList> = one
+        .iter()
+        .filter(|(topic, _)| topic == "/twin/alarms")
+        .map(|(_, bytes)| from_cdr(bytes).unwrap())
+        .collect();
+    // Every second of 20 s, and with every change.
+    assert!(lists.len() >= 20, "{} lists", lists.len());
+    assert_eq!(lists.last().unwrap().sequence, events.len() as u64);
+    for part in ["alarms: ", "lateral shock", "per hour", "in flood", "within 60 s"] {
+        assert!(said.contains(part), "'{part}' is not in\n{said}");
+    }
+}
