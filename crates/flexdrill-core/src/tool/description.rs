@@ -262,7 +262,7 @@ pub struct Support {
 pub enum WobPath {
     /// Upward on the guide's last node.
     Guide,
-    /// The pipes' ends are tied axially, so that both carry it.
+    /// The pipes' ends are tied axially. A jointed pipe gives way across the hole and carries hardly any of it.
     Shared,
 }
 
