@@ -115,7 +115,7 @@ pub struct Tube {
 pub enum JointKind {
     /// Cross (Hooke) joint: second row of Eq. 13, with a bend limit.
     Universal,
-    /// Constant velocity: the spins are equal, with a bend limit.
+    /// Constant velocity: the ends turn alike whatever the bend, with a bend limit.
     BallCage,
     /// Both rows of Eq. 13 as equalities: a hinge with one free axis, for comparison only.
     Revolute,
