@@ -11,9 +11,9 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::contacts::{inner_forces, outer_force};
 use crate::dynamics::outcome::EnergyAudit;
-use crate::dynamics::state::State;
 #[cfg(test)]
 use crate::dynamics::state::joint_rotations;
+use crate::dynamics::state::{State, motion};
 use crate::elements::element_form::{add, load};
 use crate::model::Model;
 use crate::simd::Kernel;
@@ -107,12 +107,14 @@ impl EnergyPoint {
             conditions,
         });
         for point in &model.masses {
-            for k in 0..3 {
+            let (alpha, moving) = (conditions.rayleigh.alpha, motion(state, point.unknown));
+            self.kinetic += point.body.kinetic_energy(moving);
+            let inertia = point.body.coupled_forces(moving, 0.0, [0.0; 3]);
+            let damped = point.body.coupled_forces(moving, alpha, [0.0; 3]);
+            for (k, mass) in point.body.diagonal().into_iter().enumerate() {
                 let u = point.unknown + k;
-                let v = state.v[u];
-                self.kinetic += 0.5 * point.mass * v * v;
-                self.inertia[u] += point.mass * state.a[u];
-                self.damping[u] += conditions.rayleigh.alpha * point.mass * v;
+                self.inertia[u] += mass * state.a[u] + inertia[k];
+                self.damping[u] += alpha * mass * state.v[u] + (damped[k] - inertia[k]);
             }
         }
         stored += self.kinetic;
@@ -144,7 +146,7 @@ impl EnergyPoint {
         }
         self.stored = stored;
         self.drive_torque = model.driven.map_or(0.0, |driven| assembler.residual[driven]);
-        self.bit_torque = assembler.bit_torque;
+        self.bit_torque = assembler.bit.torque;
         self.weight_on_bit = conditions.weight_on_bit;
     }
 }
@@ -260,8 +262,10 @@ impl EnergyAudit {
         self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
         self.gravity += mean_work(moved, &model.weight, &model.weight);
         for point in &model.masses {
-            let down = (0..3).map(|k| point.gravity[k] * moved[point.unknown + k]);
-            self.gravity += point.mass * down.sum::<f64>();
+            let (before, after) = (motion(s0, point.unknown).q, motion(s1, point.unknown).q);
+            let (r0, r1) = (point.body.offset(before), point.body.offset(after));
+            let down = (0..3).map(|k| point.gravity[k] * (moved[point.unknown + k] + (r1[k] - r0[k])));
+            self.gravity += point.body.mass * down.sum::<f64>();
         }
         self.rayleigh_damping += mean_work(moved, &e0.damping, &e1.damping);
         // The scheme's own loss: what inertia took less what became kinetic energy.

@@ -256,7 +256,7 @@ impl Observer {
         }
         let bottom = &model.stations[model.last()];
         out.bit = Bit {
-            torque: forces.bit_torque,
+            torque: forces.bit.torque,
             rotary_speed: state.v[bottom.pipe_above + Direction::Psi as usize],
             weight_on_bit: applied.weight_on_bit,
             stick_slip_index: self.stick_slip.index(),
