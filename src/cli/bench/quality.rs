@@ -62,11 +62,17 @@ pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
             Record::run(config, &motion, 0.0)
         };
         let fine = run(&refined(&tool)?)?;
-        table.cells(&row(case.name, refined(&tool)?.solver.time_step, &fine, None));
+        let first = row(case.name, refined(&tool)?.solver.time_step, &fine, None);
+        eprintln!("{}", first.join(" | "));
+        table.row(first);
         for (name, config) in variants(case.name, &tool, index == 0)? {
             let step = config.solver.time_step;
             match run(&config) {
-                Ok(record) => table.cells(&row(&name, step, &record, Some(&fine))),
+                Ok(record) => {
+                    let row = row(&name, step, &record, Some(&fine));
+                    eprintln!("{}", row.join(" | "));
+                    table.row(row);
+                }
                 Err(StepErrorFailure::Step { failure, .. }) => {
                     table.cells(&[name, format!("{}", 1e3 * step), format!("failed: {failure}")]);
                 }
