@@ -8,13 +8,14 @@ use serde_json::{Value, json};
 const STATUS: (&str, &str) = ("/twin/status", "flexdrill/msg/TwinStatus");
 
 /// All outputs with their types and how a reader asks for them.
-const OUTPUTS: [(&str, &str, &str); 13] = [
+const OUTPUTS: [(&str, &str, &str); 14] = [
     ("/twin/joint_deflections", "flexdrill/msg/JointDeflections", "reliable"),
     ("/twin/contact_forces", "flexdrill/msg/ContactForces", "reliable"),
     ("/twin/whirl", "flexdrill/msg/WhirlState", "reliable"),
     ("/twin/whirl_warnings", "flexdrill/msg/WhirlWarning", "latched"),
     ("/twin/alarms", "flexdrill/msg/AlarmList", "latched"),
     ("/twin/alarm_events", "flexdrill/msg/AlarmEvent", "reliable"),
+    ("/twin/ageing", "flexdrill/msg/Ageing", "reliable"),
     ("/twin/bit_state", "flexdrill/msg/BitState", "reliable"),
     (STATUS.0, STATUS.1, "reliable"),
     ("/twin/tool_shape", "visualization_msgs/msg/MarkerArray", "best_effort"),

@@ -4,7 +4,7 @@ use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::fill::{self, ShapeStyle};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::visualization_msgs::{Marker, MarkerArray};
-use flexdrill::messages::{BitState, ContactForces, JointDeflections, WhirlWarning, sensor_msgs};
+use flexdrill::messages::{Ageing, BitState, ContactForces, JointDeflections, WhirlWarning, sensor_msgs};
 use flexdrill_core::motion::{DriveState, Severity, ShockLevel, WhirlKind};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ContactLayer, Snapshot};
@@ -74,6 +74,23 @@ fn the_largest_contact_force_is_the_interval_s_peak() {
     assert_eq!((message.max_guide_wall_force, message.max_guide_wall_station), (0.0, 0));
     assert_eq!(message.state, [1, 0]);
     assert_eq!(message.pipe_guide_shock, [1.0, 0.0]);
+}
+
+#[test]
+fn ageing_is_told_per_hour_and_relative_to_the_worst() {
+    let mut snapshot = snapshot();
+    snapshot.ageing.duration = 1800.0;
+    snapshot.ageing.stop_damage = vec![1.0, 0.0, 3.0];
+    snapshot.ageing.bending_damage = vec![2.0, 4.0, 0.0];
+    snapshot.ageing.friction_work = [vec![5.0, 6.0], vec![7.0, 8.0]];
+    let mut message = Ageing::default();
+    fill::ageing(&snapshot, &header(), &mut message);
+    assert_eq!(message.stop_damage_rate, [2.0, 0.0, 6.0]);
+    assert_eq!(message.bending_damage_rate, [4.0, 8.0, 0.0]);
+    assert_eq!(message.relative_damage, [0.5, 1.0, 0.75]);
+    assert_eq!(message.guide_wall_friction_work, [7.0, 8.0]);
+    assert_eq!(message.joint_measured_depth.len(), 3);
+    assert_eq!(message.woehler_slope, 5.0);
 }
 
 #[test]

@@ -184,6 +184,7 @@ fn rate(config: &Config, schedule: &flexdrill_core::twin::Schedule, key: &str) -
         "bit_state" => of(Output::BitState),
         "whirl" => of(Output::Whirl),
         "tool_shape" => of(Output::ToolShape),
+        "ageing" => of(Output::Ageing),
         "status" => config.outputs.rates.status,
         "diagnostics" => config.outputs.rates.diagnostics,
         _ => 0.0,

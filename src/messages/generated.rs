@@ -126,6 +126,53 @@ pub mod flexdrill {
 
     use crate::messages::Message;
 
+    /// What has aged since the start or the last reset, to compare joints and stations with each other and ways of drilling. No
+    /// absolute life follows from it.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Ageing {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Model time that the sums are of (s).
+        pub duration: f64,
+        /// Slope m of the Woehler line: a load cycle of range r counts (r / rated_moment)^m.
+        pub woehler_slope: f64,
+        /// Rated moment of a joint's stop (N m).
+        pub rated_moment: f64,
+        /// Per joint: place along the bore from the kick-off (m).
+        pub joint_measured_depth: Vec<f64>,
+        /// Inclination of the bore there, 0 is straight down (rad).
+        pub joint_inclination: Vec<f64>,
+        /// Damage of the joint's stop per hour (1/h).
+        pub stop_damage_rate: Vec<f64>,
+        /// Damage per hour of the link below the joint by bending at its middle, on the side that it is worse for (1/h).
+        pub bending_damage_rate: Vec<f64>,
+        /// The larger of the two over that of the joint that ages fastest (0 to 1).
+        pub relative_damage: Vec<f64>,
+        /// Per station: place along the bore from the kick-off (m).
+        pub station_measured_depth: Vec<f64>,
+        /// Inclination of the bore there (rad).
+        pub station_inclination: Vec<f64>,
+        /// Work of the friction between pipe and guide pipe (J).
+        pub pipe_guide_friction_work: Vec<f64>,
+        /// Work of the friction between guide pipe and wall (J).
+        pub guide_wall_friction_work: Vec<f64>,
+    }
+
+    impl Message for Ageing {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "Ageing";
+        const ROS_TYPE: &'static str = "flexdrill/msg/Ageing";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Ageing_";
+        const RIHS01: &'static str = "RIHS01_72c5f2871b8731f13692cacc928acc8a85285e08ee9a77a264a6f3ab903f6a25";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/Ageing.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
     /// One alarm as it stands: one thing that an operator can do something about. What each of them means is in docs/alarms.md.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Alarm {
@@ -1989,6 +2036,7 @@ pub const TYPES: &[TypeInfo] = &[
     <diagnostic_msgs::DiagnosticArray as super::Message>::INFO,
     <diagnostic_msgs::DiagnosticStatus as super::Message>::INFO,
     <diagnostic_msgs::KeyValue as super::Message>::INFO,
+    <flexdrill::Ageing as super::Message>::INFO,
     <flexdrill::Alarm as super::Message>::INFO,
     <flexdrill::AlarmEvent as super::Message>::INFO,
     <flexdrill::AlarmList as super::Message>::INFO,

@@ -8,7 +8,7 @@ use super::std_msgs::Header;
 use super::topics::{self, TopicInfo};
 use super::visualization_msgs::MarkerArray;
 use super::{
-    AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, SessionInfo, WhirlState, WhirlWarning,
+    Ageing, AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, SessionInfo, WhirlState, WhirlWarning,
     to_cdr_into,
 };
 use flexdrill_config::Config;
@@ -45,6 +45,7 @@ pub struct Outputs {
     whirl: WhirlState,
     warning: WhirlWarning,
     tool_shape: MarkerArray,
+    ageing: Ageing,
     /// Sequence of the level that was sent last, and whether it was suppressed.
     warned: Option<(u64, bool)>,
     /// How often a warning was suppressed or released; counts as a change too.
@@ -61,6 +62,7 @@ pub fn schedule(config: &Config) -> Schedule {
         Output::BitState => rates.bit_state,
         Output::Whirl => rates.whirl,
         Output::ToolShape => rates.tool_shape,
+        Output::Ageing => rates.ageing,
         Output::Alarms => ALARM_RATE,
     })
 }
@@ -86,6 +88,7 @@ impl Outputs {
             whirl: WhirlState::default(),
             warning: WhirlWarning::default(),
             tool_shape: MarkerArray::default(),
+            ageing: Ageing::default(),
             warned: None,
             suppressions: 0,
         }
@@ -150,6 +153,11 @@ impl Outputs {
                     fill::tool_shape(snapshot, &header, &self.style, &mut self.tool_shape);
                     to_cdr_into(&self.tool_shape, &mut self.bytes)?;
                     &topics::TOOL_SHAPE
+                }
+                Output::Ageing => {
+                    fill::ageing(snapshot, &header, &mut self.ageing);
+                    to_cdr_into(&self.ageing, &mut self.bytes)?;
+                    &topics::AGEING
                 }
                 Output::Alarms => continue,
             };

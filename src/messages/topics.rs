@@ -1,8 +1,9 @@
 //! All topics: name, type, rate and quality of service. The node and the bags share this table.
 
 use super::{
-    AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo, TwinStatus,
-    TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, visualization_msgs,
+    Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo,
+    TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs,
+    visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -114,6 +115,8 @@ pub const ALARMS: TopicInfo = TopicInfo::new("twin/alarms", AlarmList::INFO, Cad
 /// Output: the alarms' journal.
 pub const ALARM_EVENTS: TopicInfo =
     TopicInfo::new("twin/alarm_events", AlarmEvent::INFO, Cadence::OnChange, reliable(100));
+/// Output: what ages, joint by joint and station by station.
+pub const AGEING: TopicInfo = TopicInfo::new("twin/ageing", Ageing::INFO, Cadence::Rate("ageing"), reliable(10));
 /// Output: the bit.
 pub const BIT_STATE: TopicInfo = TopicInfo::new(
     "twin/bit_state",
@@ -155,7 +158,7 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 );
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 16] = [
+pub const ALL: [TopicInfo; 17] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     CLOCK,
@@ -165,6 +168,7 @@ pub const ALL: [TopicInfo; 16] = [
     WHIRL_WARNINGS,
     ALARMS,
     ALARM_EVENTS,
+    AGEING,
     BIT_STATE,
     STATUS,
     TOOL_SHAPE,

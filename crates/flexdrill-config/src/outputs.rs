@@ -31,6 +31,8 @@ section! {
         status: f64 = 5.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `twin/tool_shape`.
         tool_shape: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
+        /// `twin/ageing`.
+        ageing: f64 = 1.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `joint_states`.
         joint_states: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `/diagnostics`.

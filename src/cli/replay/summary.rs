@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::alarms::AlarmTally;
+use crate::messages::words;
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
-use flexdrill_core::motion::{Incident, IncidentLocation, IncidentLog, Observation};
+use flexdrill_core::motion::{Ageing, Incident, IncidentLocation, IncidentLog, Observation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
@@ -47,6 +48,7 @@ pub(super) struct Tally {
     guide_wall: Peak,
     joints_at_limit: usize,
     last: Option<Last>,
+    wear: WearTally,
     quality: QualityTally,
     incidents: IncidentLog,
     phases: PhaseTimes,
@@ -86,6 +88,75 @@ impl QualityTally {
         }
         let share = 100.0 * self.judged[level as usize] as f64 / all as f64;
         format!("{level} for {share:.0} % of the time: {}", self.worst)
+    }
+}
+
+/// What aged, and where.
+#[derive(Debug, Default)]
+struct WearTally {
+    ageing: Ageing,
+    joint_depth: Vec<f64>,
+    station_depth: Vec<f64>,
+}
+
+/// Joints that the summary names.
+const JOINTS_NAMED: usize = 3;
+
+impl WearTally {
+    fn observe(&mut self, snapshot: &Snapshot) {
+        self.ageing.clone_from(&snapshot.ageing);
+        self.joint_depth.clone_from(&snapshot.joints.measured_depth);
+        self.station_depth.clone_from(&snapshot.contacts.measured_depth);
+    }
+
+    /// The joints that age fastest, each against the fastest.
+    fn joints(&self) -> String {
+        let mut order: Vec<(usize, f64)> = self.ageing.relative_damage().enumerate().collect();
+        order.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let name = |&(joint, share): &(usize, f64)| {
+            let part = if self.ageing.stop_damage[joint] >= self.ageing.bending_damage[joint] {
+                "its stop"
+            } else {
+                "the link below"
+            };
+            format!(
+                "joint {} at {:.2} m ({part}, {:.0} %)",
+                joint + 1,
+                self.joint_depth[joint],
+                100.0 * share
+            )
+        };
+        let named: Vec<String> = order
+            .iter()
+            .filter(|(_, share)| *share > 0.0)
+            .take(JOINTS_NAMED)
+            .map(name)
+            .collect();
+        if named.is_empty() {
+            "none: no load cycle was large enough to count".to_owned()
+        } else {
+            named.join(", ")
+        }
+    }
+
+    /// Where friction takes most, per layer.
+    fn friction(&self) -> String {
+        let most = |layer: usize| {
+            let work = &self.ageing.friction_work[layer];
+            let all: f64 = work.iter().sum();
+            let station = (0..work.len())
+                .max_by(|&a, &b| work[a].total_cmp(&work[b]))
+                .unwrap_or_default();
+            let (depth, here) = (self.station_depth.get(station), work.get(station));
+            format!(
+                "{} {:.0} J, most at {:.2} m ({:.1} J)",
+                words::layer(layer),
+                all,
+                depth.copied().unwrap_or_default(),
+                here.copied().unwrap_or_default()
+            )
+        };
+        format!("{}; {}", most(0), most(1))
     }
 }
 
@@ -142,6 +213,7 @@ impl Tally {
             shock_place: shock_location(snapshot),
         });
         self.quality.observe(&snapshot.quality);
+        self.wear.observe(snapshot);
         self.last = Some(Last {
             energy_error: snapshot.energy.error,
             drive: snapshot.energy.drive,
@@ -226,6 +298,8 @@ impl Tally {
             };
             row("model quality", self.quality.text());
             row("energy error", format!("{:.3} J{share}", last.energy_error));
+            row("ages fastest", self.wear.joints());
+            row("work of friction", self.wear.friction());
             row("rejected sub-steps", last.rejected.to_string());
             row("whirl warnings", format!("{} changes of level", last.warnings));
         }

@@ -1,6 +1,7 @@
 //! Messages made from a [`Snapshot`](flexdrill_core::twin::Snapshot): one function per type, each filling a message
 //! that keeps its memory from one time to the next.
 
+mod ageing;
 mod arrows;
 mod bit;
 mod contacts;
@@ -8,6 +9,7 @@ mod joints;
 mod shape;
 mod whirl;
 
+pub use ageing::ageing;
 pub use bit::bit_state;
 pub use contacts::contact_forces;
 pub use joints::{joint_deflections, joint_state};

@@ -93,6 +93,7 @@ fn rate(config: &Config, topic: &TopicInfo) -> f64 {
         Cadence::Rate("bit_state") => rates.bit_state,
         Cadence::Rate("status") => rates.status,
         Cadence::Rate("tool_shape") => rates.tool_shape,
+        Cadence::Rate("ageing") => rates.ageing,
         Cadence::Rate("joint_states") => rates.joint_states,
         Cadence::Rate("diagnostics") => rates.diagnostics,
         Cadence::Rate(_) | Cadence::OnChange | Cadence::Received => 0.0,

@@ -32,6 +32,8 @@ impl Default for AgeingSettings {
 /// Sums since the start.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Ageing {
+    /// How they were counted.
+    pub settings: AgeingSettings,
     /// Model time that they are of (s).
     pub duration: f64,
     /// Per joint: damage of its stop.
@@ -40,6 +42,21 @@ pub struct Ageing {
     pub bending_damage: Vec<f64>,
     /// Per station: work of the friction between pipe and guide, and between guide and wall (J).
     pub friction_work: [Vec<f64>; 2],
+}
+
+impl Ageing {
+    /// Per joint: the larger damage of its stop and of the link below it, over that of the joint that ages fastest; 0
+    /// while none does.
+    pub fn relative_damage(&self) -> impl Iterator<Item = f64> {
+        let larger = || {
+            self.stop_damage
+                .iter()
+                .zip(&self.bending_damage)
+                .map(|(a, b)| a.max(*b))
+        };
+        let most = larger().fold(0.0, f64::max);
+        larger().map(move |damage| if most > 0.0 { damage / most } else { 0.0 })
+    }
 }
 
 /// Counts while the tool runs.
@@ -105,7 +122,7 @@ impl AgeingWatch {
 
     /// Fills `out`. Does not allocate once it has the right size.
     pub fn write(&self, out: &mut Ageing) {
-        out.duration = self.duration;
+        (out.settings, out.duration) = (self.settings, self.duration);
         out.stop_damage.clear();
         out.stop_damage.extend(self.joints.iter().map(|joint| joint.damage[0]));
         out.bending_damage.clear();
@@ -165,6 +182,7 @@ mod tests {
             "{ageing:?}"
         );
         assert_eq!((ageing.bending_damage[0], ageing.stop_damage[1]), (0.0, 0.0));
+        assert_eq!(ageing.relative_damage().collect::<Vec<_>>(), [0.0, 1.0]);
         assert!((ageing.duration - 51.0).abs() < 1e-9);
         assert!((ageing.friction_work[1][2] - 0.5 * 51.0 * 250.0).abs() < 1e-6);
     }

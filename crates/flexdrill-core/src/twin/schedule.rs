@@ -20,19 +20,22 @@ pub enum Output {
     Whirl,
     /// Output `twin/tool_shape`.
     ToolShape,
+    /// Output `twin/ageing`.
+    Ageing,
     /// Not a message of its own: the alarms of the tool are judged, whatever else is published.
     Alarms,
 }
 
 impl Output {
     /// All of them, in order.
-    pub const ALL: [Output; 7] = [
+    pub const ALL: [Output; 8] = [
         Output::JointDeflections,
         Output::JointStates,
         Output::ContactForces,
         Output::BitState,
         Output::Whirl,
         Output::ToolShape,
+        Output::Ageing,
         Output::Alarms,
     ];
 }
@@ -133,7 +136,7 @@ mod tests {
             Output::JointDeflections | Output::JointStates | Output::BitState => 50.0,
             Output::ContactForces => 25.0,
             Output::Whirl => 10.0,
-            Output::ToolShape | Output::Alarms => 0.0,
+            Output::ToolShape | Output::Ageing | Output::Alarms => 0.0,
         })
     }
 
