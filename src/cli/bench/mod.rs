@@ -22,6 +22,7 @@ use super::WrongUse;
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
+use flexdrill_core::twin::ModelQuality;
 
 /// Runs a configuration at constant inputs as fast as it goes and prints its speed and its figures, as Markdown.
 #[derive(Debug, Args)]
@@ -256,6 +257,17 @@ fn load(path: &std::path::Path, args: &BenchArgs) -> anyhow::Result<Config> {
     Ok(config)
 }
 
+/// Word, share and cause.
+fn quality_of(quality: &ModelQuality) -> String {
+    let share = 100.0 * quality.energy_error_share;
+    let cause = quality.to_string();
+    let cause = if cause.is_empty() { cause } else { format!(": {cause}") };
+    format!(
+        "{}, energy error {share:.0} % of what vibration loses{cause}",
+        quality.level
+    )
+}
+
 fn figures_of(measured: &Measured) -> Table {
     let mut table = Table::new(["figure", "value"]);
     let mut row = |figure: &str, value: String| table.row([figure.to_owned(), value]);
@@ -298,6 +310,7 @@ fn figures_of(measured: &Measured) -> Table {
             counters.halved_steps, counters.rejected, counters.failed_steps
         ),
     );
+    row("model quality", quality_of(&measured.last.quality));
     measured.figures.rows(&measured.last, &mut table);
     let energy = &measured.energy;
     table.row([

@@ -113,10 +113,11 @@ fn row(name: &str, step: f64, record: &Record, fine: Option<&Record>) -> [String
     };
     let judged: Vec<&ModelQuality> = record.qualities.iter().filter(|quality| quality.judged).collect();
     let mean = |share: fn(&ModelQuality) -> f64| {
-        format!(
-            "{:.2}",
-            judged.iter().map(|quality| share(quality)).sum::<f64>() / judged.len() as f64
-        )
+        if judged.is_empty() {
+            return "-".to_owned();
+        }
+        let sum: f64 = judged.iter().map(|quality| share(quality)).sum();
+        format!("{:.2}", sum / judged.len() as f64)
     };
     [
         name.to_owned(),
@@ -133,6 +134,9 @@ fn row(name: &str, step: f64, record: &Record, fine: Option<&Record>) -> [String
 
 /// Every word that was said, with its share of the time.
 fn words(judged: &[&ModelQuality]) -> String {
+    if judged.is_empty() {
+        return ModelQuality::default().to_string();
+    }
     let levels = [QualityLevel::Good, QualityLevel::Degraded, QualityLevel::Poor];
     let said = levels.into_iter().filter_map(|level| {
         let count = judged.iter().filter(|quality| quality.level == level).count();
