@@ -17,7 +17,7 @@ pub struct BitTorque {
     pub slope: f64,
     /// Part of the full torque that the last correction counted on, -1 to 1.
     expected: Option<f64>,
-    /// Whether a correction of this step went through zero without counting on it.
+    /// Whether a correction of this step went too far through zero without counting on it.
     crossed: bool,
 }
 
@@ -33,7 +33,8 @@ impl BitTorque {
         self.torque = full * sign;
         self.slope = full * slope;
         let Some(expected) = self.expected.take() else { return };
-        self.crossed |= expected * sign < 0.0;
+        // Nearer to zero the sign is so straight that Newton comes back by itself.
+        self.crossed |= expected * sign < 0.0 && speed.abs() > slip_rate;
         if self.crossed {
             self.slope = full * (1.0 - expected * sign) / (speed * speed + slip_rate * slip_rate).sqrt();
         }
