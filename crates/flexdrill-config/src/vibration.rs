@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use super::section::section;
-use flexdrill_core::motion::{AgeingSettings, AlarmThresholds, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings};
+use flexdrill_core::motion::{
+    AgeingSettings, AlarmThresholds, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings,
+};
 use flexdrill_core::units::{rad_per_s_to_rpm, rpm_to_rad_per_s};
 
 section! {

@@ -96,7 +96,9 @@ impl AgeingWatch {
             let loads = [joint.angular_impulse / elapsed, about_y, about_z];
             joint.angular_impulse = 0.0;
             for ((flow, damage), load) in joint.channels.iter_mut().zip(&mut joint.damage).zip(loads) {
-                flow.push(load / rated_moment, LEAST_RANGE, |range| *damage += libm::pow(range, slope));
+                flow.push(load / rated_moment, LEAST_RANGE, |range| {
+                    *damage += libm::pow(range, slope)
+                });
             }
         }
     }
@@ -141,7 +143,13 @@ mod tests {
         for step in 0..seconds * 250 {
             let (sin, cos) = (std::f64::consts::TAU * f64::from(step) / 250.0).sin_cos();
             watch.rub(1, 2, 0.5);
-            watch.sample(4e-3, |joint| if joint == 1 { [moment * cos, 0.5 * moment * sin] } else { [0.0; 2] });
+            watch.sample(4e-3, |joint| {
+                if joint == 1 {
+                    [moment * cos, 0.5 * moment * sin]
+                } else {
+                    [0.0; 2]
+                }
+            });
         }
         let mut out = Ageing::default();
         watch.write(&mut out);
@@ -152,7 +160,10 @@ mod tests {
     fn a_turning_bend_is_one_cycle_per_turn_of_the_worse_side() {
         let ageing = turned(100.0, 5.0, 51);
         // Twice the rated moment from side to side; the first and the last half cycle have no partner yet.
-        assert!((ageing.bending_damage[1] / (50.0 * 32.0) - 1.0).abs() < 0.05, "{ageing:?}");
+        assert!(
+            (ageing.bending_damage[1] / (50.0 * 32.0) - 1.0).abs() < 0.05,
+            "{ageing:?}"
+        );
         assert_eq!((ageing.bending_damage[0], ageing.stop_damage[1]), (0.0, 0.0));
         assert!((ageing.duration - 51.0).abs() < 1e-9);
         assert!((ageing.friction_work[1][2] - 0.5 * 51.0 * 250.0).abs() < 1e-6);
@@ -178,7 +189,10 @@ mod tests {
         }
         let mut out = Ageing::default();
         watch.write(&mut out);
-        assert!((out.stop_damage[0] / (998.0 * 0.625f64.powi(5)) - 1.0).abs() < 0.01, "{out:?}");
+        assert!(
+            (out.stop_damage[0] / (998.0 * 0.625f64.powi(5)) - 1.0).abs() < 0.01,
+            "{out:?}"
+        );
         watch.reset();
         watch.write(&mut out);
         assert_eq!((out.stop_damage[0], out.duration), (0.0, 0.0));

@@ -100,9 +100,19 @@ mod tests {
         let count = |range: f64| many.iter().filter(|&&cycle| (cycle - range).abs() < 1e-12).count();
         // Those of the last repetitions wait for their partners.
         for (range, least) in [(9.0, 18), (4.0, 19), (7.0, 18), (3.0, 18)] {
-            assert!((least..=20).contains(&count(range)), "{range}: {} in {many:?}", count(range));
+            assert!(
+                (least..=20).contains(&count(range)),
+                "{range}: {} in {many:?}",
+                count(range)
+            );
         }
-        assert_eq!(many.iter().filter(|&&range| ![9.0, 4.0, 7.0, 3.0].contains(&range)).count(), 0, "{many:?}");
+        assert_eq!(
+            many.iter()
+                .filter(|&&range| ![9.0, 4.0, 7.0, 3.0].contains(&range))
+                .count(),
+            0,
+            "{many:?}"
+        );
     }
 
     #[test]

@@ -11,8 +11,8 @@ use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Touch, gap};
 use crate::model::Model;
 use crate::motion::{
-    AgeingWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation, JointLoadWatch, RootMeanSquare,
-    ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings,
+    AgeingWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation, JointLoadWatch,
+    RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings,
 };
 use crate::tool::description::{Body, Direction, JointKind};
 
@@ -346,10 +346,7 @@ fn bending_below(model: &Model, state: &State, joint: usize) -> [f64; 2] {
     let per_link = model.description.elements_per_link;
     let upper = model.joint_stations[joint] + (per_link - 1) / 2;
     let beam = &model.pipe[upper].beam;
-    let (from, to) = (
-        model.stations[upper].pipe_below,
-        model.stations[upper + 1].pipe_above,
-    );
+    let (from, to) = (model.stations[upper].pipe_below, model.stations[upper + 1].pipe_above);
     let per_curvature = beam.section.bending / beam.length;
     let about = |direction: Direction| {
         let direction = direction as usize;
