@@ -158,6 +158,37 @@ mod tests {
     }
 
     #[test]
+    fn a_motion_that_is_not_the_tools_is_an_error_with_its_cause() {
+        let said = |quality| {
+            let status = TwinStatus {
+                model_quality: quality,
+                model_quality_cause: "energy errors of the steps come to 56 %".into(),
+                // Of the drive's work: what most of a run's errors look like from there.
+                energy_error_ratio: 0.0008,
+                ..running()
+            };
+            let items = Diagnostics::default().judge("n", &status, &Evidence::default());
+            items.into_iter().find(|item| item.name == "n: solver").unwrap()
+        };
+        assert_eq!(said(TwinStatus::QUALITY_GOOD).message, "converging");
+        let degraded = said(TwinStatus::QUALITY_DEGRADED);
+        assert_eq!(degraded.level, DiagnosticStatus::WARN);
+        assert!(
+            degraded.message.contains("doubtful: energy errors"),
+            "{}",
+            degraded.message
+        );
+        let poor = said(TwinStatus::QUALITY_POOR);
+        assert_eq!(poor.level, DiagnosticStatus::ERROR);
+        assert!(poor.message.contains("56 %"), "{}", poor.message);
+        assert!(
+            poor.values
+                .iter()
+                .any(|pair| pair.key == "model_quality" && pair.value == "poor")
+        );
+    }
+
+    #[test]
     fn the_worse_input_counts() {
         let stale = TwinStatus {
             input_state: vec![TwinStatus::INPUT_OK, TwinStatus::INPUT_STALE],

@@ -7,11 +7,6 @@ use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
 
-/// An energy error above this part of the drive's work makes the motion doubtful.
-const DOUBTFUL_ENERGY: f64 = 0.02;
-/// The error means nothing before the drive has done some work (J).
-const LITTLE_WORK: f64 = 1.0;
-
 pub(super) fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
     let factor = status.real_time_factor;
     let skipped = status.steps_skipped.saturating_sub(previous.steps_skipped);
@@ -56,18 +51,20 @@ pub(super) fn solver(status: &TwinStatus, previous: &TwinStatus, failure: Option
             failure.time, failure
         );
         (DiagnosticStatus::ERROR, message)
+    } else if status.model_quality == TwinStatus::QUALITY_POOR {
+        (
+            DiagnosticStatus::ERROR,
+            format!("the motion is not to be relied on: {}", status.model_quality_cause),
+        )
     } else if steps > 0 && halved * 20 > steps {
         (
             DiagnosticStatus::WARN,
             format!("{halved} of the last {steps} steps had to be split"),
         )
-    } else if status.energy_error_ratio > DOUBTFUL_ENERGY && status.energy_error.abs() > LITTLE_WORK {
+    } else if status.model_quality == TwinStatus::QUALITY_DEGRADED {
         (
             DiagnosticStatus::WARN,
-            format!(
-                "the energy balance is off by {:.1} % of the drive's work",
-                100.0 * status.energy_error_ratio
-            ),
+            format!("the motion is doubtful: {}", status.model_quality_cause),
         )
     } else {
         (DiagnosticStatus::OK, "converging".to_owned())
@@ -88,6 +85,8 @@ pub(super) fn solver(status: &TwinStatus, previous: &TwinStatus, failure: Option
             ("last_rejection_station", status.last_rejection_station.to_string()),
             ("energy_error (J)", format!("{:.3}", status.energy_error)),
             ("energy_error_ratio", format!("{:.2e}", status.energy_error_ratio)),
+            ("energy_error_share", format!("{:.3}", status.energy_error_share)),
+            ("model_quality", words::model_quality(status.model_quality).to_owned()),
         ],
     }
 }

@@ -9,7 +9,7 @@ use crate::messages::std_msgs::Header;
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::dynamics::{EnergyAudit, StepFailure};
 use flexdrill_core::inputs::{Conditioner, InputKind};
-use flexdrill_core::twin::{Snapshot, SolverCounters};
+use flexdrill_core::twin::{ModelQuality, Snapshot, SolverCounters};
 use flexdrill_realtime::RealTimeFactor;
 use flexdrill_realtime::link::{Gauges, RunState};
 
@@ -32,6 +32,7 @@ pub struct StatusKeeper {
     /// Encoding and sending frames since the message before (ns).
     publishing: u64,
     energy: EnergyAudit,
+    quality: ModelQuality,
     depths: Vec<f64>,
     counters_step: u64,
     applied: [f64; 2],
@@ -83,6 +84,7 @@ impl StatusKeeper {
             phases_before: Default::default(),
             publishing: 0,
             energy: EnergyAudit::default(),
+            quality: ModelQuality::default(),
             depths: Vec::new(),
             counters_step: 0,
             applied: [f64::NAN; 2],
@@ -101,6 +103,7 @@ impl StatusKeeper {
         self.counters = snapshot.solver;
         self.counters_step = snapshot.step;
         self.energy = snapshot.energy;
+        self.quality = snapshot.quality;
         self.applied = [snapshot.applied.rotary_speed, snapshot.applied.weight_on_bit];
         if self.depths.len() != snapshot.contacts.measured_depth.len() {
             self.depths.clone_from(&snapshot.contacts.measured_depth);
@@ -178,6 +181,9 @@ impl StatusKeeper {
             last_rejection_measured_depth: self.depths.get(station).copied().unwrap_or_default(),
             energy_error: self.energy.error,
             energy_error_ratio: ratio(self.energy.error, self.energy.drive),
+            model_quality: self.quality.level as u8,
+            model_quality_cause: self.quality.to_string(),
+            energy_error_share: self.quality.energy_error_share,
             config_hash: self.config_hash.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             ..TwinStatus::default()

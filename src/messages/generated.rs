@@ -718,6 +718,13 @@ pub mod flexdrill {
         pub phase_name: Vec<std::string::String>,
         /// Mean time per step in the last interval (s).
         pub phase_time: Vec<f64>,
+        /// How far the motion can be trusted: QUALITY_GOOD, QUALITY_DEGRADED or QUALITY_POOR.
+        pub model_quality: u8,
+        /// Why it is not GOOD, with value and bound, or that it is not judged yet; empty if all is well.
+        pub model_quality_cause: std::string::String,
+        /// Work of the steps against the laws over the last 10 s, magnitudes added, over what contact, Rayleigh and numerical damping took in
+        /// them; zero is exact.
+        pub energy_error_share: f64,
     }
 
     impl TwinStatus {
@@ -745,6 +752,12 @@ pub mod flexdrill {
         pub const RECORDING_ON: u8 = 1;
         /// The recording stopped on an error; what was written before is kept.
         pub const RECORDING_FAILED: u8 = 2;
+        /// Ripple and forces agree with those of a finer step within about a tenth.
+        pub const QUALITY_GOOD: u8 = 0;
+        /// They may be off by more than that; model_quality_cause says why.
+        pub const QUALITY_DEGRADED: u8 = 1;
+        /// They may be off by a third and more: an alarm. Confidences of the whirl analysis are lowered.
+        pub const QUALITY_POOR: u8 = 2;
     }
 
     impl Message for TwinStatus {
@@ -752,7 +765,7 @@ pub mod flexdrill {
         const NAME: &'static str = "TwinStatus";
         const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
-        const RIHS01: &'static str = "RIHS01_d1b871a5a116250bbd6e2ca380a1495db6b3da5a5e14380b28354b0bb5d78933";
+        const RIHS01: &'static str = "RIHS01_12b7ad58105ff1c1685668a9811cfeeab0189434445649be61a485caa69574e1";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",

@@ -5,6 +5,7 @@ use super::{Alarm, TwinStatus, WhirlState};
 use flexdrill_alarms::{Priority, State};
 use flexdrill_core::motion::Severity;
 use flexdrill_core::tool::Body;
+use flexdrill_core::twin::QualityLevel;
 
 /// What stands for a code that this version does not know.
 const UNKNOWN: &str = "?";
@@ -56,6 +57,13 @@ pub fn body(body: Body) -> &'static str {
 /// The layer of contacts, 0 or 1, by what meets in it.
 pub fn layer(layer: usize) -> &'static str {
     if layer == 0 { "pipe-guide" } else { "guide-wall" }
+}
+
+/// How far the motion can be trusted: `good`, `degraded` or `poor`.
+pub fn model_quality(code: u8) -> &'static str {
+    let known = [QualityLevel::Good, QualityLevel::Degraded, QualityLevel::Poor];
+    let found = known.into_iter().find(|level| *level as u8 == code);
+    found.map_or(UNKNOWN, QualityLevel::name)
 }
 
 /// The state of an input.

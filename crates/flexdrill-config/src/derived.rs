@@ -1,7 +1,10 @@
 //! Numbers that follow from a configuration.
 
 use super::Config;
-use flexdrill_core::tool::JointKind;
+use std::f64::consts::PI;
+
+use flexdrill_core::tool::section::SectionProperties;
+use flexdrill_core::tool::{JointKind, Tube};
 use flexdrill_core::units::rad_to_deg;
 
 /// How large the system is, held directions included.
@@ -56,6 +59,21 @@ impl Config {
     pub fn inner_clearance(&self) -> f64 {
         let contact = self.tool.pipe.contact_diameters(self.tool.elements_per_link);
         (self.tool.guide.inner_diameter - contact.into_iter().fold(0.0, f64::max)) / 2.0
+    }
+
+    /// How long a node that strikes alone stays in contact (s), half a period of its mass on the contact's spring,
+    /// and that mass (kg): the lightest of the pipe in the guide, and a node of the guide in the hole.
+    pub fn contact_durations(&self) -> [(f64, f64); 2] {
+        let elements = self.tool.elements_per_link;
+        let length = self.link_length() / elements as f64;
+        let mass = |tube: Tube| length * SectionProperties::of(tube, self.tool.material.describe(), 1.0).mass;
+        let sections = self.tool.pipe.element_sections(elements);
+        let pipe = sections.into_iter().map(mass).fold(f64::INFINITY, f64::min);
+        let struck = [
+            (pipe, self.contact.inner.stiffness),
+            (mass(self.tool.guide.section()), self.contact.outer.stiffness),
+        ];
+        struck.map(|(mass, stiffness)| (PI * (mass / stiffness).sqrt(), mass))
     }
 
     /// Clearance between guide and wall (m).

@@ -56,7 +56,7 @@ pub enum History {
     Table(Vec<(f64, f64)>),
 }
 
-/// A mass (kg) added to one node.
+/// A rigid body added to one node, round but for its unbalance. At a joint it is on the end of the link above.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mass {
@@ -66,6 +66,19 @@ pub struct Mass {
     pub body: Body,
     /// Mass (kg).
     pub mass: f64,
+    /// Rotary inertia about the axis (kg m2). Default 0.
+    #[serde(default)]
+    pub inertia: f64,
+    /// Rotary inertia about a diameter (kg m2). Default half of `inertia`, a thin disc's.
+    #[serde(default)]
+    pub transverse_inertia: Option<f64>,
+    /// Distance of the centre of mass from the axis (m): the unbalance m e turns with the pipe. Default 0.
+    #[serde(default)]
+    pub eccentricity: f64,
+    /// Angle of the centre of mass at spin zero, from the node's y axis (horizontal) towards its z axis (low side).
+    /// Default 0.
+    #[serde(default)]
+    pub eccentricity_phase_deg: f64,
 }
 
 impl Load {
@@ -160,6 +173,31 @@ impl Mass {
             "kg",
             "a mass on a node is not negative",
         );
+        let inertia = Bound::within(0.0, 1e6);
+        let reason = "an inertia on a node is not negative";
+        c.number("inertia", self.inertia, inertia, "kg m2", reason);
+        if let Some(transverse) = self.transverse_inertia {
+            c.number("transverse_inertia", transverse, inertia, "kg m2", reason);
+            let least = 0.5 * self.inertia;
+            c.require(
+                transverse >= least,
+                "transverse_inertia",
+                number(transverse),
+                "kg m2",
+                format!("at least half of inertia, {} kg m2", number(least)),
+                "a thin disc has half, any other body more; leave it out for a disc",
+            );
+        }
+        let reason = "given in metres, of the order of the tool's diameter at most";
+        c.number("eccentricity", self.eccentricity, Bound::within(0.0, 1.0), "m", reason);
+        let turn = Bound::within(-360.0, 360.0);
+        c.number(
+            "eccentricity_phase_deg",
+            self.eccentricity_phase_deg,
+            turn,
+            "deg",
+            "one turn",
+        );
     }
 
     pub(super) fn describe(&self, mesh: &Mesh) -> PointMass {
@@ -167,6 +205,10 @@ impl Mass {
             location: self.at.location(mesh),
             body: self.body,
             mass: self.mass,
+            axial_inertia: self.inertia,
+            transverse_inertia: self.transverse_inertia.unwrap_or(0.5 * self.inertia),
+            eccentricity: self.eccentricity,
+            eccentricity_phase: deg_to_rad(self.eccentricity_phase_deg),
         }
     }
 }

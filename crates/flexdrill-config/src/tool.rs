@@ -119,6 +119,9 @@ section! {
         /// Speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s). Default 0.1.
         #[serde(default = "tenth")]
         slip_rate: f64, within(1e-4, 10.0), "rad/s", "0 would make the torque jump at standstill";
+        /// Rotary inertia of the bit about its axis (kg m2), a thin disc's. Default 0: what turns there is the pipe.
+        #[serde(default)]
+        inertia: f64, within(0.0, 1e3), "kg m2", "an inertia is not negative; a bit of 8 kg in a 118 mm hole has 0.01";
     }
 }
 
@@ -216,6 +219,7 @@ impl Bit {
             diameter: self.diameter,
             friction_factor: self.friction_factor,
             slip_rate: self.slip_rate,
+            inertia: self.inertia,
         }
     }
 }

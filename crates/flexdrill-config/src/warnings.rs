@@ -3,12 +3,17 @@
 use super::Config;
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
+/// Steps that a collision must last at least. Tools with 1.2 and more are good at the default step, those with 1.0 and
+/// less are not (`docs/measurements.md`, model quality).
+const FEWEST_STEPS: f64 = 1.1;
+
 impl Config {
     /// Sentences for a person, most important first; empty when there is nothing to say.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         self.warn_of_joint_limit(&mut warnings);
         self.warn_of_sagitta(&mut warnings);
+        self.warn_of_short_contacts(&mut warnings);
         let off_mesh = self.tool.pipe.pieces_off_mesh(self.tool.elements_per_link);
         if !off_mesh.is_empty() {
             warnings.push(format!(
@@ -68,6 +73,24 @@ impl Config {
         }
     }
 
+    fn warn_of_short_contacts(&self, warnings: &mut Vec<String>) {
+        let step = self.solver.time_step;
+        let springs = [
+            ("contact.inner.stiffness", self.contact.inner.stiffness),
+            ("contact.outer.stiffness", self.contact.outer.stiffness),
+        ];
+        for ((key, stiffness), (duration, mass)) in springs.into_iter().zip(self.contact_durations()) {
+            if duration < FEWEST_STEPS * step {
+                warnings.push(format!(
+                    "{key} {stiffness:.3e} N/m throws a node of {mass:.2} kg back after {:.2} ms, {:.2} steps of solver.time_step {step} s; below {FEWEST_STEPS} steps collisions may feed the motion (model_quality in twin/status): take a step below {:.2e} s, or a softer contact",
+                    1e3 * duration,
+                    duration / step,
+                    duration / FEWEST_STEPS
+                ));
+            }
+        }
+    }
+
     fn warn_of_sagitta(&self, warnings: &mut Vec<String>) {
         let (sagitta, clearance) = (self.chord_sagitta(), self.inner_clearance());
         if sagitta > clearance {
@@ -85,5 +108,47 @@ impl Config {
                 rad_to_deg(tilt)
             ));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn default_tool() -> Config {
+        Config::load("../../config/default.yaml").unwrap()
+    }
+
+    fn short_contacts(config: &Config) -> Vec<String> {
+        let mut warnings = Vec::new();
+        config.warn_of_short_contacts(&mut warnings);
+        warnings
+    }
+
+    #[test]
+    fn contacts_too_short_for_the_step_are_warned_of() {
+        let stiff = default_tool().with_value("contact.inner.stiffness", 3e7).unwrap();
+        let warnings = short_contacts(&stiff);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        // 63 x 32 mm of steel, 152 mm in five elements: 0.553 kg; pi sqrt(m / k) = 0.427 ms.
+        for part in [
+            "contact.inner.stiffness 3.000e7 N/m",
+            "0.55 kg",
+            "0.43 ms",
+            "0.85 steps",
+            "below 3.88e-4 s",
+        ] {
+            assert!(warnings[0].contains(part), "'{part}' is not in {}", warnings[0]);
+        }
+        let finer = stiff.with_value("solver.time_step", 3.8e-4).unwrap();
+        assert!(short_contacts(&finer).is_empty());
+    }
+
+    #[test]
+    fn the_default_tool_is_not_warned_of_until_its_step_grows() {
+        let config = default_tool();
+        assert!(short_contacts(&config).is_empty());
+        let doubled = config.with_value("solver.time_step", 1e-3).unwrap();
+        assert_eq!(short_contacts(&doubled).len(), 2);
     }
 }

@@ -118,6 +118,19 @@ fn places_are_held_against_the_mesh() {
 }
 
 #[test]
+fn a_body_has_the_inertia_that_a_body_can_have() {
+    let mass = |more: &str| format!("{GOOD}masses:\n  - {{at: bottom, body: pipe, mass: 8, inertia: 0.02{more}}}\n");
+    let disc = Config::from_text("rig.yaml", &mass("")).unwrap().tool().masses[0];
+    assert_eq!((disc.axial_inertia, disc.transverse_inertia), (0.02, 0.01));
+    let long = Config::from_text("rig.yaml", &mass(", transverse_inertia: 0.3")).unwrap();
+    assert_eq!(long.tool().masses[0].transverse_inertia, 0.3);
+    assert!(error_of(&mass(", transverse_inertia: 0.009")).starts_with(
+        "rig.yaml:11: masses.0.transverse_inertia = 0.009 kg m2: must be at least half of inertia, 0.01 kg m2 (a thin disc"
+    ));
+    assert!(error_of(&mass(", eccentricity: -0.1")).contains("masses.0.eccentricity = -0.1 m: must be 0 to 1 m"));
+}
+
+#[test]
 fn values_change_by_key_and_are_checked() {
     let config = Config::from_text("rig.yaml", GOOD).unwrap();
     let changed = config.with_value("contact.inner.friction_axial", 0.25).unwrap();

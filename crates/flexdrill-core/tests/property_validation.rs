@@ -48,6 +48,10 @@ fn with_everything() -> ToolDescription {
         location: Location::Station(1),
         body: Body::Guide,
         mass: 1.0,
+        axial_inertia: 0.02,
+        transverse_inertia: 0.03,
+        eccentricity: 0.01,
+        eccentricity_phase: 0.5,
     }];
     tool
 }

@@ -36,7 +36,19 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/rolling_rotor.yaml"),
     ),
     ("sliding_mass", include_str!("../../../config/verify/sliding_mass.yaml")),
+    (
+        "torque_buckling",
+        include_str!("../../../config/verify/torque_buckling.yaml"),
+    ),
+    (
+        "torsion_pendulum",
+        include_str!("../../../config/verify/torsion_pendulum.yaml"),
+    ),
     ("torsion_rod", include_str!("../../../config/verify/torsion_rod.yaml")),
+    (
+        "unbalanced_rotor",
+        include_str!("../../../config/verify/unbalanced_rotor.yaml"),
+    ),
 ];
 
 /// A running case.

@@ -2,6 +2,8 @@
 //! the same code as the node and compared with the closed forms. Also the [error of the time step](step_error).
 
 mod bench;
+mod bodies;
+mod buckling;
 mod contacts;
 mod hinged_beam;
 mod integration;
@@ -184,6 +186,21 @@ pub const CASES: &[Case] = &[
         name: "hooke_chain",
         shows: "four crosses in phase",
         run: joints::chain,
+    },
+    Case {
+        name: "torque_buckling",
+        shows: "a twisted chain of three links",
+        run: buckling::torque,
+    },
+    Case {
+        name: "torsion_pendulum",
+        shows: "rotary inertia at the end of a rod",
+        run: bodies::torsion_pendulum,
+    },
+    Case {
+        name: "unbalanced_rotor",
+        shows: "whirl of an unbalance",
+        run: bodies::unbalanced_rotor,
     },
     Case {
         name: "mass_onto_gap",

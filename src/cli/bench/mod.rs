@@ -6,6 +6,7 @@ mod figures;
 mod machine;
 mod measure;
 mod memory;
+mod quality;
 mod real_time;
 mod scaling;
 mod step_error;
@@ -36,13 +37,13 @@ pub struct BenchArgs {
     #[arg(long, value_name = "DOCUMENT", requires = "cases")]
     write: Option<PathBuf>,
     /// Model time after the static start (s) [default: 20; 60 real-time, 10 scaling, 3600 memory,
-    /// 30 step-error].
+    /// 30 step-error and quality].
     #[arg(long)]
     duration: Option<f64>,
     /// Rotary speed (r/min).
     #[arg(long, default_value_t = 40.0)]
     rpm: f64,
-    /// Weight on bit (kN), on from the start; real-time and step-error have their own.
+    /// Weight on bit (kN), on from the start; real-time, step-error and quality have their own.
     #[arg(long, default_value_t = 10.0)]
     wob: f64,
     /// Another model step than the configuration's (s).
@@ -92,6 +93,8 @@ enum Cases {
     Memory,
     /// The step against an eighth of it, for the same tools: minutes each.
     StepError,
+    /// What `model_quality` says of the same tools, of others and of poor steps, against an eighth of the step: an hour.
+    Quality,
     /// All of them.
     All,
 }
@@ -99,11 +102,18 @@ enum Cases {
 impl Cases {
     fn each(self) -> &'static [Self] {
         match self {
-            Self::All => &[Self::RealTime, Self::StepError, Self::Scaling, Self::Memory],
+            Self::All => &[
+                Self::RealTime,
+                Self::StepError,
+                Self::Quality,
+                Self::Scaling,
+                Self::Memory,
+            ],
             Self::RealTime => &[Self::RealTime],
             Self::Scaling => &[Self::Scaling],
             Self::Memory => &[Self::Memory],
             Self::StepError => &[Self::StepError],
+            Self::Quality => &[Self::Quality],
         }
     }
 
@@ -114,6 +124,7 @@ impl Cases {
             Self::Scaling => "scaling",
             Self::Memory => "memory",
             Self::StepError => "step-error",
+            Self::Quality => "quality",
             Self::All => "all",
         }
     }
@@ -122,7 +133,7 @@ impl Cases {
     fn usual_duration(self) -> f64 {
         match self {
             Self::RealTime => 60.0,
-            Self::StepError => 30.0,
+            Self::StepError | Self::Quality => 30.0,
             Self::Scaling => 10.0,
             Self::Memory | Self::All => 3600.0,
         }
@@ -173,6 +184,7 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
         let tables = match case {
             Cases::RealTime => real_time::tables(&config, constant, duration)?,
             Cases::StepError => step_error::tables(&named(args)?, args.rpm, duration)?,
+            Cases::Quality => quality::tables(&config, args.rpm, duration)?,
             Cases::Scaling => scaling::tables(&config, constant, duration)?,
             Cases::Memory | Cases::All => memory::tables(&config, constant, duration)?,
         };

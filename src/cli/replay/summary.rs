@@ -6,7 +6,7 @@ use super::alarms::AlarmTally;
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
 use flexdrill_core::motion::{Incident, IncidentLocation, IncidentLog, Observation};
 use flexdrill_core::tool::Body;
-use flexdrill_core::twin::Snapshot;
+use flexdrill_core::twin::{ModelQuality, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
 
 /// The largest value of something and where and when it was.
@@ -47,10 +47,46 @@ pub(super) struct Tally {
     guide_wall: Peak,
     joints_at_limit: usize,
     last: Option<Last>,
+    quality: QualityTally,
     incidents: IncidentLog,
     phases: PhaseTimes,
     /// Encoding and writing messages (ns).
     publish: u64,
+}
+
+/// How far the motion could be trusted.
+#[derive(Debug, Default)]
+struct QualityTally {
+    /// Snapshots per level, of those that were judged.
+    judged: [u64; 3],
+    /// The first of the worst level.
+    worst: ModelQuality,
+}
+
+impl QualityTally {
+    fn observe(&mut self, quality: &ModelQuality) {
+        if quality.judged {
+            self.judged[quality.level as usize] += 1;
+        }
+        if quality.level > self.worst.level || !self.worst.judged {
+            self.worst = *quality;
+        }
+    }
+
+    fn text(&self) -> String {
+        let all: u64 = self.judged.iter().sum();
+        let level = self.worst.level;
+        if all == 0 || level == QualityLevel::Good {
+            let cause = if all == 0 {
+                format!(": {}", self.worst)
+            } else {
+                String::new()
+            };
+            return format!("{level}{cause}");
+        }
+        let share = 100.0 * self.judged[level as usize] as f64 / all as f64;
+        format!("{level} for {share:.0} % of the time: {}", self.worst)
+    }
 }
 
 #[derive(Debug)]
@@ -105,6 +141,7 @@ impl Tally {
             shock: snapshot.shock,
             shock_place: shock_location(snapshot),
         });
+        self.quality.observe(&snapshot.quality);
         self.last = Some(Last {
             energy_error: snapshot.energy.error,
             drive: snapshot.energy.drive,
@@ -187,6 +224,7 @@ impl Tally {
                     100.0 * (last.energy_error / last.drive).abs()
                 )
             };
+            row("model quality", self.quality.text());
             row("energy error", format!("{:.3} J{share}", last.energy_error));
             row("rejected sub-steps", last.rejected.to_string());
             row("whirl warnings", format!("{} changes of level", last.warnings));

@@ -47,11 +47,11 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
         )?;
         writeln!(
             text,
-            "solver     {:.1} iterations per step, halved {} failed {}, energy error {:.2} %",
+            "solver     {:.1} iterations per step, halved {} failed {}, quality {}",
             status.newton_iterations_mean,
             status.halved_steps,
             status.failed_steps,
-            100.0 * status.energy_error_ratio
+            texts::quality_with_cause(status)
         )?;
         for (line, _) in texts::inputs(status) {
             writeln!(text, "input      {line}")?;
@@ -116,6 +116,9 @@ mod tests {
                 state: TwinStatus::RUNNING,
                 real_time_factor: 1.0,
                 lateness: 3.2e-4,
+                model_quality: TwinStatus::QUALITY_DEGRADED,
+                model_quality_cause: "collisions".into(),
+                energy_error_share: 0.44,
                 input_name: vec!["rotary_speed".into(), "weight_on_bit".into()],
                 input_state: vec![TwinStatus::INPUT_OK, TwinStatus::INPUT_STALE],
                 input_age: vec![0.31, 12.0],
@@ -145,6 +148,7 @@ mod tests {
         let text = block(&board, now);
         for part in [
             "RUNNING",
+            "quality DEGRADED, energy error 44 %: collisions\n",
             "x1.000 real time, late 320 us",
             "RPM 40.0 r/min rx 40.0 ok 0.3 s",
             "WOB 10.0 kN rx - STALE 12.0 s (2 refused)",

@@ -33,6 +33,21 @@ pub(super) fn severity(code: u8) -> String {
     words::severity(code).to_uppercase()
 }
 
+/// How far the motion can be trusted, in a word.
+pub(super) fn quality(status: &TwinStatus) -> String {
+    words::model_quality(status.model_quality).to_uppercase()
+}
+
+/// The same with share and cause.
+pub(super) fn quality_with_cause(status: &TwinStatus) -> String {
+    let share = 100.0 * status.energy_error_share;
+    let text = format!("{}, energy error {share:.0} %", quality(status));
+    if status.model_quality_cause.is_empty() {
+        return text;
+    }
+    format!("{text}: {}", status.model_quality_cause)
+}
+
 /// Says that the twin is silent, when it is.
 pub(super) fn heartbeat(board: &Board, now: Instant) -> Option<String> {
     match board.heartbeat(now) {

@@ -5,6 +5,7 @@
 //! assembled.
 
 use crate::dynamics::phases::Stopwatch;
+use crate::elements::bit::BitTorque;
 use crate::elements::gap::Touch;
 use crate::elements::joint::Joint;
 use crate::elements::joint::group::JointGroup;
@@ -41,10 +42,8 @@ pub struct Assembler {
     pub joints: Vec<JointReport>,
     /// The same, eight at a time.
     pub(super) groups: Vec<JointGroup>,
-    /// Torque of the rock on the bit at the last residual (N m), against the rotation.
-    pub bit_torque: f64,
-    /// d bit torque / d bit speed (N m s/rad).
-    pub(super) bit_torque_slope: f64,
+    /// Torque of the rock on the bit at the last residual.
+    pub bit: BitTorque,
     /// Times what is done here and in the steps around it.
     pub stopwatch: Stopwatch,
     /// Step-constant part of the tangent for `step_constant_for`: factors, alpha, beta.
@@ -75,9 +74,8 @@ impl Assembler {
             outer: vec![None; model.stations.len()],
             joints: vec![JointReport::default(); model.joints.len()],
             groups: model.joints.chunks(8).map(JointGroup::of).collect(),
-            bit_torque: 0.0,
+            bit: BitTorque::default(),
             stopwatch: Stopwatch::default(),
-            bit_torque_slope: 0.0,
         }
     }
 

@@ -11,9 +11,9 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::contacts::{inner_forces, outer_force};
 use crate::dynamics::outcome::EnergyAudit;
-use crate::dynamics::state::State;
 #[cfg(test)]
 use crate::dynamics::state::joint_rotations;
+use crate::dynamics::state::{State, motion};
 use crate::elements::element_form::{add, load};
 use crate::model::Model;
 use crate::simd::Kernel;
@@ -39,6 +39,9 @@ pub struct EnergyPoint {
     kinetic: f64,
     /// Part of `stored` in the geometric stiffness.
     geometric_energy: f64,
+    /// Power of the geometric stiffness with the axial force in use, less that with the axial force of the
+    /// displacements (W).
+    foresight: f64,
     /// Power of contact and stop damping (W).
     contact_dissipation: f64,
     /// Torque of the drive (N m).
@@ -59,6 +62,7 @@ impl EnergyPoint {
             stored: 0.0,
             kinetic: 0.0,
             geometric_energy: 0.0,
+            foresight: 0.0,
             contact_dissipation: 0.0,
             drive_torque: 0.0,
             bit_torque: 0.0,
@@ -86,13 +90,14 @@ impl EnergyPoint {
             stored,
             kinetic,
             geometric_energy,
+            foresight,
             contact_dissipation,
             drive_torque,
             bit_torque,
             weight_on_bit,
             ..
         } = *other;
-        self.kinetic = kinetic;
+        (self.kinetic, self.foresight) = (kinetic, foresight);
         (self.stored, self.geometric_energy, self.contact_dissipation) =
             (stored, geometric_energy, contact_dissipation);
         (self.drive_torque, self.bit_torque, self.weight_on_bit) = (drive_torque, bit_torque, weight_on_bit);
@@ -107,12 +112,14 @@ impl EnergyPoint {
             conditions,
         });
         for point in &model.masses {
-            for k in 0..3 {
+            let (alpha, moving) = (conditions.rayleigh.alpha, motion(state, point.unknown));
+            self.kinetic += point.body.kinetic_energy(moving);
+            let inertia = point.body.coupled_forces(moving, 0.0, [0.0; 3]);
+            let damped = point.body.coupled_forces(moving, alpha, [0.0; 3]);
+            for (k, mass) in point.body.diagonal().into_iter().enumerate() {
                 let u = point.unknown + k;
-                let v = state.v[u];
-                self.kinetic += 0.5 * point.mass * v * v;
-                self.inertia[u] += point.mass * state.a[u];
-                self.damping[u] += conditions.rayleigh.alpha * point.mass * v;
+                self.inertia[u] += mass * state.a[u] + inertia[k];
+                self.damping[u] += alpha * mass * state.v[u] + (damped[k] - inertia[k]);
             }
         }
         stored += self.kinetic;
@@ -144,7 +151,7 @@ impl EnergyPoint {
         }
         self.stored = stored;
         self.drive_torque = model.driven.map_or(0.0, |driven| assembler.residual[driven]);
-        self.bit_torque = assembler.bit_torque;
+        self.bit_torque = assembler.bit.torque;
         self.weight_on_bit = conditions.weight_on_bit;
     }
 }
@@ -173,7 +180,7 @@ impl Kernel for ElementEnergies<'_> {
         point.inertia.fill(0.0);
         let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
         let zero = V::splat(0.0);
-        let (mut elastic, mut geometric, mut kinetic) = (zero, zero, zero);
+        let (mut elastic, mut geometric, mut kinetic, mut foreseen) = (zero, zero, zero, zero);
         let tensions = state.pipe_axial.iter().chain(&state.guide_axial);
         for (element, &tension) in model.elements.list.iter().zip(tensions) {
             let forms = &model.elements.kinds[element.kind as usize];
@@ -184,10 +191,13 @@ impl Kernel for ElementEnergies<'_> {
             let bent = forms.stiffness.product(q);
             let moving = forms.mass.product(v);
             let stiff = forms.stiffness.product(v);
+            // Along its axis an element is a spring by itself: its force is that on the lower node.
+            let beyond = V::splat(tension - first(bent[1]));
             let tension = V::splat(tension);
             let mut stretched = forms.geometric.product(q);
             let mut damped = [zero; 2];
             for n in 0..2 {
+                foreseen = foreseen.minus_product(v[n], stretched[n].times(beyond));
                 stretched[n] = stretched[n].times(tension);
                 damped[n] = moving[n].times(alpha).plus_product(stiff[n], beta);
                 elastic = elastic.plus_product(q[n], bent[n]);
@@ -204,6 +214,7 @@ impl Kernel for ElementEnergies<'_> {
         }
         point.kinetic = 0.5 * sum(kinetic);
         point.geometric_energy = 0.5 * sum(geometric);
+        point.foresight = sum(foreseen);
         0.5 * sum(elastic) + point.geometric_energy
     }
 }
@@ -214,6 +225,14 @@ fn sum<V: Vector>(lanes: V) -> f64 {
     let mut out = [0.0; 8];
     lanes.store(&mut out);
     out[..6].iter().sum()
+}
+
+/// The first lane.
+#[inline(always)]
+fn first<V: Vector>(lanes: V) -> f64 {
+    let mut out = [0.0; 8];
+    lanes.store(&mut out);
+    out[0]
 }
 
 /// dq . (f0 + f1) / 2 for the forces of both ends of a step.
@@ -260,14 +279,17 @@ impl EnergyAudit {
         self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
         self.gravity += mean_work(moved, &model.weight, &model.weight);
         for point in &model.masses {
-            let down = (0..3).map(|k| point.gravity[k] * moved[point.unknown + k]);
-            self.gravity += point.mass * down.sum::<f64>();
+            let (before, after) = (motion(s0, point.unknown).q, motion(s1, point.unknown).q);
+            let (r0, r1) = (point.body.offset(before), point.body.offset(after));
+            let down = (0..3).map(|k| point.gravity[k] * (moved[point.unknown + k] + (r1[k] - r0[k])));
+            self.gravity += point.body.mass * down.sum::<f64>();
         }
         self.rayleigh_damping += mean_work(moved, &e0.damping, &e1.damping);
         // The scheme's own loss: what inertia took less what became kinetic energy.
         self.numerical_damping += mean_work(moved, &e0.inertia, &e1.inertia) - (e1.kinetic - e0.kinetic);
         let geometric_work = mean_work(moved, &e0.geometric, &e1.geometric);
         self.axial_update += (e1.geometric_energy - e0.geometric_energy) - geometric_work;
+        self.axial_foresight += h * mean(e0.foresight, e1.foresight);
         self.stored += e1.stored - e0.stored;
         let worked_in = self.drive + self.weight_on_bit + self.gravity + self.loads + self.axial_update;
         let taken = self.bit + self.friction + self.contact_damping + self.rayleigh_damping + self.numerical_damping;

@@ -150,6 +150,7 @@ impl Newton {
         from: &State,
         to: &mut State,
     ) -> Result<u32, (u32, StepFailure)> {
+        self.assembler.bit.begin();
         scheme.predict(h, from, to);
         to.time = conditions.time;
         let drive_angle = conditions.drive_angle;
@@ -228,7 +229,7 @@ impl Newton {
         });
         if let Some((elimination, system)) = condensed {
             self.assembler.stopwatch.lap(Phase::Assembly);
-            self.assembler.linearise(model, to, factors);
+            self.assembler.linearise(model, to, conditions, factors);
             let solved = elimination.solve(system, &self.assembler.increment, &mut self.correction);
             self.assembler.stopwatch.lap(Phase::Solve);
             solved?;
@@ -238,6 +239,10 @@ impl Newton {
             self.assembler.stopwatch.lap(Phase::Solve);
             solved?;
         }
+        let spin = model.bit_spin();
+        self.assembler
+            .bit
+            .corrected(conditions.bit_torque, factors.damping * self.correction[spin]);
         let rates = to.v.iter_mut().zip(&mut to.a);
         for ((q, (v, a)), (dq, moving)) in to.q.iter_mut().zip(rates).zip(self.correction.iter().zip(&self.moving)) {
             *q += dq;
@@ -250,6 +255,10 @@ impl Newton {
 
     /// Accelerations and multipliers in balance with the forces at `state`, Eq. 17: M a + Phi_q^T lambda = F.
     ///
+    /// With `h` (s) above 0 as far as steps of that size can follow them: (M + h C + h^2 K) a + Phi_q^T lambda = F, the
+    /// forces with what the accelerations themselves do to them within a step. Motion of frequency omega keeps its
+    /// acceleration but for the part (omega h)^2.
+    ///
     /// # Errors
     /// When the mass matrix with the constraints is singular.
     pub fn balance_accelerations(
@@ -257,13 +266,14 @@ impl Newton {
         model: &Model,
         state: &mut State,
         conditions: &Conditions,
+        h: f64,
     ) -> Result<(), crate::linear::Singular> {
         state.a.fill(0.0);
         self.assembler.residual(model, state, conditions);
         self.assembler.drop_reactions(model);
         let factors = TangentFactors {
-            stiffness: 0.0,
-            damping: 0.0,
+            stiffness: h * h,
+            damping: h,
             mass: 1.0,
         };
         self.assembler.tangent(model, state, conditions, factors);
@@ -295,6 +305,7 @@ impl Newton {
             damping: 0.0,
             mass: 0.0,
         };
+        self.assembler.bit.begin();
         self.assembler.residual(model, state, conditions);
         let mut best = self.worst();
         for _ in 0..self.tolerances.max_iterations {

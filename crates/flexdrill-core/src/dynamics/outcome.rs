@@ -124,6 +124,9 @@ pub struct EnergyAudit {
     pub numerical_damping: f64,
     /// Work of updating the axial force in the geometric stiffness between steps.
     pub axial_update: f64,
+    /// Part of it that is no law's: work that the axial forces foreseen for the end of each step do beyond those of the
+    /// displacements there. Positive feeds the motion.
+    pub axial_foresight: f64,
     /// Change of kinetic plus elastic plus contact energy since the start.
     pub stored: f64,
     /// Work in, less energy out, less stored: zero for an exact integration.

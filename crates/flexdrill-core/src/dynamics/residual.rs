@@ -3,9 +3,8 @@
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::phases::Phase;
-use crate::dynamics::state::State;
+use crate::dynamics::state::{State, motion};
 use crate::elements::element_form::{add, load};
-use crate::elements::gap::regularised_sign;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -24,10 +23,17 @@ impl Assembler {
             conditions,
         });
         for point in &model.masses {
-            for k in 0..3 {
+            let alpha = conditions.rayleigh.alpha;
+            for (k, inertia) in point.body.diagonal().into_iter().enumerate() {
                 let u = point.unknown + k;
-                let acceleration = state.a[u] + conditions.rayleigh.alpha * state.v[u] - point.gravity[k];
-                self.residual[u] += point.mass * acceleration;
+                let gravity = if k < 3 { point.gravity[k] } else { 0.0 };
+                self.residual[u] += inertia * (state.a[u] + alpha * state.v[u] - gravity);
+            }
+            if point.body.is_coupled() {
+                let forces = point
+                    .body
+                    .coupled_forces(motion(state, point.unknown), alpha, point.gravity.into());
+                self.scatter(point.unknown, &forces);
             }
         }
         self.stopwatch.lap(Phase::Assembly);
@@ -43,10 +49,9 @@ impl Assembler {
         }
         self.residual[bottom.guide] += conditions.weight_on_bit;
         let spin = bottom.pipe_above + Direction::Psi as usize;
-        let (sign, slope) = regularised_sign(state.v[spin], conditions.bit_slip_rate);
-        self.bit_torque = conditions.bit_torque * sign;
-        self.bit_torque_slope = conditions.bit_torque * slope;
-        self.residual[spin] += self.bit_torque;
+        self.bit
+            .evaluate(conditions.bit_torque, state.v[spin], conditions.bit_slip_rate);
+        self.residual[spin] += self.bit.torque;
         for load in &model.loads {
             self.residual[load.unknown] -= load.load.history.at(conditions.time);
         }

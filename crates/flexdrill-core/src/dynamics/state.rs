@@ -4,6 +4,7 @@ use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::elements::joint::Rotations;
+use crate::elements::point_body::NodeMotion;
 use crate::model::Model;
 
 /// A node's six values.
@@ -103,6 +104,17 @@ pub fn node(values: &[f64], first: usize) -> NodeVector {
 #[inline]
 pub fn translation(values: &[f64], first: usize) -> Vector3<f64> {
     Vector3::new(values[first], values[first + 1], values[first + 2])
+}
+
+/// How the node that begins at `first` moves.
+#[inline]
+pub fn motion(state: &State, first: usize) -> NodeMotion<'_> {
+    let node = first..first + 6;
+    NodeMotion {
+        q: &state.q[node.clone()],
+        v: &state.v[node.clone()],
+        a: &state.a[node],
+    }
 }
 
 /// The six rotational values of joint `joint`.

@@ -5,10 +5,10 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::phases::Phase;
-use crate::dynamics::state::State;
+use crate::dynamics::state::{State, motion};
 use crate::elements::beam::ElementMatrix;
-use crate::linear::{BlockSystem, Touching, add_columns};
-use crate::model::Model;
+use crate::linear::{BlockSystem, ContactBlock, Touching, add_columns};
+use crate::model::{Model, ResolvedMass};
 use crate::tool::description::Direction;
 
 impl Assembler {
@@ -18,7 +18,7 @@ impl Assembler {
         self.system.copy_from(&self.step_constant);
         self.add_geometric_stiffness(model, state, factors.stiffness);
         self.stopwatch.lap(Phase::Assembly);
-        self.linearise(model, state, factors);
+        self.linearise(model, state, conditions, factors);
         self.increment.add_to(&mut self.system);
         for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
             self.system.hold(unknown);
@@ -38,19 +38,53 @@ impl Assembler {
 
     /// What contacts, joints and the bit add to the tangent of Eq. 41: fills [`Assembler::increment`] from the parts
     /// linearised by the last [`Assembler::residual`] at `state`.
-    pub fn linearise(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+    pub fn linearise(&mut self, model: &Model, state: &State, conditions: &Conditions, factors: TangentFactors) {
         self.contact_tangent(model, factors);
         self.stopwatch.lap(Phase::Contact);
         self.joint_tangent(model, state, factors);
         // The bit's node is the first of the last station's block.
         let (last, spin) = (model.last(), Direction::Psi as usize);
-        if self.increment.touching[last] == Touching::Nothing {
-            self.increment.contact[last] = [[0.0; 12]; 12];
+        self.contact_block(last)[spin][spin] += factors.damping * self.bit.slope;
+        for point in model.masses.iter().filter(|point| point.body.is_coupled()) {
+            self.point_tangent(model, point, state, conditions, factors);
         }
-        self.increment.touching[last] = Touching::Both;
-        self.increment.contact[last][spin][spin] += factors.damping * self.bit_torque_slope;
         self.increment.drop_held();
         self.stopwatch.lap(Phase::Assembly);
+    }
+
+    /// What a point mass adds beside its diagonal.
+    fn point_tangent(
+        &mut self,
+        model: &Model,
+        point: &ResolvedMass,
+        state: &State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+    ) {
+        let station = model.layout.station_of(point.unknown);
+        // The pipe's end above or the guide: both are in the contact block.
+        let local = point.unknown - model.layout.offset(station);
+        let tangent = point.body.coupled_tangent(
+            motion(state, point.unknown),
+            conditions.rayleigh.alpha,
+            point.gravity.into(),
+            [factors.stiffness, factors.damping, factors.mass],
+        );
+        let block = self.contact_block(station);
+        for (column, from) in block[local..].iter_mut().zip(&tangent) {
+            for (x, y) in column[local..].iter_mut().zip(from) {
+                *x += y;
+            }
+        }
+    }
+
+    /// The contact block of a station, to be added to.
+    fn contact_block(&mut self, station: usize) -> &mut ContactBlock {
+        if self.increment.touching[station] == Touching::Nothing {
+            self.increment.contact[station] = [[0.0; 12]; 12];
+        }
+        self.increment.touching[station] = Touching::Both;
+        &mut self.increment.contact[station]
     }
 
     /// M, K and C (Eq. 7) of the K in Eq. 37, and the translational part of Phi_q, Eq. 16.
@@ -74,9 +108,9 @@ impl Assembler {
         for point in &model.masses {
             let station = model.layout.station_of(point.unknown);
             let local = point.unknown - model.layout.offset(station);
-            for k in 0..3 {
+            for (k, inertia) in point.body.diagonal().into_iter().enumerate() {
                 self.step_constant
-                    .add(station, local + k, local + k, point.mass * inertial);
+                    .add(station, local + k, local + k, inertia * inertial);
             }
         }
         for (j, joint) in model.joints.iter().enumerate() {

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::Model;
+use crate::elements::point_body::PointBody;
 use crate::tool::description::{Body, Location, PointLoad, ToolDescription};
 use crate::validation::ValidationError;
 
@@ -15,13 +16,13 @@ pub struct ResolvedLoad {
     pub load: PointLoad,
 }
 
-/// A point mass with its unknown resolved; it acts on the three translations.
+/// A point mass, or the bit's inertia, with its unknown resolved.
 #[derive(Debug, Clone)]
 pub struct ResolvedMass {
     /// Unknown of the node's u.
     pub unknown: usize,
-    /// Mass (kg).
-    pub mass: f64,
+    /// Mass, inertias and unbalance.
+    pub body: PointBody,
     /// Gravity in the node's frame (m/s2).
     pub gravity: Vector3<f64>,
 }
@@ -64,10 +65,28 @@ impl Model {
                 let gravity = frame.transpose() * (Vector3::z() * d.gravity);
                 self.masses.push(ResolvedMass {
                     unknown,
-                    mass: mass.mass,
+                    body: PointBody {
+                        mass: mass.mass,
+                        axial_inertia: mass.axial_inertia,
+                        transverse_inertia: mass.transverse_inertia,
+                        eccentricity: mass.eccentricity,
+                        phase: mass.eccentricity_phase,
+                    },
                     gravity,
                 });
             }
+        }
+        if d.bit.inertia > 0.0 {
+            self.masses.push(ResolvedMass {
+                unknown: self.stations[self.last()].pipe_above,
+                body: PointBody {
+                    axial_inertia: d.bit.inertia,
+                    // A disc's: the least that a body can have.
+                    transverse_inertia: 0.5 * d.bit.inertia,
+                    ..PointBody::default()
+                },
+                gravity: Vector3::zeros(),
+            });
         }
         Ok(())
     }

@@ -115,7 +115,7 @@ pub struct Tube {
 pub enum JointKind {
     /// Cross (Hooke) joint: second row of Eq. 13, with a bend limit.
     Universal,
-    /// Constant velocity: the spins are equal, with a bend limit.
+    /// Constant velocity: the ends turn alike whatever the bend, with a bend limit.
     BallCage,
     /// Both rows of Eq. 13 as equalities: a hinge with one free axis, for comparison only.
     Revolute,
@@ -183,6 +183,8 @@ pub struct BitDescription {
     pub friction_factor: f64,
     /// Bit speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s).
     pub slip_rate: f64,
+    /// Rotary inertia about the axis (kg m2), a thin disc's.
+    pub inertia: f64,
 }
 
 /// Which of the two pipes.
@@ -262,7 +264,7 @@ pub struct Support {
 pub enum WobPath {
     /// Upward on the guide's last node.
     Guide,
-    /// The pipes' ends are tied axially, so that both carry it.
+    /// The pipes' ends are tied axially. A jointed pipe gives way across the hole and carries hardly any of it.
     Shared,
 }
 
@@ -306,7 +308,7 @@ pub struct PointLoad {
     pub history: LoadHistory,
 }
 
-/// A mass added to a node (unbalance-free, translations only).
+/// A rigid body added to a node, round but for its unbalance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PointMass {
     /// Where.
@@ -315,6 +317,14 @@ pub struct PointMass {
     pub body: Body,
     /// Mass (kg).
     pub mass: f64,
+    /// Rotary inertia about the axis (kg m2).
+    pub axial_inertia: f64,
+    /// Rotary inertia about a diameter (kg m2); at least half of that about the axis, which is a thin disc's.
+    pub transverse_inertia: f64,
+    /// Distance of its centre of mass from the axis (m).
+    pub eccentricity: f64,
+    /// Angle of its centre of mass at spin zero, from the node's y axis towards its z axis (rad).
+    pub eccentricity_phase: f64,
 }
 
 /// What may change while the model runs; all else is fixed at the build.

@@ -80,6 +80,7 @@ impl ToolDescription {
                 diameter: 0.118,
                 friction_factor: 0.235,
                 slip_rate: 0.1,
+                inertia: 0.0,
             },
             gravity: GRAVITY_IN_MUD,
             supports: table_1(),

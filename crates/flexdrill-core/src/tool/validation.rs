@@ -124,7 +124,14 @@ impl ToolDescription {
         }
         for (index, mass) in self.masses.iter().enumerate() {
             self.validate_location(format!("masses[{index}].location"), mass.location)?;
-            Bound::NotNegative.check(&format!("masses[{index}].mass"), mass.mass, "kg")?;
+            let field = |name: &str| format!("masses[{index}].{name}");
+            Bound::NotNegative.check(&field("mass"), mass.mass, "kg")?;
+            Bound::NotNegative.check(&field("axial_inertia"), mass.axial_inertia, "kg m2")?;
+            // No body has less: its parts lie nearer to two diameters together than to the axis.
+            let disc = Bound::Within(0.5 * mass.axial_inertia, f64::MAX);
+            disc.check(&field("transverse_inertia"), mass.transverse_inertia, "kg m2")?;
+            Bound::NotNegative.check(&field("eccentricity"), mass.eccentricity, "m")?;
+            Bound::Finite.check(&field("eccentricity_phase"), mass.eccentricity_phase, "rad")?;
         }
         Ok(())
     }
@@ -224,7 +231,8 @@ impl BitDescription {
     fn validate(&self) -> Checked {
         Bound::Positive.check("bit.diameter", self.diameter, "m")?;
         Bound::NotNegative.check("bit.friction_factor", self.friction_factor, "")?;
-        Bound::Positive.check("bit.slip_rate", self.slip_rate, "rad/s")
+        Bound::Positive.check("bit.slip_rate", self.slip_rate, "rad/s")?;
+        Bound::NotNegative.check("bit.inertia", self.inertia, "kg m2")
     }
 }
 

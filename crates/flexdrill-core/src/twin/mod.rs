@@ -4,6 +4,7 @@
 
 mod checkpoint;
 mod observe;
+mod quality;
 mod readings;
 mod run;
 mod schedule;
@@ -13,6 +14,7 @@ mod snapshot;
 mod validation;
 
 pub use checkpoint::CheckpointError;
+pub use quality::{ENERGY_ERROR_BOUNDS, ModelQuality, NUMERICAL_DAMPING_BOUNDS, QualityCause, QualityLevel};
 pub use readings::StationGeometry;
 pub use run::{Frame, Run, RunInputs};
 pub use schedule::{Due, Output, Schedule, Timeline};

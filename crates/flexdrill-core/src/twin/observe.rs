@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
+use super::quality::{ModelQuality, QualityWatch};
 use super::settings::SimulationSettings;
 use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot};
 use crate::dynamics::contacts::inner_lateral;
@@ -29,6 +30,8 @@ pub(super) struct Observer {
     joint_load: JointLoadWatch,
     ageing: AgeingWatch,
     whirl: WhirlAnalysis,
+    quality: QualityWatch,
+    input_trust: f64,
     watched: Vec<(usize, Body)>,
     samples: Vec<StationSample>,
     /// Steps between samples of the whirl analysis.
@@ -64,6 +67,8 @@ impl Observer {
             joint_load: JointLoadWatch::new(&settings.joint_load, model.joints.len()),
             ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),
+            quality: QualityWatch::default(),
+            input_trust: 1.0,
             samples: vec![StationSample::default(); watched.len()],
             watched,
             decimation,
@@ -86,7 +91,19 @@ impl Observer {
 
     /// Trust in the inputs, 0 to 1.
     pub(super) fn set_input_trust(&mut self, trust: f64) {
-        self.whirl.set_input_trust(trust);
+        self.input_trust = trust;
+        self.pass_on_trust();
+    }
+
+    /// What the motion is told by can be doubted for two reasons, and both count.
+    fn pass_on_trust(&mut self) {
+        self.whirl
+            .set_input_trust(self.input_trust * self.quality.quality().level.trust());
+    }
+
+    /// How far the motion can be trusted.
+    pub(super) fn quality(&self) -> ModelQuality {
+        self.quality.quality()
     }
 
     /// Follows one whose warnings may have counted further: the sequence goes on from there.
@@ -101,6 +118,8 @@ impl Observer {
         self.joint_load.reset();
         self.ageing.reset();
         self.whirl.reset();
+        self.quality.reset();
+        self.pass_on_trust();
         self.samples.fill(StationSample::default());
         self.last_iterations = 0;
     }
@@ -116,6 +135,9 @@ impl Observer {
 
     pub(super) fn after_step(&mut self, stepper: &Stepper, applied: &Applied, step: u64, dt: f64, iterations: u32) {
         self.last_iterations = iterations;
+        if self.quality.push(dt, stepper.audit()) {
+            self.pass_on_trust();
+        }
         let (model, state, forces) = (stepper.model(), stepper.state(), &stepper.newton().assembler);
         for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
             .into_iter()
@@ -256,7 +278,7 @@ impl Observer {
         }
         let bottom = &model.stations[model.last()];
         out.bit = Bit {
-            torque: forces.bit_torque,
+            torque: forces.bit.torque,
             rotary_speed: state.v[bottom.pipe_above + Direction::Psi as usize],
             weight_on_bit: applied.weight_on_bit,
             stick_slip_index: self.stick_slip.index(),
@@ -271,6 +293,7 @@ impl Observer {
         out.warning = self.whirl.level();
         out.hazards = self.hazards(model);
         self.ageing.write(&mut out.ageing);
+        out.quality = self.quality();
     }
 
     /// How every danger stands, each with its worst place.

@@ -8,6 +8,7 @@
 
 use nalgebra::Vector3;
 
+use super::quality::ModelQuality;
 use super::simulation::Simulation;
 use super::snapshot::{Applied, Bit, Contacts, Joints, SolverCounters};
 use crate::dynamics::State;
@@ -167,6 +168,11 @@ impl Simulation {
     /// Work and energy since the start.
     pub fn energy(&self) -> &EnergyAudit {
         self.stepper().audit()
+    }
+
+    /// How far the motion can be trusted, over the last seconds.
+    pub fn quality(&self) -> ModelQuality {
+        self.observer.quality()
     }
 
     /// Drive and load as they act now, after slew limits.

@@ -100,7 +100,7 @@ impl Simulation {
         if tool.static_start {
             stepper.settle(load)?;
         } else {
-            stepper.start_as_given(load)?;
+            stepper.start_as_given(load, settings.time_step)?;
         }
         stepper.prepare(settings.time_step);
         let start = stepper.state().clone();

@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::quality::ModelQuality;
 use crate::dynamics::outcome::{EnergyAudit, StepFailure};
 use crate::motion::{Ageing, Hazards, Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
 
@@ -38,6 +39,8 @@ pub struct Snapshot {
     pub solver: SolverCounters,
     /// Energy since the start (J).
     pub energy: EnergyAudit,
+    /// How far the motion can be trusted.
+    pub quality: ModelQuality,
 }
 
 /// Inputs as they act on the model in this step.

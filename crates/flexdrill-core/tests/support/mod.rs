@@ -8,7 +8,7 @@ use std::time::Instant;
 use flexdrill_core::tool::{GapDescription, HingeAngle, JointKind, ToolDescription, Tube, WellSection};
 use flexdrill_core::twin::{Simulation, SimulationSettings};
 
-/// The paper's case with two elements per link, as `config/coarse.yaml`: a third of the work.
+/// The paper's case with two elements per link: a third of the work.
 pub fn coarse() -> ToolDescription {
     ToolDescription::paper().with_mesh(33, 2)
 }

@@ -5,7 +5,7 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{Body, Direction};
-use flexdrill_core::twin::Simulation;
+use flexdrill_core::twin::{ModelQuality, Simulation};
 use flexdrill_core::units::n_to_kn;
 
 /// Contact forces are averaged over about this (s).
@@ -57,6 +57,8 @@ pub struct Record {
     pub drive_work: f64,
     /// Newton iterations per second of model time.
     pub iterations: f64,
+    /// As the simulation judged it after the run-up, at every interval.
+    pub qualities: Vec<ModelQuality>,
 }
 
 impl Record {
@@ -101,6 +103,9 @@ impl Record {
                 }
             }
             record.sample(&simulation, mean);
+            if !run_up {
+                record.qualities.push(simulation.quality());
+            }
             if !run_up && interval % whirl_every == 0 {
                 simulation.snapshot(&mut snapshot, false);
                 for ratio in snapshot.whirl.whirl_ratio.iter().filter(|ratio| ratio.is_finite()) {
@@ -148,6 +153,17 @@ impl Record {
     /// Energy error over the drive's work.
     pub fn energy_error_ratio(&self) -> f64 {
         self.energy_error / self.drive_work
+    }
+
+    /// Root sum square over a layer's stations of their RMS force (N): 0 pipe-guide, 1 guide-wall.
+    pub fn force(&self, layer: usize) -> f64 {
+        self.layers().get(layer).map_or(f64::NAN, |stations| {
+            self.rms[stations.clone()]
+                .iter()
+                .map(|rms| rms * rms)
+                .sum::<f64>()
+                .sqrt()
+        })
     }
 
     /// Where the gaps of the two layers stand in [`Record::forces`] and [`Record::rms`]: pipe-guide, guide-wall.

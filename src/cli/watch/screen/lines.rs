@@ -131,12 +131,18 @@ pub(super) fn pace(board: &Board) -> Paragraph<'static> {
             texts::short_time(status.step_time_p99),
             texts::short_time(status.step_time_max)
         )));
-        lines.push(Line::raw(format!(
-            "newton {:.1} halved {} energy {:.2} %",
-            status.newton_iterations_mean,
-            status.halved_steps,
-            100.0 * status.energy_error_ratio
-        )));
+        let color = match status.model_quality {
+            TwinStatus::QUALITY_GOOD => GOOD,
+            TwinStatus::QUALITY_DEGRADED => DOUBTFUL,
+            _ => BAD,
+        };
+        lines.push(Line::from(vec![
+            Span::raw(format!(
+                "newton {:.1} halved {} model ",
+                status.newton_iterations_mean, status.halved_steps
+            )),
+            Span::styled(texts::quality(status), color),
+        ]));
     }
     Paragraph::new(lines).block(Block::bordered().title(" pace and solver "))
 }

@@ -7,7 +7,7 @@ use crate::dynamics::newton::Tolerances;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::{SolverKind, Stepper};
-use crate::tool::ToolDescription;
+use crate::tool::{Body, Direction, JointKind, LoadHistory, Location, PointLoad, ToolDescription};
 use nalgebra::Vector3;
 
 fn stepper(tolerances: Tolerances, solver: SolverKind) -> Stepper {
@@ -72,6 +72,31 @@ fn nothing_moves_after_the_static_start() {
         .fold(0.0, f64::max);
     // 0.1 s with the accelerations that Newton's tolerance of 1 mN on 0.5 kg allows: 1e-5 m.
     assert!(moved < 1e-5, "moved by {moved} m");
+}
+
+/// Without friction all joints of a bent chain at rest pass on the bit's torque: a ball cage as it is, whichever way it
+/// bends.
+#[test]
+fn ball_cages_pass_the_torque_on() {
+    let mut tool = crate::support::small();
+    tool.joint.kind = JointKind::BallCage;
+    tool.loads = vec![PointLoad {
+        location: Location::Bottom,
+        body: Body::Pipe,
+        direction: Direction::Psi,
+        history: LoadHistory::Constant(-50.0),
+    }];
+    let simulation = crate::support::simulation(&tool);
+    let joints = simulation.new_snapshot().joints;
+    assert!(
+        joints.bend_angle.iter().all(|&bend| bend > 0.05),
+        "{:?}",
+        joints.bend_angle
+    );
+    for torque in joints.torque {
+        // The static start leaves some 1 mN m per node; ten nodes.
+        assert!((torque - 50.0).abs() < 1e-2, "{torque} N m");
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::dynamics::stepper::{SolverKind, Stepper};
 use crate::linear::{CondensedElimination, CondensedSystem};
 use crate::model::Model;
 use crate::simd::Instructions;
-use crate::tool::{JointKind, ToolDescription, WobPath};
+use crate::tool::{Body, JointKind, Location, PointMass, ToolDescription, WobPath};
 
 /// Deterministic values in -1..1.
 fn random(seed: &mut u64) -> f64 {
@@ -68,7 +68,7 @@ fn check(tool: &ToolDescription) {
         assembler.joints.iter().any(|joint| joint.moment > 0.0),
         "no shut stop to test"
     );
-    assembler.linearise(model, &state, factors);
+    assembler.linearise(model, &state, &conditions, factors);
 
     let mut seed = 7;
     let mut rhs: Vec<f64> = (0..model.unknowns()).map(|_| random(&mut seed)).collect();
@@ -138,6 +138,27 @@ fn universal_joints() {
 fn ball_cages() {
     let mut tool = small();
     tool.joint.kind = JointKind::BallCage;
+    check(&tool);
+}
+
+#[test]
+fn bodies_on_nodes() {
+    let mut tool = small();
+    tool.bit.inertia = 0.02;
+    let body = |location, body, eccentricity| PointMass {
+        location,
+        body,
+        mass: 8.0,
+        axial_inertia: 0.05,
+        transverse_inertia: 0.03,
+        eccentricity,
+        eccentricity_phase: 0.4,
+    };
+    tool.masses = vec![
+        body(Location::Joint(1), Body::Pipe, 0.02),
+        body(Location::Station(1), Body::Pipe, 0.01),
+        body(Location::Station(4), Body::Guide, 0.03),
+    ];
     check(&tool);
 }
 

@@ -10,7 +10,7 @@ use crate::dynamics::state::State;
 use crate::dynamics::stepper::{SolverKind, Stepper};
 use crate::model::Model;
 use crate::support::{Random, small};
-use crate::tool::{JointKind, ToolDescription, WobPath};
+use crate::tool::{Body, JointKind, Location, PointMass, ToolDescription, WobPath};
 
 /// A state with every term active: tilts, spins, contacts in both layers, stops, multipliers, axial forces.
 /// Deterministic.
@@ -146,6 +146,27 @@ fn universal_joints() {
 fn ball_cage_joints() {
     let mut tool = small();
     tool.joint.kind = JointKind::BallCage;
+    check(&tool);
+}
+
+#[test]
+fn bodies_on_nodes() {
+    let mut tool = small();
+    tool.bit.inertia = 0.02;
+    let body = |location, body, eccentricity| PointMass {
+        location,
+        body,
+        mass: 8.0,
+        axial_inertia: 0.05,
+        transverse_inertia: 0.03,
+        eccentricity,
+        eccentricity_phase: 0.4,
+    };
+    tool.masses = vec![
+        body(Location::Joint(1), Body::Pipe, 0.02),
+        body(Location::Station(1), Body::Pipe, 0.01),
+        body(Location::Station(4), Body::Guide, 0.03),
+    ];
     check(&tool);
 }
 
