@@ -19,7 +19,7 @@ use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
 use flexdrill_core::tool::Body;
-use flexdrill_core::twin::Snapshot;
+use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_realtime::link::RunState;
 
@@ -121,7 +121,7 @@ fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
     show(&mut book, 10, 1, &snapshot(&[stick_slip(), rolling()]));
     let (events, list) = publish(&mut book, 11);
     let list = list.unwrap();
-    assert_eq!(list.alarms.len(), 10, "all of them are listed");
+    assert_eq!(list.alarms.len(), 11, "all of them are listed");
     assert_eq!((list.sequence, list.unacknowledged, events.len()), (2, 2, 2));
     let worst = &list.alarms[0];
     assert_eq!((worst.id.as_str(), worst.priority), ("backward_whirl", Alarm::HIGH));
@@ -172,7 +172,7 @@ fn what_has_gone_is_shown_until_it_is_acknowledged() {
     assert!(returned.evidence.contains("rolls"), "{}", returned.evidence);
     assert_eq!(
         book.request(&acknowledge(""), 15 * SECOND).unwrap(),
-        "1 alarms acknowledged"
+        "alarms acknowledged: 1"
     );
     show(&mut book, 15, 1, &snapshot(&[]));
     let (events, list) = publish(&mut book, 16);
@@ -205,6 +205,29 @@ fn a_drive_that_runs_up_suppresses_the_tool_by_design() {
         Alarm::ACTIVE_UNACKNOWLEDGED
     );
     assert!(events.iter().any(|event| event.change == AlarmEvent::RELEASED));
+}
+
+#[test]
+fn a_model_that_contradicts_itself_calls_also_while_the_drive_stands() {
+    let mut book = AlarmBook::fresh(config(), 0);
+    let mut poor = Snapshot::default();
+    poor.quality = ModelQuality {
+        level: QualityLevel::Poor,
+        cause: Some(QualityCause::EnergyError),
+        value: 0.56,
+        bound: 0.53,
+        judged: true,
+        ..ModelQuality::default()
+    };
+    show(&mut book, 10, 1, &poor);
+    let list = publish(&mut book, 11).1.unwrap();
+    let first = &list.alarms[0];
+    assert_eq!((first.id.as_str(), first.priority), ("model_quality", Alarm::MEDIUM));
+    assert!(
+        first.evidence.starts_with("Energy errors of the steps come to 56 %"),
+        "{}",
+        first.evidence
+    );
 }
 
 #[test]

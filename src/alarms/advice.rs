@@ -1,15 +1,16 @@
 //! What to do, from the rules of the configuration: limits that the inputs are to be brought to.
 
+use flexdrill_alarms::Priority;
 use flexdrill_config::{Advice, InputsConfig};
 use flexdrill_core::twin::Applied;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
-/// What is said where no rule would change anything.
-const NO_RULE: &str = "Pick up off bottom and bring the tool to rest; nothing in the rules would change it now.";
+/// The last resort of a driller, for what is high and where no rule would change anything.
+const STOP: &str = "pick up off bottom and stop the drive.";
 
-/// The sentence for inputs as they act now. Only what changes them in the right direction, within the limits that the
+/// The sentences for inputs as they act now. Only what changes them in the right direction, within the limits that the
 /// inputs have anyway, is said.
-pub(super) fn what_to_do(advice: &Advice, applied: &Applied, inputs: &InputsConfig) -> String {
+pub(super) fn what_to_do(advice: &Advice, applied: &Applied, inputs: &InputsConfig, priority: Priority) -> String {
     let (speed, weight) = (rad_per_s_to_rpm(applied.rotary_speed), n_to_kn(applied.weight_on_bit));
     let mut ways = Vec::new();
     if let Some(limit) = advice.lower_weight_on_bit_kn.filter(|limit| weight > *limit) {
@@ -26,11 +27,16 @@ pub(super) fn what_to_do(advice: &Advice, applied: &Applied, inputs: &InputsConf
     if let Some(limit) = advice.raise_rotary_speed_rpm.filter(reachable) {
         ways.push(format!("raise the speed above {limit} r/min ({speed:.0} r/min now)"));
     }
-    if ways.is_empty() {
-        return NO_RULE.to_owned();
-    }
-    let sentence = format!("{}.", ways.join(" or "));
-    let (first, rest) = sentence.split_at(1);
+    let last = match (ways.is_empty(), priority) {
+        (true, _) => return capitalized(STOP),
+        (false, Priority::High) => format!(" If it does not end, {STOP}"),
+        (false, _) => String::new(),
+    };
+    capitalized(&ways.join(" or ")) + "." + &last
+}
+
+fn capitalized(text: &str) -> String {
+    let (first, rest) = text.split_at(text.len().min(1));
     first.to_uppercase() + rest
 }
 
@@ -39,13 +45,15 @@ mod tests {
     use super::*;
     use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
+    const STOPS: &str = "Pick up off bottom and stop the drive.";
+
     fn told(advice: &Advice, rpm: f64, kn: f64) -> String {
         let applied = Applied {
             rotary_speed: rpm_to_rad_per_s(rpm),
             weight_on_bit: kn_to_n(kn),
             ..Applied::default()
         };
-        what_to_do(advice, &applied, &InputsConfig::default())
+        what_to_do(advice, &applied, &InputsConfig::default(), Priority::Medium)
     }
 
     #[test]
@@ -63,12 +71,12 @@ mod tests {
             told(&advice, 40.0, 5.0),
             "Raise the speed above 55 r/min (40 r/min now)."
         );
-        assert_eq!(told(&advice, 60.0, 5.0), NO_RULE);
+        assert_eq!(told(&advice, 60.0, 5.0), STOPS);
         // The drive does not go there.
         let fast = Advice {
             raise_rotary_speed_rpm: Some(500.0),
             ..Advice::default()
         };
-        assert_eq!(told(&fast, 40.0, 10.0), NO_RULE);
+        assert_eq!(told(&fast, 40.0, 10.0), STOPS);
     }
 }

@@ -19,6 +19,8 @@ pub enum AlarmId {
     StickSlip,
     /// Joints beyond their rating.
     JointLoad,
+    /// The model contradicts itself.
+    ModelQuality,
     /// Rotary speed not received, refused or stale.
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
@@ -33,12 +35,13 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All of them; where they are equally bad, the first goes first.
-    pub const ALL: [AlarmId; 10] = [
+    pub const ALL: [AlarmId; 11] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
         AlarmId::StickSlip,
         AlarmId::JointLoad,
+        AlarmId::ModelQuality,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
         AlarmId::RealTime,
@@ -54,6 +57,7 @@ impl AlarmId {
             AlarmId::Shock => "shock",
             AlarmId::StickSlip => "stick_slip",
             AlarmId::JointLoad => "joint_load",
+            AlarmId::ModelQuality => "model_quality",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
             AlarmId::RealTime => "real_time",
@@ -70,6 +74,7 @@ impl AlarmId {
             AlarmId::Shock => "lateral shock",
             AlarmId::StickSlip => "stick-slip",
             AlarmId::JointLoad => "joints beyond their rating",
+            AlarmId::ModelQuality => "model not to be relied on",
             AlarmId::RotarySpeedInput => "rotary speed not known",
             AlarmId::WeightOnBitInput => "weight on bit not known",
             AlarmId::RealTime => "not in real time",
@@ -107,6 +112,7 @@ impl AlarmId {
             AlarmId::Shock => tool(&alarms.shock),
             AlarmId::StickSlip => tool(&alarms.stick_slip),
             AlarmId::JointLoad => tool(&alarms.joint_load),
+            AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),
             AlarmId::RealTime => node(&alarms.real_time),

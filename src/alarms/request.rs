@@ -29,7 +29,7 @@ impl Request {
         match self {
             Request::Acknowledge(request) if ["", ALL].contains(&request.id.as_str()) => {
                 let count = system.acknowledge_all(time, &by, events)?;
-                Ok(format!("{count} alarms acknowledged"))
+                Ok(format!("alarms acknowledged: {count}"))
             }
             Request::Acknowledge(request) => {
                 system.acknowledge(system.find(&request.id)?, time, &by, events)?;

@@ -1,4 +1,4 @@
-//! Alarms of the tool's motion, from the hazards that the analysis sees.
+//! Alarms of the tool's motion, from the hazards that the analysis sees, and of how far it can be trusted.
 
 use super::advice;
 use super::catalogue::AlarmId;
@@ -7,7 +7,7 @@ use flexdrill_alarms::Priority;
 use flexdrill_config::{Advice, AdviceTable, Config};
 use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
 use flexdrill_core::tool::Body;
-use flexdrill_core::twin::Snapshot;
+use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
 
 /// Difference to the rate of rolling without slip up to which it is said to roll, as by default in the analysis.
@@ -16,15 +16,52 @@ const ROLLS: f64 = 0.15;
 /// What a snapshot says of every alarm of the tool.
 pub(super) fn findings(snapshot: &Snapshot, config: &Config) -> impl Iterator<Item = (AlarmId, Finding)> {
     let hazards = snapshot.hazards;
+    let quality = (AlarmId::ModelQuality, quality(&snapshot.quality));
     let suppressed = hazards.drive != DriveState::Turning;
-    hazards.list.into_iter().map(move |hazard| {
-        let finding = if suppressed || hazard.severity == Severity::Ok {
-            Finding::default()
-        } else {
-            describe(&hazard, snapshot, config)
+    let of_hazards = hazards.list.into_iter().map(move |hazard| {
+        let finding = match priority(hazard.severity) {
+            Some(priority) if !suppressed => describe(&hazard, priority, snapshot, config),
+            _ => Finding::default(),
         };
         (AlarmId::of_hazard(hazard.kind), Finding { suppressed, ..finding })
-    })
+    });
+    of_hazards.chain([quality])
+}
+
+/// Whether the motion is the tool's: the same standing and turning.
+fn quality(quality: &ModelQuality) -> Finding {
+    let priority = match quality.level {
+        QualityLevel::Good => return Finding::default(),
+        QualityLevel::Degraded => Priority::Low,
+        QualityLevel::Poor => Priority::Medium,
+    };
+    Finding {
+        priority: Some(priority),
+        value: quality.value,
+        threshold: quality.bound,
+        unit: "of what damping takes",
+        evidence: sentence(&quality.to_string()),
+        cause: match quality.cause {
+            Some(QualityCause::NumericalDamping) => "The scheme itself damps the motion.",
+            Some(QualityCause::EnergyError) | None => {
+                "Collisions are too short for the step, or axial forces change too much within it."
+            }
+        }
+        .to_owned(),
+        consequence: match quality.level {
+            QualityLevel::Poor => "Ripple and forces may be off by a third and more: hazards may be missed or made up.",
+            _ => "Ripple and forces may be off by more than a tenth.",
+        }
+        .to_owned(),
+        what_to_do: "Go by the rig's own instruments; take a smaller solver.time_step for the next run.".to_owned(),
+        ..Finding::default()
+    }
+}
+
+/// With a capital and a full stop.
+fn sentence(text: &str) -> String {
+    let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}.", first.to_uppercase())
 }
 
 /// The priority that a level of the analysis has: what to watch is low, what warns medium, what is critical high.
@@ -37,19 +74,11 @@ pub(super) fn priority(severity: Severity) -> Option<Priority> {
     }
 }
 
-fn describe(hazard: &Hazard, snapshot: &Snapshot, config: &Config) -> Finding {
+fn describe(hazard: &Hazard, priority: Priority, snapshot: &Snapshot, config: &Config) -> Finding {
     let words = words(hazard);
-    let priority = priority(hazard.severity);
-    let mut what_to_do = advice::what_to_do(
-        &advice_for(hazard.kind, &config.alarms.advice),
-        &snapshot.applied,
-        &config.inputs,
-    );
-    if priority == Some(Priority::High) {
-        what_to_do.push_str(" If it does not end, pick up off bottom and stop the drive.");
-    }
+    let advice = advice_for(hazard.kind, &config.alarms.advice);
     Finding {
-        priority,
+        priority: Some(priority),
         suppressed: false,
         place: hazard.place,
         value: hazard.value,
@@ -59,7 +88,7 @@ fn describe(hazard: &Hazard, snapshot: &Snapshot, config: &Config) -> Finding {
         evidence: words.evidence,
         cause: words.cause.to_owned(),
         consequence: words.consequence,
-        what_to_do,
+        what_to_do: advice::what_to_do(&advice, &snapshot.applied, &config.inputs, priority),
     }
 }
 

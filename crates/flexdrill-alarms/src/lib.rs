@@ -8,7 +8,8 @@
 //! - [`Standing`] is the state of one alarm, [`State`] its one word, [`Change`] what can happen to it. A standing
 //!   changes by [`Standing::apply`] and in no other way, so that the journal gives the state.
 //! - `alarm`: one alarm with its delays: when a condition is a change.
-//! - [`AlarmSystem`]: a fixed set of alarms, numbered events, requests of operators, [`Saved`] over a restart.
+//! - [`AlarmSystem`]: a fixed set of alarms, numbered events, requests of operators (refused with a
+//!   [`Refusal`]), [`Saved`] over a restart.
 //! - [`Statistics`]: how many, how often repeated, how long in flood.
 //! - [`Setpoints`]: from a value to a priority, with a deadband.
 //!
@@ -23,6 +24,8 @@
 
 mod alarm;
 mod event;
+mod request;
+mod saved;
 mod setpoints;
 mod standing;
 mod statistics;
@@ -30,10 +33,12 @@ mod system;
 
 pub use alarm::{Delays, Observation};
 pub use event::{Event, Operator};
+pub use request::{Refusal, Shelving};
+pub use saved::{FORMAT, Saved, SavedError};
 pub use setpoints::Setpoints;
 pub use standing::{Change, Priority, Shelf, Standing, State, Unshelving};
 pub use statistics::{Figures, Statistics};
-pub use system::{Alarm, AlarmSystem, Definition, FORMAT, Refusal, Saved, SavedError, Shelving};
+pub use system::{Alarm, AlarmSystem, Definition};
 
 /// An instant (ns since 1970).
 pub type Time = i64;

@@ -13,6 +13,9 @@ const FLOOD: usize = 10;
 /// Span in which an alarm that repeats itself chatters (s).
 const CHATTER_SPAN: f64 = 60.0;
 
+/// Longest time between two looks in which somebody watched (s): after more the program was not running.
+const WATCHED_GAP: f64 = 60.0;
+
 /// Annunciations: each time that an alarm calls for somebody.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics {
@@ -68,10 +71,13 @@ impl Statistics {
         }
     }
 
-    /// Lets time pass. A clock that goes back begins a new stretch.
+    /// Lets time pass. What a restart took is not watched, and a clock that goes back begins a new stretch.
     pub(crate) fn advance(&mut self, time: Time) {
         if let Some(last) = self.last {
-            let passed = (time - last).max(0);
+            let passed = match time - last {
+                gap if (0..=span(WATCHED_GAP)).contains(&gap) => gap,
+                _ => 0,
+            };
             self.watched += passed;
             if self.recent.len() > FLOOD {
                 self.flooded += passed;

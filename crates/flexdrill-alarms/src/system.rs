@@ -1,13 +1,12 @@
 //! A fixed set of alarms.
 
-use serde::{Deserialize, Serialize};
-
 use crate::alarm::Timed;
-use crate::{Change, Delays, Event, Observation, Operator, Priority, Shelf, Standing, State, Statistics, Time};
-use crate::{Unshelving, span};
-
-/// Version of [`Saved`].
-pub const FORMAT: u32 = 1;
+use crate::request::named;
+use crate::saved::SavedAlarm;
+use crate::{
+    Change, Delays, Event, FORMAT, Observation, Operator, Priority, Refusal, Saved, SavedError, Shelf, Shelving,
+    Standing, Statistics, Time, Unshelving, span,
+};
 
 /// An alarm of the set.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,69 +28,6 @@ pub struct Alarm {
     pub since: Time,
 }
 
-/// How an alarm is to be put aside.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shelving {
-    /// Until the condition goes, at most for the longest time.
-    OneShot,
-    /// For so long (s).
-    Timed(f64),
-}
-
-/// Why a request was refused. `alarm` is the id.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Refusal {
-    /// There is no such alarm.
-    #[error("there is no alarm '{alarm}'; the alarms are {}", known.join(", "))]
-    Unknown {
-        /// As asked for.
-        alarm: String,
-        /// Those that there are.
-        known: Vec<&'static str>,
-    },
-    /// Who asks must say who he is.
-    #[error("operator is empty: say who asks, the journal keeps it")]
-    NoOperator,
-    /// What is put aside needs a reason.
-    #[error("reason is empty: say why {alarm} is shelved, the journal keeps it")]
-    NoReason {
-        /// Which.
-        alarm: &'static str,
-    },
-    /// There is nothing to acknowledge.
-    #[error("{alarm} is {}: there is nothing to acknowledge", state.name())]
-    NothingToAcknowledge {
-        /// Which.
-        alarm: &'static str,
-        /// How it stands.
-        state: State,
-    },
-    /// It is not on the shelf.
-    #[error("{alarm} is {}: it is not shelved", state.name())]
-    NotShelved {
-        /// Which.
-        alarm: &'static str,
-        /// How it stands.
-        state: State,
-    },
-    /// The configuration has switched it off.
-    #[error("{alarm} is out of service: it is switched off in the configuration")]
-    OutOfService {
-        /// Which.
-        alarm: &'static str,
-    },
-    /// Nothing is shelved for ever, or for no time.
-    #[error("duration = {asked} s; shelving {alarm} takes above 0, at most {most} s")]
-    Duration {
-        /// Which.
-        alarm: &'static str,
-        /// As asked for (s).
-        asked: f64,
-        /// The longest (s).
-        most: f64,
-    },
-}
-
 /// Alarms with their journal's numbers, requests and figures. Every method appends the events that it causes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlarmSystem {
@@ -100,34 +36,6 @@ pub struct AlarmSystem {
     statistics: Statistics,
     sequence: u64,
     longest_shelving: f64,
-}
-
-/// What is kept over a restart.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Saved {
-    format: u32,
-    sequence: u64,
-    alarms: Vec<SavedAlarm>,
-    statistics: Statistics,
-}
-
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SavedAlarm {
-    id: String,
-    state: Timed,
-}
-
-/// Why a saved state is not taken up.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum SavedError {
-    /// Saved by another version.
-    #[error("the alarms were saved in format {found}, this version reads {FORMAT}")]
-    Format {
-        /// Of the file.
-        found: u32,
-    },
 }
 
 impl AlarmSystem {
@@ -422,13 +330,5 @@ impl Alarm {
             standing: alarm.standing,
             since: alarm.since,
         }
-    }
-}
-
-fn named(by: &Operator<'_>) -> Result<(), Refusal> {
-    if by.name.trim().is_empty() {
-        Err(Refusal::NoOperator)
-    } else {
-        Ok(())
     }
 }

@@ -20,6 +20,8 @@ section! {
         stick_slip: ToolAlarm = ToolAlarm::default(), below;
         /// Joints beyond their rating.
         joint_load: ToolAlarm = ToolAlarm::default(), below;
+        /// The model contradicts itself.
+        model_quality: ToolAlarm = ToolAlarm::default(), below;
         /// `rig/rotary_speed_rpm` not received, refused or stale.
         rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
         /// `rig/weight_on_bit_kn` not received, refused or stale.
@@ -36,7 +38,7 @@ section! {
 }
 
 section! {
-    /// An alarm of the tool's motion, in model time.
+    /// An alarm of the tool's motion or of what it is judged by, in model time.
     #[derive(Copy)]
     pub struct ToolAlarm(this) {
         /// False takes the alarm out of service. Default true.

@@ -1,15 +1,16 @@
 //! Alarms in the node: conditions from the publisher's side, requests by service, and the state over a restart.
 
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
+use std::sync::{Arc, PoisonError};
 
 use ros2_client::Node;
 use rustdds::DomainParticipant;
 use tokio::sync::oneshot;
 
+use super::publish::{self, PublisherParts};
 use crate::alarms::state_file::{self, StateError, StateWriter};
-use crate::alarms::{AlarmBook, NodeState, Request};
+use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
 use crate::messages::outputs::Encoded;
 use crate::messages::std_msgs::Header;
 use crate::messages::{
@@ -21,6 +22,7 @@ use crate::ros::parameters::Task;
 use crate::ros::service::{ServiceMapping, ServiceServer};
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_config::Config;
+use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::twin::Snapshot;
 
 /// A request on its way to the publisher, which keeps the alarms.
@@ -111,6 +113,36 @@ impl AlarmDesk {
     /// All alarms as they stand.
     pub fn list(&self, header: Header) -> AlarmList {
         self.book.list(header)
+    }
+}
+
+/// Judges the alarms of the node itself. They follow the wall clock, so that they go on when the model does not.
+pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure>, real_time_factor: Option<f64>) {
+    let conditioner = parts.conditioner.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let state = NodeState {
+        conditioner: &conditioner,
+        now: (parts.now)(),
+        run_state: parts.gauges.run_state(),
+        failure,
+        real_time_factor,
+        recording: parts.recording.as_ref().map(|recording| RecordingState {
+            error: recording.health().error(),
+            drops: recording.health().drops(),
+        }),
+    };
+    let time = (parts.rig_time)();
+    parts.alarms.observe_node(&state, time);
+}
+
+/// Publishes what is due of the alarms, and keeps it.
+pub(super) fn publish(parts: &mut PublisherParts, header: Header, clock: u64) {
+    let (publishers, recording) = (&parts.publishers, parts.recording.as_ref());
+    let sent = parts.alarms.publish(header, clock, |encoded| {
+        publish::send(publishers, recording, encoded);
+        Ok(())
+    });
+    if let Err(error) = sent {
+        tracing::error!("an alarm could not be encoded: {error}");
     }
 }
 

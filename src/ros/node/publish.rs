@@ -6,11 +6,10 @@ use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use super::alarms::AlarmDesk;
+use super::alarms::{self, AlarmDesk};
 use super::control::Change;
 use super::publishers::Publishers;
 use super::rig::{Now, Received};
-use crate::alarms::{NodeState, RecordingState};
 use crate::bag::RecordingThread;
 use crate::health::diagnostics::{Diagnostics, Evidence};
 use crate::health::motion::MotionEvidence;
@@ -112,7 +111,8 @@ impl Publisher {
             }
         }
         self.send_status();
-        self.send_alarms(monotonic::now());
+        let header = self.header();
+        alarms::publish(&mut self.parts, header, monotonic::now());
         (self.parts.recording, self.newest_status)
     }
 
@@ -144,12 +144,14 @@ impl Publisher {
             self.send_diagnostics();
         }
         if due(&mut self.next_alarms, now, NODE_ALARM_RATE) {
-            self.judge_node(now);
+            let factor = self.status.real_time_factor(now, &self.parts.gauges);
+            alarms::judge_node(&mut self.parts, self.evidence.failure, factor);
         }
         let parts = &mut self.parts;
         parts.alarms.answer(|| (parts.rig_time)());
         if self.parts.alarms.is_due(now) {
-            self.send_alarms(now);
+            let header = self.header();
+            alarms::publish(&mut self.parts, header, now);
         }
         worked
     }
@@ -283,42 +285,6 @@ impl Publisher {
         self.late = skipping;
     }
 
-    /// The alarms of the node itself follow the wall clock, so that they go on when the model does not.
-    fn judge_node(&mut self, wall: u64) {
-        let parts = &mut self.parts;
-        let conditioner = parts.conditioner.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        let state = NodeState {
-            conditioner: &conditioner,
-            now: (parts.now)(),
-            run_state: parts.gauges.run_state(),
-            failure: self.evidence.failure,
-            real_time_factor: self.status.real_time_factor(wall, &parts.gauges),
-            recording: parts.recording.as_ref().map(|recording| RecordingState {
-                error: recording.health().error(),
-                drops: recording.health().drops(),
-            }),
-        };
-        let time = (parts.rig_time)();
-        parts.alarms.observe_node(&state, time);
-    }
-
-    fn send_alarms(&mut self, wall: u64) {
-        let header = self.header();
-        let PublisherParts {
-            alarms,
-            publishers,
-            recording,
-            ..
-        } = &mut self.parts;
-        let sent = alarms.publish(header, wall, |encoded| {
-            send(publishers, recording.as_ref(), encoded);
-            Ok(())
-        });
-        if let Err(error) = sent {
-            tracing::error!("an alarm could not be encoded: {error}");
-        }
-    }
-
     fn send_diagnostics(&mut self) {
         self.evidence.alarms = self.parts.alarms.list(self.header());
         let message = DiagnosticArray {
@@ -366,7 +332,7 @@ impl PublisherParts {
 }
 
 /// The same bytes to DDS and to the recording.
-fn send(publishers: &Publishers, recording: Option<&RecordingThread>, encoded: Encoded<'_>) {
+pub(super) fn send(publishers: &Publishers, recording: Option<&RecordingThread>, encoded: Encoded<'_>) {
     publishers.publish(encoded.topic, encoded.cdr);
     if let Some(recording) = recording {
         recording.record(encoded.topic, encoded.stamp, encoded.cdr);
