@@ -67,29 +67,32 @@ section! {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdviceTable {
-    /// Default: below 40 r/min or below 8 kN.
+    /// Default: below 80 r/min or above 25 kN.
     pub backward_whirl: Advice,
-    /// Default: below 8 kN.
+    /// Default: below 60 r/min or below 30 kN.
     pub forward_whirl: Advice,
-    /// Default: below 30 r/min or below 8 kN.
+    /// Default: below 60 r/min or below 30 kN.
     pub shock: Advice,
     /// Default: above 55 r/min or below 8 kN.
     pub stick_slip: Advice,
-    /// Default: below 8 kN.
+    /// Default: below 40 kN.
     pub joint_load: Advice,
 }
 
 impl Default for AdviceTable {
     fn default() -> Self {
         Self {
-            backward_whirl: Advice::lower(Some(40.0), Some(8.0)),
-            forward_whirl: Advice::lower(None, Some(8.0)),
-            shock: Advice::lower(Some(30.0), Some(8.0)),
+            backward_whirl: Advice {
+                raise_weight_on_bit_kn: Some(25.0),
+                ..Advice::lower(Some(80.0), None)
+            },
+            forward_whirl: Advice::lower(Some(60.0), Some(30.0)),
+            shock: Advice::lower(Some(60.0), Some(30.0)),
             stick_slip: Advice {
                 raise_rotary_speed_rpm: Some(55.0),
                 ..Advice::lower(None, Some(8.0))
             },
-            joint_load: Advice::lower(None, Some(8.0)),
+            joint_load: Advice::lower(None, Some(40.0)),
         }
     }
 }
