@@ -139,7 +139,7 @@ fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
     // At 40 r/min already the rule has nothing to say of the speed.
     assert_eq!(
         worst.what_to_do,
-        "Lower the weight on bit below 8 kN (10.0 kN now). If it does not end, pick up off bottom and stop the drive."
+        "Raise the weight on bit above 25 kN (10.0 kN now). If it does not end, pick up off bottom and stop the drive."
     );
     let next = &list.alarms[1];
     assert_eq!((next.id.as_str(), next.priority), ("stick_slip", Alarm::LOW));
