@@ -3,8 +3,8 @@
 use super::Config;
 use std::f64::consts::PI;
 
+use flexdrill_core::tool::JointKind;
 use flexdrill_core::tool::section::SectionProperties;
-use flexdrill_core::tool::{JointKind, Tube};
 use flexdrill_core::units::rad_to_deg;
 
 /// How large the system is, held directions included.
@@ -61,22 +61,18 @@ impl Config {
         (self.tool.guide.inner_diameter - contact.into_iter().fold(0.0, f64::max)) / 2.0
     }
 
-    /// How long a node that strikes alone stays in contact (s), half a period of its mass on the contact's spring: the
-    /// lightest of the pipe in the guide, and a node of the guide in the hole. Infinite where nothing can strike.
-    pub fn contact_durations(&self) -> [f64; 2] {
+    /// How long the lightest node of the pipe that strikes the guide by itself stays in contact (s): half a period of
+    /// its mass on the contact's spring.
+    pub fn contact_duration(&self) -> f64 {
         let elements = self.tool.elements_per_link;
         let length = self.link_length() / elements as f64;
-        let mass = |tube: Tube| length * SectionProperties::of(tube, self.tool.material.describe(), 1.0).mass;
+        let material = self.tool.material.describe();
         let sections = self.tool.pipe.element_sections(elements);
-        let pipe = sections.into_iter().map(mass).fold(f64::INFINITY, f64::min);
-        let guide = if self.tool.guide.fixed {
-            f64::INFINITY
-        } else {
-            mass(self.tool.guide.section())
-        };
-        let contact = &self.contact;
-        [(pipe, contact.inner.stiffness), (guide, contact.outer.stiffness)]
-            .map(|(mass, stiffness)| PI * (mass / stiffness).sqrt())
+        let masses = sections
+            .into_iter()
+            .map(|tube| SectionProperties::of(tube, material, 1.0).mass * length);
+        let lightest = masses.fold(f64::INFINITY, f64::min);
+        PI * (lightest / self.contact.inner.stiffness).sqrt()
     }
 
     /// Clearance between guide and wall (m).

@@ -3,8 +3,9 @@
 use super::Config;
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
-/// Steps that a collision must last at least. Tools with 1.2 and more are good at the default step, those with 1.0 and
-/// less are not (`docs/measurements.md`, model quality).
+/// Steps that a collision of pipe and guide must last at least: the default tool's lasts 1.5 and is right, at 0.99 its
+/// motion is not, nor that of a stiffer contact at 0.85 (`docs/measurements.md`, model quality). The guide lies on the
+/// wall rather than striking it: contacts of 0.3 steps there did no harm.
 const FEWEST_STEPS: f64 = 1.1;
 
 impl Config {
@@ -74,20 +75,15 @@ impl Config {
     }
 
     fn warn_of_short_contacts(&self, warnings: &mut Vec<String>) {
-        let step = self.solver.time_step;
-        let springs = [
-            ("contact.inner.stiffness", self.contact.inner.stiffness),
-            ("contact.outer.stiffness", self.contact.outer.stiffness),
-        ];
-        for ((key, stiffness), duration) in springs.into_iter().zip(self.contact_durations()) {
-            if duration < FEWEST_STEPS * step {
-                warnings.push(format!(
-                    "{key} {stiffness:.3e} N/m throws a node back after {:.2} ms, {:.2} steps of solver.time_step {step} s; below {FEWEST_STEPS} steps collisions may feed the motion (model_quality in twin/status): take a step below {:.2e} s, or a softer contact",
-                    1e3 * duration,
-                    duration / step,
-                    duration / FEWEST_STEPS
-                ));
-            }
+        let (step, duration) = (self.solver.time_step, self.contact_duration());
+        if duration < FEWEST_STEPS * step {
+            warnings.push(format!(
+                "contact.inner.stiffness {:.3e} N/m throws a node of the pipe back after {:.2} ms, {:.2} steps of solver.time_step {step} s; below {FEWEST_STEPS} steps collisions may feed the motion (model_quality in twin/status): take a step below {:.2e} s, or a softer contact",
+                self.contact.inner.stiffness,
+                1e3 * duration,
+                duration / step,
+                duration / FEWEST_STEPS
+            ));
         }
     }
 
@@ -148,6 +144,6 @@ mod tests {
         let config = default_tool();
         assert!(short_contacts(&config).is_empty());
         let doubled = config.with_value("solver.time_step", 1e-3).unwrap();
-        assert_eq!(short_contacts(&doubled).len(), 2);
+        assert_eq!(short_contacts(&doubled).len(), 1);
     }
 }
