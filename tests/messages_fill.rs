@@ -79,6 +79,7 @@ fn the_largest_contact_force_is_the_interval_s_peak() {
 #[test]
 fn ageing_is_told_per_hour_and_relative_to_the_worst() {
     let mut snapshot = snapshot();
+    snapshot.joints.measured_depth = vec![0.15, 0.3, 0.45];
     snapshot.ageing.duration = 1800.0;
     snapshot.ageing.stop_damage = vec![1.0, 0.0, 3.0];
     snapshot.ageing.bending_damage = vec![2.0, 4.0, 0.0];
