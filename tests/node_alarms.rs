@@ -159,8 +159,9 @@ fn an_alarm_is_acknowledged_shelved_and_kept_over_a_restart() {
         alarm["state"] == Alarm::ACTIVE_ACKNOWLEDGED
     });
     let unshelve = json!({"id": "weight_on_bit_input", "operator_name": "ann", "reason": "sensor is back"});
-    let (done, why) = request(&mut peer, "unshelve_alarm", "UnshelveAlarm", unshelve);
-    assert!(done, "{why}");
+    // As a client of the other DDS layer asks.
+    let answer = peer.call_as_rmw_cyclone("/flexdrill/unshelve_alarm", "flexdrill/srv/UnshelveAlarm", unshelve);
+    assert_eq!(answer["success"], true, "{answer}");
     alarm_with(&mut peer, "weight_on_bit_input", |alarm| {
         alarm["state"] == Alarm::ACTIVE_UNACKNOWLEDGED
     });

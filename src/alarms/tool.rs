@@ -30,13 +30,12 @@ pub(super) fn findings(snapshot: &Snapshot, config: &Config) -> impl Iterator<It
 
 /// Whether the motion is the tool's: the same standing and turning.
 fn quality(quality: &ModelQuality) -> Finding {
-    let priority = match quality.level {
-        QualityLevel::Good => return Finding::default(),
-        QualityLevel::Degraded => Priority::Low,
-        QualityLevel::Poor => Priority::Medium,
-    };
+    // What is degraded is said in the status: nobody could do anything about it now.
+    if quality.level < QualityLevel::Poor {
+        return Finding::default();
+    }
     Finding {
-        priority: Some(priority),
+        priority: Some(Priority::Medium),
         value: quality.value,
         threshold: quality.bound,
         unit: "of what damping takes",
@@ -48,11 +47,7 @@ fn quality(quality: &ModelQuality) -> Finding {
             }
         }
         .to_owned(),
-        consequence: match quality.level {
-            QualityLevel::Poor => "Ripple and forces may be off by a third and more: hazards may be missed or made up.",
-            _ => "Ripple and forces may be off by more than a tenth.",
-        }
-        .to_owned(),
+        consequence: "Ripple and forces may be off by a third and more: hazards may be missed or made up.".to_owned(),
         what_to_do: "Go by the rig's own instruments; take a smaller solver.time_step for the next run.".to_owned(),
         ..Finding::default()
     }

@@ -284,9 +284,10 @@ pub mod flexdrill {
         pub from_state: u8,
         /// State after.
         pub to_state: u8,
-        /// The higher of the priorities before and after, as in Alarm.
+        /// The priority that the condition has now; of one that has gone, that which it had or which is to be acknowledged. As in
+        /// Alarm.
         pub priority: u8,
-        /// It calls for somebody.
+        /// It calls for somebody. A rise of what calls already is the same call.
         pub annunciates: bool,
         /// Who asked for it; empty where nobody did.
         pub operator_name: std::string::String,

@@ -28,7 +28,7 @@ pub struct Event {
     pub from: State,
     /// State after: the same for what happens under a shelf or suppressed, and for a change of priority.
     pub to: State,
-    /// Priority of the alarm, before or after, whichever is higher; none for one that had none.
+    /// The priority that the condition has now; of one that has gone, that which it had or which is to be acknowledged.
     pub priority: Option<Priority>,
     /// Who asked for it; empty where nobody did.
     pub operator: String,
@@ -39,12 +39,14 @@ pub struct Event {
 }
 
 impl Event {
-    /// Whether it calls for somebody: the alarm stands unacknowledged and did not before, or with less priority.
+    /// Whether it calls for somebody: the alarm stands unacknowledged and did not before. One that rises while it calls
+    /// already is the same call.
     pub fn annunciates(&self) -> bool {
-        let calls = matches!(
-            self.change,
-            Change::Activated(_) | Change::Raised(_) | Change::Unshelved(_)
-        );
-        calls && self.to == State::ActiveUnacknowledged
+        self.to == State::ActiveUnacknowledged && self.from != State::ActiveUnacknowledged
+    }
+
+    /// Whether it calls with a higher priority than it did.
+    pub fn rises(&self) -> bool {
+        matches!(self.change, Change::Raised(_)) && self.to == State::ActiveUnacknowledged
     }
 }

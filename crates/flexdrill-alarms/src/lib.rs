@@ -1,4 +1,4 @@
-//! Alarms as people manage them: the life of an alarm of ISA-18.2 (ANSI/ISA-18.2-2016, clause 5.6), with the states that
+//! Alarms as people manage them: the life of an alarm of ANSI/ISA-18.2-2016, with the states that
 //! OPC UA Part 9 (Alarms and Conditions) keeps beside each other.
 //!
 //! Pure: it opens no file, reads no clock and knows nothing of drilling. Who uses it says what time it is, what its
@@ -16,7 +16,7 @@
 //! # Choices
 //! - **Time** is in ns since 1970 on whichever clock the caller keeps to; where it goes back, delays begin anew.
 //! - **One alarm, three priorities.** What ISA-18.2 keeps as separate alarms (high, high-high) is here one alarm whose
-//!   priority rises: a rise is a new annunciation that wants a new acknowledgement, a fall is journalled only.
+//!   priority rises: a rise wants a new acknowledgement, a fall is journalled only.
 //! - **Shelving covers up to MEDIUM**, or up to HIGH when it stood at HIGH as it was shelved. In ISA-18.2 shelving an
 //!   alarm leaves the one of the next priority alone; so what rises to HIGH under a shelf ends the shelving.
 //! - **What has not been acknowledged stays so** through suppression by design: a drive that is stopped because of an

@@ -1,4 +1,4 @@
-//! How many alarms there are: the figures by which ISA-18.2 (clause 16) and EEMUA 191 judge an alarm system.
+//! How many alarms there are: the figures by which ISA-18.2 and EEMUA 191 judge an alarm system.
 
 use std::collections::VecDeque;
 
@@ -21,8 +21,10 @@ const WATCHED_GAP: f64 = 60.0;
 pub struct Statistics {
     /// Per alarm.
     counts: Vec<u64>,
-    /// Per priority, rising.
+    /// Per highest priority of the call, rising.
     of_priority: [u64; 3],
+    /// Per alarm the priority that its last call is counted under.
+    called: Vec<Option<Priority>>,
     /// Those of the last ten minutes.
     recent: VecDeque<Time>,
     /// Per alarm those of the last minute.
@@ -44,7 +46,7 @@ pub struct Figures {
     pub watched: f64,
     /// Annunciations in all.
     pub annunciations: u64,
-    /// Of them low, medium, high.
+    /// Of them low, medium, high, by the highest that each call reached.
     pub of_priority: [u64; 3],
     /// Annunciations per hour watched; 0 before any time has passed.
     pub per_hour: f64,
@@ -65,6 +67,7 @@ impl Statistics {
     pub(crate) fn new(alarms: usize) -> Self {
         Self {
             counts: vec![0; alarms],
+            called: vec![None; alarms],
             repeats: vec![VecDeque::new(); alarms],
             most_repeats: vec![0; alarms],
             ..Self::default()
@@ -105,8 +108,24 @@ impl Statistics {
         }
         if let Some(count) = self.counts.get_mut(alarm) {
             *count += 1;
+            self.called[alarm] = priority;
             self.repeats[alarm].push_back(time);
             self.most_repeats[alarm] = self.most_repeats[alarm].max(self.repeats[alarm].len());
+        }
+    }
+
+    /// The last call of an alarm has risen.
+    pub(crate) fn raise(&mut self, alarm: usize, priority: Option<Priority>) {
+        let Some(called) = self.called.get_mut(alarm) else {
+            return;
+        };
+        if let (Some(before), Some(now)) = (*called, priority)
+            && now > before
+        {
+            let counted = &mut self.of_priority[before as usize];
+            *counted = counted.saturating_sub(1);
+            self.of_priority[now as usize] += 1;
+            *called = priority;
         }
     }
 

@@ -312,13 +312,18 @@ impl AlarmSystem {
             change,
             from,
             to,
-            priority: before.priority().max(alarm.standing.priority()),
+            priority: alarm
+                .standing
+                .active()
+                .or(before.priority().max(alarm.standing.priority())),
             operator: by.name.to_owned(),
             reason: by.reason.to_owned(),
             evidence: evidence.to_owned(),
         };
         if event.annunciates() {
             self.statistics.count(index, event.priority);
+        } else if event.rises() {
+            self.statistics.raise(index, event.priority);
         }
         events.push(event);
     }

@@ -107,7 +107,7 @@ fn a_rise_calls_again_and_a_fall_does_not() {
             "returned"
         ]
     );
-    assert_eq!(plant.system.statistics().figures().annunciations, 2);
+    assert_eq!(plant.system.statistics().figures().of_priority, [1, 0, 1]);
     assert_eq!(
         plant.acknowledge(),
         Err(Refusal::NothingToAcknowledge {
@@ -115,6 +115,23 @@ fn a_rise_calls_again_and_a_fall_does_not() {
             state: State::Normal
         })
     );
+}
+
+#[test]
+fn a_rise_of_what_calls_already_is_the_same_call() {
+    let mut plant = Plant::new();
+    plant.run(3.0, Some(Low), false);
+    plant.run(3.0, Some(High), false);
+    plant.run(6.0, Some(Low), false);
+    plant.run(3.0, Some(Medium), false);
+    assert_eq!(plant.changes(), ["activated", "raised", "lowered", "raised"]);
+    assert_eq!(plant.system.statistics().figures().of_priority, [0, 0, 1]);
+    assert_eq!(
+        plant.events.iter().map(|event| event.priority).collect::<Vec<_>>(),
+        [Some(Low), Some(High), Some(Low), Some(Medium)]
+    );
+    // What is to be acknowledged is the highest that it was.
+    assert_eq!(plant.system.alarm(0).standing.unacknowledged(), Some(High));
 }
 
 #[test]

@@ -119,7 +119,7 @@ impl Plant {
     }
 }
 
-/// The transitions that there are, written out: from the clause on states of ISA-18.2, with what happens under a shelf
+/// The transitions that there are, written out: from the states of ISA-18.2, with what happens under a shelf
 /// or suppressed beside it.
 fn is_legal(event: &Event) -> bool {
     use State::*;

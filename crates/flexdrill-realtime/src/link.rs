@@ -23,10 +23,6 @@ const COMMANDS: usize = 256;
 const STEP_TIMES: usize = 1 << 16;
 
 /// What the loop does between periods.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a box would be freed on the solver's thread; commands are rare"
-)]
 #[derive(Debug)]
 pub enum Command {
     /// New coefficients.

@@ -59,13 +59,13 @@ impl Group {
             }
             _ => {}
         }
-        if !event.annunciates {
+        if !event.annunciates && event.change != AlarmEvent::RAISED {
             return;
         }
         if self.annunciations == 0 {
             self.first = now;
         }
-        self.annunciations += 1;
+        self.annunciations += u64::from(event.annunciates);
         if self.worst.as_ref().is_none_or(|worst| event.priority > worst.priority) {
             self.worst = Some(event);
         }

@@ -158,7 +158,9 @@ fn open(path: &Path) -> (Option<Saved>, Option<StateWriter>) {
 fn log(event: &AlarmEvent) {
     let priority = words::alarm_priority(event.priority);
     let state = words::alarm_state(event.to_state);
-    if event.annunciates && event.priority >= Alarm::MEDIUM {
+    let calls =
+        event.to_state == Alarm::ACTIVE_UNACKNOWLEDGED && (event.annunciates || event.change == AlarmEvent::RAISED);
+    if calls && event.priority >= Alarm::MEDIUM {
         tracing::warn!(
             "alarm {} ({priority}): {} {}",
             event.id,
