@@ -800,11 +800,11 @@ pub mod flexdrill {
         pub const RECORDING_ON: u8 = 1;
         /// The recording stopped on an error; what was written before is kept.
         pub const RECORDING_FAILED: u8 = 2;
-        /// Ripple and forces agree with those of a finer step within about a tenth.
+        /// The steps' errors are those of runs that agree with a finer step within about a tenth in ripple and forces.
         pub const QUALITY_GOOD: u8 = 0;
-        /// They may be off by more than that; model_quality_cause says why.
+        /// They are those of runs that are off by more; model_quality_cause says why.
         pub const QUALITY_DEGRADED: u8 = 1;
-        /// They may be off by a third and more: an alarm. Confidences of the whirl analysis are lowered.
+        /// They are those of runs that are off by a sixth to several times: an alarm. Confidences of the whirl analysis are lowered.
         pub const QUALITY_POOR: u8 = 2;
     }
 

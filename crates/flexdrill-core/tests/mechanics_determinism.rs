@@ -6,7 +6,7 @@ use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::dynamics::phases::Phase;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{CheckpointError, Simulation, SimulationSettings, Snapshot};
-use support::coarse;
+use support::{coarse, same_bits};
 
 fn simulation() -> Simulation {
     support::simulation(&coarse())
@@ -34,7 +34,7 @@ fn run(simulation: &mut Simulation, steps: u64) -> Snapshot {
 #[test]
 fn two_runs_are_equal_to_the_bit() {
     let (mut a, mut b) = (simulation(), simulation());
-    assert_eq!(run(&mut a, 2000), run(&mut b, 2000));
+    assert!(same_bits(&run(&mut a, 2000), &run(&mut b, 2000)));
     assert_eq!(a.state(), b.state());
 }
 
@@ -42,7 +42,7 @@ fn two_runs_are_equal_to_the_bit() {
 fn measuring_time_changes_nothing() {
     let (mut timed, mut plain) = (simulation(), simulation());
     timed.set_clock(support::clock);
-    assert_eq!(run(&mut timed, 500), run(&mut plain, 500));
+    assert!(same_bits(&run(&mut timed, 500), &run(&mut plain, 500)));
     assert_eq!(timed.state(), plain.state());
     assert_eq!(timed.checkpoint().unwrap(), plain.checkpoint().unwrap());
     // And time was measured, in every phase.
@@ -59,7 +59,7 @@ fn a_checkpoint_goes_on_to_the_bit() {
     let bytes = whole.checkpoint().unwrap();
     let mut resumed = simulation();
     resumed.restore(&bytes).unwrap();
-    assert_eq!(run(&mut whole, 1000), run(&mut resumed, 1000));
+    assert!(same_bits(&run(&mut whole, 1000), &run(&mut resumed, 1000)));
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn a_reset_starts_again_to_the_bit() {
     let mut second = run(&mut simulation, 500);
     // The warning's sequence counts on, so that a subscriber sees that it is new.
     second.warning.sequence = first.warning.sequence;
-    assert_eq!(first, second);
+    assert!(same_bits(&first, &second));
 }
 
 #[test]

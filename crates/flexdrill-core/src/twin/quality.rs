@@ -32,12 +32,12 @@ const STILL: f64 = 0.1;
 /// How far the motion can be trusted, in a word. The codes are those of the messages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum QualityLevel {
-    /// Ripple and forces agree with those of a finer step within about a tenth.
+    /// The steps' errors are those of runs that agree with a finer step within about a tenth in ripple and forces.
     #[default]
     Good = 0,
-    /// They may be off by more than that.
+    /// They are those of runs that are off by more.
     Degraded = 1,
-    /// They may be off by a third and more.
+    /// They are those of runs that are off by a sixth to several times.
     Poor = 2,
 }
 

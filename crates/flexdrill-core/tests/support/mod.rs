@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use flexdrill_core::tool::{GapDescription, HingeAngle, JointKind, ToolDescription, Tube, WellSection};
-use flexdrill_core::twin::{Simulation, SimulationSettings};
+use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
 
 /// The paper's case with two elements per link: a third of the work.
 pub fn coarse() -> ToolDescription {
@@ -117,4 +117,10 @@ pub fn clock() -> u64 {
     static START: OnceLock<Instant> = OnceLock::new();
     // One more, so that the first call does not look like no time.
     START.get_or_init(Instant::now).elapsed().as_nanos() as u64 + 1
+}
+
+/// Whether two snapshots have the same bits, by what they print: every number has a text of its own, and NaN, which stands
+/// where there is no ratio, is not equal to itself.
+pub fn same_bits(a: &Snapshot, b: &Snapshot) -> bool {
+    format!("{a:?}") == format!("{b:?}")
 }
