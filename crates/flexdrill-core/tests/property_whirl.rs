@@ -428,7 +428,7 @@ fn rolling_is_told_from_sliding() {
     }
 }
 
-/// A reset forgets motion, level and latch, and the sequence goes on; so it does after a return to an older state.
+/// A reset forgets motion and level, and the sequence goes on; so it does after a return to an older state.
 #[test]
 fn reset_and_restore_leave_no_ghosts() {
     let orbit = rotor(1.02 * CLEARANCE, -63.0 / 17.0 * SPEED);
