@@ -189,7 +189,7 @@ fn parameters_and_services_answer_both_kinds_of_clients() {
         "rcl_interfaces/srv/ListParameters",
         json!({"prefixes": ["outputs.rates"]}),
     );
-    assert_eq!(length(&listed["result"], "names"), 8);
+    assert_eq!(length(&listed["result"], "names"), 9);
 
     // Replies are not lost: the same question many times.
     for _ in 0..30 {
