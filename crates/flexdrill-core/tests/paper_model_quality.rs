@@ -49,7 +49,7 @@ fn the_papers_tool_is_good_at_the_default_step() {
     assert!(largest_confidence(&snapshot) > 0.8, "{:?}", snapshot.whirl.confidence);
 }
 
-/// Its ripple is 34 % too large, with an energy error of 1 % of the drive's work.
+/// Its ripple is a quarter to a third too large, with an energy error of 1 % of the drive's work.
 #[test]
 fn the_papers_tool_is_poor_at_twice_the_step() {
     let (mut twin, snapshot) = run(&ToolDescription::paper(), 1e-3);
