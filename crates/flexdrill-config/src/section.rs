@@ -24,7 +24,7 @@ macro_rules! section {
             $(
                 $(#[$inner])*
                 $($(
-                    #[doc = concat!("\n\nDefault ", stringify!($default), ", ", stringify!($bound), " ",
+                    #[doc = concat!("\n\nDefault `", stringify!($default), "`, ", stringify!($bound), " ",
                         stringify!($low), ", ", stringify!($high), " ", $unit)]
                 )?)?
                 pub $field: $type,
