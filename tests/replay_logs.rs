@@ -15,7 +15,7 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Replays 120 s and checks what came out against what must hold on any log.
+/// Replays 120 s of steady drilling and checks what came out against what must hold on any log.
 fn replay(log: &Path, from: &str) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out.mcap");
@@ -40,7 +40,10 @@ fn replay(log: &Path, from: &str) {
     );
     assert!(output.status.success(), "{said}");
     println!("{said}");
-    check_incidents(&said, &incidents);
+    let found = check_incidents(&said, &incidents);
+    // Levels that stand in normal drilling are worse than none.
+    assert!(found.len() <= 2, "{said}");
+    assert!(found.iter().all(|row| row["severity"] != "critical"), "{said}");
 
     let (mut joints, mut contacts, mut bits) = (0_u32, 0_u32, Vec::new());
     for message in flexdrill::bag::open(&out).unwrap() {
@@ -83,13 +86,12 @@ fn replay(log: &Path, from: &str) {
     );
 }
 
-/// Every incident has its time, place, kind, severity and duration, on the screen and in the file.
-fn check_incidents(said: &str, path: &Path) {
+/// Every incident has its time, place, kind, severity and duration, on the screen and in the file. All of them.
+fn check_incidents(said: &str, path: &Path) -> Vec<serde_json::Value> {
     let text = std::fs::read_to_string(path).unwrap();
     let rows: Vec<serde_json::Value> = serde_json::from_str(&text).unwrap();
-    // A flexible pipe at 40 to 50 r/min under load whirls: two minutes without any incident would be a fault.
     assert!(
-        !rows.is_empty() && said.contains(&format!("incidents: {}", rows.len())),
+        rows.is_empty() || said.contains(&format!("incidents: {}", rows.len())),
         "{said}"
     );
     for row in &rows {
@@ -107,6 +109,58 @@ fn check_incidents(said: &str, path: &Path) {
         );
         assert!(row["kind"].is_string() && row["place"]["station"].is_u64(), "{row}");
     }
+    rows
+}
+
+/// A pipe that rubs hard in its guide at 120 r/min: the table tells of backward whirl, and the alarm calls.
+#[test]
+fn a_tool_that_is_being_destroyed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let rows: String = (0..30).map(|second| format!("{second},120,10\n")).collect();
+    let log = file("log.csv", &format!("time_s,rpm,wob_kn\n{rows}"));
+    let mapping = file(
+        "mapping.yaml",
+        "title: constant\ncolumns:\n  time: {column: time_s, format: seconds}\n  rotary_speed: {column: rpm, unit: r/min}\n  \
+         weight_on_bit: {direct: {column: wob_kn, unit: kN}}\n",
+    );
+    let coarse = std::fs::read_to_string(root().join("config/coarse.yaml")).unwrap();
+    let config = file(
+        "config.yaml",
+        &format!("{coarse}\ncontact: {{inner: {{friction_tangential: 0.7}}}}\n"),
+    );
+    let incidents = folder.path().join("incidents.json");
+    let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .arg("replay")
+        .arg(&log)
+        .arg("--mapping")
+        .arg(&mapping)
+        .arg("--config")
+        .arg(&config)
+        .args(["--duration", "15", "--out"])
+        .arg(folder.path().join("out.mcap"))
+        .arg("--incidents")
+        .arg(&incidents)
+        .output()
+        .unwrap();
+    let said = format!(
+        "{}{}",
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(output.status.success(), "{said}");
+    let found = check_incidents(&said, &incidents);
+    assert!(
+        found.iter().any(|row| row["severity"] == "critical"
+            && ["backward_whirl", "rolling_whirl"].contains(&row["kind"].as_str().unwrap())),
+        "{said}"
+    );
+    assert!(said.contains("HIGH     backward whirl"), "{said}");
+    assert!(said.contains("Lower the speed below 80 r/min"), "{said}");
 }
 
 #[test]
