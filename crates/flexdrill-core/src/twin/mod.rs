@@ -14,7 +14,10 @@ mod snapshot;
 mod validation;
 
 pub use checkpoint::CheckpointError;
-pub use quality::{ENERGY_ERROR_BOUNDS, ModelQuality, NUMERICAL_DAMPING_BOUNDS, QualityCause, QualityLevel};
+pub use quality::{
+    AXIAL_COUNTS_FROM, AXIAL_FORCE_BOUND, ENERGY_ERROR_BOUNDS, ModelQuality, NUMERICAL_DAMPING_BOUNDS, QualityCause,
+    QualityLevel,
+};
 pub use readings::StationGeometry;
 pub use run::{Frame, Run, RunInputs};
 pub use schedule::{Due, Output, Schedule, Timeline};
