@@ -103,7 +103,7 @@ pub(super) fn draw_whirl(frame: &mut Frame, board: &Board, area: Rect) {
             Row::new([
                 Cell::from(row.place),
                 Cell::from(Span::styled(row.word, color)),
-                Cell::from(format!("{:6.2}", row.ratio)),
+                Cell::from(ratio(row.ratio)),
                 Cell::from(format!("{:4.2}", row.clearance_ratio)),
                 Cell::from(format!("{:3.0}%", 100.0 * row.contact_duty)),
                 Cell::from(format!("{:4.2}", row.confidence)),
@@ -158,5 +158,14 @@ pub(super) fn draw_forces(frame: &mut Frame, board: &Board, area: Rect) {
             Sparkline::default().data(data).max(1000).style(color),
             rows[2 * layer + 1],
         );
+    }
+}
+
+/// The whirl ratio, where there is one.
+fn ratio(ratio: f64) -> String {
+    if ratio.is_nan() {
+        format!("{:>6}", "-")
+    } else {
+        format!("{ratio:6.2}")
     }
 }
