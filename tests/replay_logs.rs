@@ -15,30 +15,35 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Replays 120 s of steady drilling and checks what came out against what must hold on any log.
-fn replay(log: &Path, from: &str) {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out.mcap");
-    let incidents = folder.path().join("incidents.json");
-    let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
-        .arg("replay")
-        .arg(log)
-        .arg("--mapping")
-        .arg(root().join("config/field_logs/rig_1hz.yaml"))
-        .arg("--config")
-        .arg(root().join("config/coarse.yaml"))
-        .args(["--from", from, "--duration", "120", "--out"])
-        .arg(&out)
-        .arg("--incidents")
-        .arg(&incidents)
-        .output()
-        .unwrap();
+/// What the program says when it succeeds.
+fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap();
     let said = format!(
         "{}{}",
         String::from_utf8_lossy(&output.stdout),
         String::from_utf8_lossy(&output.stderr)
     );
     assert!(output.status.success(), "{said}");
+    said
+}
+
+/// Replays 120 s of steady drilling and checks what came out against what must hold on any log.
+fn replay(log: &Path, from: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out.mcap");
+    let incidents = folder.path().join("incidents.json");
+    let mapping = root().join("config/field_logs/rig_1hz.yaml");
+    let said = run(Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .arg("replay")
+        .arg(log)
+        .arg("--mapping")
+        .arg(mapping)
+        .arg("--config")
+        .arg(root().join("config/coarse.yaml"))
+        .args(["--from", from, "--duration", "120", "--out"])
+        .arg(&out)
+        .arg("--incidents")
+        .arg(&incidents));
     println!("{said}");
     let found = check_incidents(&said, &incidents);
     // Levels that stand in normal drilling are worse than none.
@@ -134,7 +139,7 @@ fn a_tool_that_is_being_destroyed() {
         &format!("{coarse}\ncontact: {{inner: {{friction_tangential: 0.7}}}}\n"),
     );
     let incidents = folder.path().join("incidents.json");
-    let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+    let said = run(Command::new(env!("CARGO_BIN_EXE_flexdrill"))
         .arg("replay")
         .arg(&log)
         .arg("--mapping")
@@ -144,15 +149,7 @@ fn a_tool_that_is_being_destroyed() {
         .args(["--duration", "15", "--out"])
         .arg(folder.path().join("out.mcap"))
         .arg("--incidents")
-        .arg(&incidents)
-        .output()
-        .unwrap();
-    let said = format!(
-        "{}{}",
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr)
-    );
-    assert!(output.status.success(), "{said}");
+        .arg(&incidents));
     let found = check_incidents(&said, &incidents);
     assert!(
         found.iter().any(|row| row["severity"] == "critical"
