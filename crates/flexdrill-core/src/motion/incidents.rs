@@ -53,7 +53,7 @@ pub struct Incident {
     pub place: IncidentLocation,
     /// First and last station from the top that took part.
     pub stations: [usize; 2],
-    /// Whirl rate over rotary speed at the worst moment; 0 for other kinds.
+    /// Whirl rate over rotary speed at the worst moment; NaN where whirl had no one rate then, 0 for other kinds.
     pub whirl_ratio: f64,
     /// Whirl rate over that of rolling without slip, for backward whirl.
     pub rolling_share: f64,
