@@ -11,6 +11,7 @@ use std::process::Command;
 use std::sync::Arc;
 
 use flexdrill::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use flexdrill::dds::port::Health;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
     AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, from_cdr, topics,
@@ -121,7 +122,7 @@ fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
     show(&mut book, 10, 1, &snapshot(&[stick_slip(), rolling()]));
     let (events, list) = publish(&mut book, 11);
     let list = list.unwrap();
-    assert_eq!(list.alarms.len(), 11, "all of them are listed");
+    assert_eq!(list.alarms.len(), 12, "all of them are listed");
     assert_eq!((list.sequence, list.unacknowledged, events.len()), (2, 2, 2));
     let worst = &list.alarms[0];
     assert_eq!((worst.id.as_str(), worst.priority), ("backward_whirl", Alarm::HIGH));
@@ -317,6 +318,7 @@ fn inputs_pace_and_recording_call_too() {
                 error: Some("no space left".to_owned()),
                 drops: 3,
             }),
+            dds: Health::default(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
     }

@@ -105,6 +105,7 @@ fn inputs_go_in_and_all_outputs_come_out() {
         "stick-slip",
         "shock",
         "recording",
+        "network",
         "alarms",
     ];
     assert_eq!(names, items.map(|item| format!("/flexdrill: {item}")));

@@ -31,11 +31,13 @@ pub enum AlarmId {
     Solver,
     /// The recording stopped or loses messages.
     Recording,
+    /// DDS had to be started again.
+    Network,
 }
 
 impl AlarmId {
     /// All of them; where they are equally bad, the first goes first.
-    pub const ALL: [AlarmId; 11] = [
+    pub const ALL: [AlarmId; 12] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
@@ -47,6 +49,7 @@ impl AlarmId {
         AlarmId::RealTime,
         AlarmId::Solver,
         AlarmId::Recording,
+        AlarmId::Network,
     ];
 
     /// For programs: as in the configuration.
@@ -63,6 +66,7 @@ impl AlarmId {
             AlarmId::RealTime => "real_time",
             AlarmId::Solver => "solver",
             AlarmId::Recording => "recording",
+            AlarmId::Network => "network",
         }
     }
 
@@ -80,6 +84,7 @@ impl AlarmId {
             AlarmId::RealTime => "not in real time",
             AlarmId::Solver => "model stands still",
             AlarmId::Recording => "recording",
+            AlarmId::Network => "network started again",
         }
     }
 
@@ -118,6 +123,7 @@ impl AlarmId {
             AlarmId::RealTime => node(&alarms.real_time),
             AlarmId::Solver => node(&alarms.solver),
             AlarmId::Recording => node(&alarms.recording),
+            AlarmId::Network => node(&alarms.network),
         };
         Definition {
             id: self.id(),

@@ -2,6 +2,7 @@
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
+use crate::dds::port::Health;
 use flexdrill_alarms::{Priority, Setpoints};
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
@@ -26,6 +27,8 @@ pub struct NodeState<'a> {
     pub real_time_factor: Option<f64>,
     /// The recording, if there is one.
     pub recording: Option<RecordingState>,
+    /// DDS.
+    pub dds: Health,
 }
 
 /// How the recording is.
@@ -45,7 +48,7 @@ pub(super) struct Memory {
 }
 
 /// What the node's state says of every alarm of the node.
-pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 5] {
+pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 6] {
     let [speed, weight] = InputKind::ALL.map(|kind| (AlarmId::of_input(kind), input(kind, state)));
     [
         speed,
@@ -53,6 +56,7 @@ pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId,
         (AlarmId::RealTime, real_time(state, memory)),
         (AlarmId::Solver, solver(state.failure)),
         (AlarmId::Recording, recording(state.recording.as_ref(), memory)),
+        (AlarmId::Network, network(&state.dds)),
     ]
 }
 
@@ -150,6 +154,36 @@ fn solver(failure: Option<StepFailure>) -> Finding {
         cause: "The motion is too hard for the step at its smallest size.".to_owned(),
         consequence: "The outputs stand still: no hazard is seen.".to_owned(),
         what_to_do: "Change the inputs or call ~/reset; a smaller solver.time_step or softer contact helps.".to_owned(),
+        ..Finding::default()
+    }
+}
+
+/// Restarts of DDS within a minute from which on it is not a single event.
+const MANY_RESTARTS: usize = 3;
+
+fn network(dds: &Health) -> Finding {
+    let recent = dds.recent_restarts();
+    let Some(cause) = dds.cause().filter(|_| recent > 0) else {
+        return Finding::default();
+    };
+    let many = recent >= MANY_RESTARTS;
+    Finding {
+        priority: Some(if many { Priority::Medium } else { Priority::Low }),
+        value: recent as f64,
+        threshold: if many { MANY_RESTARTS as f64 } else { 1.0 },
+        unit: "1/min",
+        evidence: format!("DDS was started again {recent} times within a minute; the last time {cause}."),
+        cause: "A packet of another program, a stopped process, a clock that was set, or too little memory.".to_owned(),
+        consequence:
+            "Dashboards and the rig's values are cut off for up to 3 s each time; the model and its recording \
+                      go on."
+                .to_owned(),
+        what_to_do: if many {
+            "Look for a program that sends broken packets; ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST keeps others out."
+        } else {
+            "Nothing if it does not come again; the log tells more."
+        }
+        .to_owned(),
         ..Finding::default()
     }
 }

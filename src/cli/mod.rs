@@ -17,6 +17,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::dds::side;
 use crate::ros::args;
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
@@ -55,6 +56,13 @@ const WRONG_USE: u8 = 2;
 
 /// Parses the command line, runs the subcommand, reports a failure on standard error.
 pub fn main() -> ExitCode {
+    // The node's own child, not a subcommand for people.
+    if std::env::args_os()
+        .nth(1)
+        .is_some_and(|first| first == side::SUBCOMMAND)
+    {
+        return side::main();
+    }
     let (arguments, ros_args) = args::split(std::env::args());
     let cli = Cli::parse_from(arguments);
     let result: anyhow::Result<()> = match cli.command {

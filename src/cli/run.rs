@@ -9,7 +9,7 @@ use crate::alarms::state_file;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
-use crate::ros::network::{Network, Reach};
+use crate::ros::network::Network;
 use crate::ros::node::{self, NodeSetup, RunSummary};
 use crate::ros::parameters;
 use crate::ros::service::ServiceMapping;
@@ -69,6 +69,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .map_err(WrongUse::new)?;
     let started = parameters::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+    let network = network.configured(&started.config.network);
     let state_dir = args
         .state_dir
         .clone()
@@ -138,11 +139,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             config.solver.time_step * 1e3
         ),
     );
-    let reach = match setup.network.reach {
-        Reach::Subnet => "all interfaces",
-        Reach::Localhost => "this machine only",
-    };
-    row("network", format!("domain {}, {reach}", setup.network.domain_id));
+    row("network", setup.network.describe());
     row("services", setup.mapping.describe().to_owned());
     if setup.use_sim_time {
         row("clock", format!("{} (use_sim_time)", setup.topic_name(&topics::CLOCK)?));

@@ -4,6 +4,8 @@ use std::sync::atomic::Ordering;
 
 use super::step_times::StepTimes;
 use crate::bag::RecordingThread;
+use crate::dds::frames::Peer;
+use crate::dds::port::Health;
 use crate::messages::TwinStatus;
 use crate::messages::std_msgs::Header;
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
@@ -65,6 +67,10 @@ pub struct Sources<'a> {
     pub outputs: &'a [OutputCount<'a>],
     /// The recording, if there is one.
     pub recording: Option<&'a RecordingThread>,
+    /// DDS.
+    pub dds: &'a Health,
+    /// Other nodes with the name of this one.
+    pub namesakes: &'a [Peer],
 }
 
 impl StatusKeeper {
@@ -191,6 +197,7 @@ impl StatusKeeper {
         self.fill_phases(&mut status, gauges);
         self.fill_inputs(&mut status, sources);
         fill_outputs(&mut status, sources);
+        fill_network(&mut status, sources);
         status
     }
 
@@ -222,6 +229,16 @@ impl StatusKeeper {
             status.input_rejected.push(conditioner.counts(kind).rejected_total());
         }
     }
+}
+
+fn fill_network(status: &mut TwinStatus, sources: &Sources<'_>) {
+    let dds = sources.dds;
+    status.dds_up = dds.is_up;
+    status.dds_restarts = dds.restarts;
+    status.dds_restart_cause = dds.cause().unwrap_or_default().to_owned();
+    status.dds_stalled_reader = dds.stalled_reader().unwrap_or_default().to_owned();
+    status.namesake = sources.namesakes.iter().map(ToString::to_string).collect();
+    status.clock_set_by = dds.clock_set_by;
 }
 
 fn fill_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {

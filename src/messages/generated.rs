@@ -773,6 +773,18 @@ pub mod flexdrill {
         /// Work of the steps against the laws over the last 10 s, magnitudes added, over what contact, Rayleigh and numerical damping took in
         /// them; zero is exact.
         pub energy_error_share: f64,
+        /// DDS: whether it is up, and how often it had to be started again since the start.
+        pub dds_up: bool,
+        pub dds_restarts: u64,
+        /// Why it had to be, the last time; empty if it never was.
+        pub dds_restart_cause: std::string::String,
+        /// Topic, node, address and id of readers that asked for every sample and did not take them within the last minute; empty if there are
+        /// none.
+        pub dds_stalled_reader: std::string::String,
+        /// Other nodes on the network with the name of this one, with address and id.
+        pub namesake: Vec<std::string::String>,
+        /// What the system's clock was set by since the start (s). Stamps keep to the clock as it was at the start.
+        pub clock_set_by: f64,
     }
 
     impl TwinStatus {
@@ -813,7 +825,7 @@ pub mod flexdrill {
         const NAME: &'static str = "TwinStatus";
         const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
-        const RIHS01: &'static str = "RIHS01_12b7ad58105ff1c1685668a9811cfeeab0189434445649be61a485caa69574e1";
+        const RIHS01: &'static str = "RIHS01_637c111148eb4248f88852f141e1499b86b34ba0552391222ef15882453f201b";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",

@@ -4,19 +4,17 @@ use std::fmt::Write as _;
 use std::io::IsTerminal as _;
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
-use ros2_client::Node;
 use ros2_client::builtin_interfaces::Time;
 use ros2_client::log::Log;
-use rustdds::DomainParticipant;
 use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
 use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 use tracing_subscriber::util::SubscriberInitExt;
 use tracing_subscriber::{EnvFilter, fmt};
 
-use super::NodeError;
 use super::args::RosArgs;
-use super::publisher::{Offer, TopicPublisher};
+use crate::dds::plan::{Offer, dds_type_name};
+use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
 
 /// RustDDS warns of every datagram above 1500 bytes and of peers that go; ros2-client of every plain DDS client.
@@ -52,22 +50,18 @@ pub fn start(arguments: &RosArgs) {
         .try_init();
 }
 
-/// Publishes log lines of this crate on `/rosout` until [`disconnect`].
-///
-/// # Errors
-/// When the topic cannot be created.
-pub fn connect(node: &mut Node, participant: &DomainParticipant) -> Result<(), NodeError> {
+/// Publishes log lines of this crate on `/rosout` until [`disconnect`]; `node` is the node's full name.
+pub fn connect(port: &mut PortBuilder, node: &str) {
     let offer = Offer {
         reliable: true,
         latched: true,
         depth: 100,
         rate: 10.0,
     };
-    let publisher = TopicPublisher::new(node, participant, "/rosout", "rcl_interfaces/msg/Log", offer)?;
-    let name = node.fully_qualified_name().trim_start_matches('/').replace('/', ".");
+    let publisher = port.publisher("/rosout", &dds_type_name("rcl_interfaces/msg/Log"), offer);
+    let name = node.trim_start_matches('/').replace('/', ".");
     let rosout = ROSOUT.get_or_init(Arc::default);
     *rosout.target.write().unwrap_or_else(PoisonError::into_inner) = Some((publisher, name));
-    Ok(())
 }
 
 /// Lets go of the topic; to be called before the node is dropped.
@@ -107,7 +101,7 @@ impl<S: Subscriber> Layer<S> for RosoutLayer {
             line: metadata.line().unwrap_or_default(),
         };
         if let Ok(body) = to_cdr_body(&line) {
-            publisher.publish(&body);
+            publisher.publish(body);
         }
     }
 }

@@ -18,6 +18,7 @@ mod error;
 mod inputs;
 pub mod lines;
 mod loads;
+mod network;
 mod outputs;
 mod pipe;
 mod place;
@@ -49,6 +50,7 @@ pub use environment::Environment;
 pub use error::{ConfigError, Problem};
 pub use inputs::{InputsConfig, RotarySpeed, WeightOnBit};
 pub use loads::{History, Load, Mass};
+pub use network::{Network, Reach};
 pub use outputs::{Outputs, Rates};
 pub use pipe::{Guide, Piece, Pipe};
 pub use place::At;
@@ -124,6 +126,9 @@ pub struct Schema {
     /// What the rig sends.
     #[serde(default)]
     pub inputs: InputsConfig,
+    /// How far DDS reaches.
+    #[serde(default)]
+    pub network: Network,
     /// Analysis and warnings.
     #[serde(default)]
     pub whirl: Whirl,

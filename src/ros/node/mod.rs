@@ -15,9 +15,8 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{channel, sync_channel};
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::Duration;
 
-use ros2_client::{Context, NodeName, NodeOptions};
 use tokio::task::JoinSet;
 
 use self::alarms::AlarmDesk;
@@ -31,12 +30,13 @@ use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
 use super::{DEFAULT_NODE_NAME, NodeError, logging};
 use crate::bag::{Recording, RecordingThread};
+use crate::dds::port::PortBuilder;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::twin::{BuildError, Run, Simulation};
-use flexdrill_realtime::clock::{SimulatedClock, WallClock};
+use flexdrill_realtime::clock::{SimulatedClock, WallClock, rig_clock};
 use flexdrill_realtime::link::{Gauges, Targets, link};
 use flexdrill_realtime::monotonic;
 use flexdrill_realtime::{INPUT_PERIOD, RealTimeLoop};
@@ -99,30 +99,18 @@ impl NodeSetup {
 /// # Errors
 /// When DDS, the model or the recording cannot be started, or the recording could not be finished.
 pub async fn run(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result<RunSummary, NodeError> {
-    let context = setup.network.start()?;
-    let result = run_in(&context, setup, shutdown).await;
+    let result = run_until(setup, shutdown).await;
     logging::disconnect();
-    drop(context);
     result
 }
 
-async fn run_in(
-    context: &Context,
-    setup: NodeSetup,
-    shutdown: impl Future<Output = ()>,
-) -> Result<RunSummary, NodeError> {
-    let participant = context.domain_participant();
-    let name = NodeName::new(&setup.identity.namespace, &setup.identity.name)
-        .map_err(|error| NodeError::Stopped(error.to_string()))?;
-    let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
-    let mut node = context
-        .new_node(name, options)
-        .map_err(|error| NodeError::Stopped(error.to_string()))?;
+async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result<RunSummary, NodeError> {
+    let mut port = PortBuilder::new(&setup.network, &setup.identity);
     if setup.rosout {
-        logging::connect(&mut node, &participant)?;
+        logging::connect(&mut port, &setup.identity.full_name());
     }
     let config = Arc::new(setup.config.clone());
-    let publishers = Publishers::new(&mut node, &participant, &config, &setup.identity, &setup.remapping)?;
+    let publishers = Publishers::new(&mut port, &config, &setup.identity, &setup.remapping)?;
     let recording = match &setup.record {
         Some(path) => {
             // Names were checked when the publishers were made.
@@ -157,23 +145,23 @@ async fn run_in(
     let store = parameters::declare(&config, &setup.config_file, setup.use_sim_time);
     let (checking, applying) = (Arc::clone(&control), Arc::clone(&control));
     let parameters = Parameters::new(
-        &mut node,
-        &participant,
+        &mut port,
+        setup.identity.full_name(),
         store,
         Box::new(move |candidate| checking.check(candidate)),
         Box::new(move |store, changed| applying.apply(store, changed)),
-    )?;
+    );
 
     let mut tasks = JoinSet::new();
-    for task in parameters::serve(&mut node, &participant, setup.mapping, &parameters)? {
+    for task in parameters::serve(&mut port, setup.mapping, &parameters) {
         tasks.spawn(task);
     }
     let service_name = |name: &str| setup.remapping.service(&setup.identity, DEFAULT_NODE_NAME, name);
-    for task in control::serve(&mut node, &participant, setup.mapping, &control, service_name)? {
+    for task in control::serve(&mut port, setup.mapping, &control, service_name)? {
         tasks.spawn(task);
     }
     let (asked_sender, asked) = channel();
-    for task in alarms::serve(&mut node, &participant, setup.mapping, &asked_sender, service_name)? {
+    for task in alarms::serve(&mut port, setup.mapping, &asked_sender, service_name)? {
         tasks.spawn(task);
     }
     let (received_sender, received) = sync_channel(RECEIVED);
@@ -181,24 +169,19 @@ async fn run_in(
         (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
         (InputKind::WeightOnBit, &topics::WEIGHT_ON_BIT_KN),
     ] {
-        let subscription = rig::subscribe(&mut node, &participant, &setup.topic_name(topic)?, topic)?;
+        let samples = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
         let record = recording.is_some().then(|| received_sender.clone());
-        tasks.spawn(rig::receive(rig_inputs.clone(), kind, subscription, record));
+        tasks.spawn(rig::receive(rig_inputs.clone(), kind, samples, record));
     }
     if setup.use_sim_time {
-        let subscription = rig::subscribe(
-            &mut node,
-            &participant,
-            &setup.topic_name(&topics::CLOCK)?,
-            &topics::CLOCK,
-        )?;
-        tasks.spawn(rig::follow_clock(
-            rig_inputs.clone(),
-            subscription,
-            Arc::clone(&simulated),
-        ));
+        let name = setup.topic_name(&topics::CLOCK)?;
+        let ticks = port.subscription(&name, topics::CLOCK.kind.dds_type, false);
+        tasks.spawn(rig::follow_clock(rig_inputs.clone(), ticks, Arc::clone(&simulated)));
     }
     tasks.spawn(rig::keep_targets(rig_inputs));
+    let port = tokio::task::spawn_blocking(move || port.start())
+        .await
+        .map_err(|error| NodeError::Stopped(error.to_string()))??;
 
     let finish = Arc::new(AtomicBool::new(false));
     let publisher = Publisher::new(PublisherParts {
@@ -213,6 +196,7 @@ async fn run_in(
         conditioner,
         now,
         rig_time,
+        dds: port.monitor(),
         node_name: setup.identity.full_name(),
         finish: Arc::clone(&finish),
     })
@@ -256,7 +240,10 @@ async fn run_in(
         .ok_or_else(|| NodeError::Stopped("the publisher's thread ended badly".into()))?;
     drop(parameters);
     logging::disconnect();
-    drop(node);
+    // Leaves the network, after the last status has gone out.
+    tokio::task::spawn_blocking(move || drop(port))
+        .await
+        .map_err(|error| NodeError::Stopped(error.to_string()))?;
     let recording = match recording {
         Some(recording) => Some(
             tokio::task::spawn_blocking(move || recording.finish())
@@ -357,10 +344,6 @@ fn time_of_inputs(simulated: Option<Arc<AtomicU64>>) -> Now {
 fn rig_time(simulated: Option<Arc<AtomicU64>>) -> Arc<dyn Fn() -> i64 + Send + Sync> {
     match simulated {
         Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as i64),
-        None => Arc::new(|| {
-            SystemTime::now()
-                .duration_since(UNIX_EPOCH)
-                .map_or(0, |since| since.as_nanos() as i64)
-        }),
+        None => Arc::new(|| rig_clock() as i64),
     }
 }

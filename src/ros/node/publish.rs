@@ -11,6 +11,7 @@ use super::control::Change;
 use super::publishers::Publishers;
 use super::rig::{Now, Received};
 use crate::bag::RecordingThread;
+use crate::dds::port::Monitor;
 use crate::health::diagnostics::{Diagnostics, Evidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
@@ -54,6 +55,8 @@ pub struct PublisherParts {
     pub now: Now,
     /// Present instant on the rig's clock (ns since 1970).
     pub rig_time: Arc<dyn Fn() -> i64 + Send + Sync>,
+    /// DDS.
+    pub dds: Monitor,
     /// Name of the node, for the diagnostics.
     pub node_name: String,
     /// Set when the thread is to write what is left and end.
@@ -261,6 +264,8 @@ impl Publisher {
             wall: monotonic::now(),
             outputs: &outputs,
             recording: parts.recording.as_ref(),
+            dds: &parts.dds.health(),
+            namesakes: &parts.dds.namesakes(),
         };
         let status = self.status.status(header, &sources);
         self.parts.send_message(&topics::STATUS, &status, self.instant());

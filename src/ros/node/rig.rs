@@ -5,22 +5,14 @@ use std::sync::mpsc::SyncSender;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use futures::StreamExt;
-use ros2_client::{Node, Subscription};
-use rustdds::policy::{Durability, History, Reliability};
-use rustdds::{DomainParticipant, QosPolicyBuilder, TopicKind};
-use serde::de::DeserializeOwned;
-
+use crate::dds::plan::Guid;
+use crate::dds::port::{Inbox, Sample};
 use crate::messages::rosgraph_msgs::Clock;
 use crate::messages::std_msgs::Float64;
-use crate::messages::topics::TopicInfo;
-use crate::ros::NodeError;
-use crate::ros::publisher::dds_topic_name;
+use crate::messages::{Message, from_cdr_body};
 use flexdrill_core::inputs::{Conditioner, InputKind, Rejection};
 use flexdrill_realtime::link::Targets;
 
-/// Samples kept for a moment in which the node is busy; each is conditioned in turn, so the newest wins.
-const DEPTH: i32 = 10;
 /// How often the targets follow the ages of the inputs.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(10);
 /// Least time between two log lines about refused samples of one input.
@@ -36,36 +28,6 @@ pub struct Received {
     pub kind: InputKind,
     /// In the unit of the topic.
     pub value: f64,
-}
-
-/// Subscribes to a topic, best effort, so that any publisher matches.
-///
-/// # Errors
-/// When DDS refuses the topic or the reader.
-pub fn subscribe<M: DeserializeOwned + 'static>(
-    node: &mut Node,
-    participant: &DomainParticipant,
-    name: &str,
-    topic: &TopicInfo,
-) -> Result<Subscription<M>, NodeError> {
-    let failed = |source| NodeError::Topic {
-        topic: name.to_owned(),
-        source,
-    };
-    let policies = QosPolicyBuilder::new()
-        .reliability(Reliability::BestEffort)
-        .durability(Durability::Volatile)
-        .history(History::KeepLast { depth: DEPTH })
-        .build();
-    let handle = participant
-        .create_topic(
-            dds_topic_name(name),
-            topic.kind.dds_type.to_owned(),
-            &policies,
-            TopicKind::NoKey,
-        )
-        .map_err(|error| failed(error.into()))?;
-    node.create_subscription(&handle, None).map_err(failed)
 }
 
 /// Where the samples of the rig go: conditioned into the targets of the solver.
@@ -102,21 +64,30 @@ impl RigInputs {
     }
 }
 
+/// A sample as its message, and who wrote it.
+fn decode<M: Message>(sample: Sample) -> Result<(M, Guid), String> {
+    match sample {
+        Sample::Body { writer, body } => from_cdr_body(&body)
+            .map(|(message, _)| (message, writer))
+            .map_err(|error| error.to_string()),
+        Sample::Unreadable(why) => Err(why),
+    }
+}
+
 /// Conditions the samples of one input for as long as it is polled.
 pub async fn receive(
     rig: RigInputs,
     kind: InputKind,
-    subscription: Subscription<Float64>,
+    samples: Arc<Inbox<Sample>>,
     record: Option<SyncSender<Received>>,
 ) {
-    let mut samples = Box::pin(subscription.async_stream());
     let mut logged: Option<Instant> = None;
     let mut not_logged = 0_u64;
-    while let Some(sample) = samples.next().await {
-        let value = match sample {
-            Ok((sample, _)) => sample.data,
-            Err(error) => {
-                tracing::warn!("{}: a sample could not be read: {error}", kind.topic());
+    loop {
+        let value = match decode::<Float64>(samples.next().await) {
+            Ok((sample, _writer)) => sample.data,
+            Err(why) => {
+                tracing::warn!("{}: a sample could not be read: {why}", kind.topic());
                 continue;
             }
         };
@@ -151,10 +122,11 @@ pub async fn keep_targets(rig: RigInputs) {
 }
 
 /// Follows `/clock`; `newest` is in ns.
-pub async fn follow_clock(rig: RigInputs, subscription: Subscription<Clock>, newest: Arc<AtomicU64>) {
-    let mut ticks = Box::pin(subscription.async_stream());
-    while let Some(tick) = ticks.next().await {
-        let Ok((Clock { clock }, _)) = tick else { continue };
+pub async fn follow_clock(rig: RigInputs, ticks: Arc<Inbox<Sample>>, newest: Arc<AtomicU64>) {
+    loop {
+        let Ok((Clock { clock }, _)) = decode::<Clock>(ticks.next().await) else {
+            continue;
+        };
         let time = clock.to_nanoseconds().max(0) as u64;
         let before = newest.swap(time, Ordering::AcqRel);
         if time < before {
