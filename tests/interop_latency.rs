@@ -72,11 +72,9 @@ fn latency_of_a_snapshot_to_a_foreign_subscriber() {
             "so do the times of arrival"
         );
         let since = |from: usize| messages.iter().map(|times| times[2] - times[from]).collect::<Vec<_>>();
-        // Same clock on both sides: nothing of a minute ago, nothing of the future beyond what is computed ahead.
-        assert!(since(0).iter().all(|&ns| (-10 * PERIOD..60_000_000_000).contains(&ns)));
+        // Same clock on both sides: nothing of a minute ago, and nothing of the future.
+        assert!(since(0).iter().all(|&ns| (0..60_000_000_000).contains(&ns)));
         println!("  header stamp to received: {}", percentiles(since(0)));
-        let whole = since(0).iter().map(|ns| ns + PERIOD).collect();
-        println!("  begin of the period to received: {}", percentiles(whole));
         if messages.iter().all(|times| times[1] > 0) {
             println!("  written to DDS to received: {}", percentiles(since(1)));
         }

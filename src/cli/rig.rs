@@ -7,9 +7,9 @@ use clap::Args;
 
 use super::source::{self, Sample};
 use super::{WrongUse, signals};
+use crate::dds::network::Network;
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
-use crate::ros::network::Network;
 use crate::ros::rig_node::{RIG_NODE_NAME, RigNode};
 use flexdrill_core::inputs::InputKind;
 

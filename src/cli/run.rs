@@ -6,10 +6,10 @@ use clap::Args;
 
 use super::{WrongUse, signals};
 use crate::alarms::state_file;
+use crate::dds::network::Network;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
-use crate::ros::network::Network;
 use crate::ros::node::{self, NodeSetup, RunSummary};
 use crate::ros::parameters;
 use crate::ros::service::ServiceMapping;

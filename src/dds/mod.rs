@@ -5,11 +5,12 @@
 //! nothing else; this process holds a [`port`] to it: bounded queues, a watch over its life, and the newest state of every
 //! latched topic, to be told again when it is started anew.
 //!
-//! - [`plan`]: what the child is to set up;
+//! - [`network`]: which part of the network it talks to; [`plan`]: what the child is to set up;
 //! - [`frames`]: what goes over the socket between the two;
 //! - [`port`]: this side of it; [`side`]: the child.
 
 pub mod frames;
+pub mod network;
 pub mod plan;
 pub mod port;
 pub mod side;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::ros::network::Network;
+use crate::dds::network::Network;
 
 /// Time that a reader may stall before writes are refused (s): longer than the lease after which DDS drops a dead one.
 const STALL_TIME: f64 = 15.0;
@@ -73,6 +73,8 @@ pub struct Offer {
     pub depth: i32,
     /// Highest rate of publication (Hz), for the size of the history.
     pub rate: f64,
+    /// How long a sample is worth receiving (s). Default: for ever.
+    pub lifespan: Option<f64>,
 }
 
 impl Offer {
@@ -124,6 +126,7 @@ mod tests {
             latched: false,
             depth: 10,
             rate: 50.0,
+            lifespan: None,
         };
         assert_eq!(offer.max_samples(), 750);
         let state = Offer {

@@ -61,8 +61,8 @@ pub struct Sources<'a> {
     pub conditioner: &'a Conditioner,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
-    /// Present time of the monotonic clock (ns).
-    pub wall: u64,
+    /// Time that the model is to keep up with (ns).
+    pub pace_time: u64,
     /// Every output topic.
     pub outputs: &'a [OutputCount<'a>],
     /// The recording, if there is one.
@@ -128,13 +128,14 @@ impl StatusKeeper {
     }
 
     /// Notes the progress of the model, for the real-time factor.
-    pub fn note(&mut self, wall: u64, gauges: &Gauges) {
-        self.factor.note(wall, self.model_time_gained(gauges));
+    pub fn note(&mut self, pace_time: u64, gauges: &Gauges) {
+        self.factor.note(pace_time, self.model_time_gained(gauges));
     }
 
-    /// Model time gained per second of wall time, over the last second; none before a second has passed.
-    pub fn real_time_factor(&self, wall: u64, gauges: &Gauges) -> Option<f64> {
-        self.factor.factor(wall, self.model_time_gained(gauges))
+    /// Model time gained per second of the time that it is to keep up with, over the last second; none before a second has
+    /// passed.
+    pub fn real_time_factor(&self, pace_time: u64, gauges: &Gauges) -> Option<f64> {
+        self.factor.factor(pace_time, self.model_time_gained(gauges))
     }
 
     fn model_time_gained(&self, gauges: &Gauges) -> f64 {
@@ -165,7 +166,7 @@ impl StatusKeeper {
             model_time: step_count as f64 * self.time_step,
             step_count,
             time_step: self.time_step,
-            real_time_factor: self.factor.factor(sources.wall, gained).unwrap_or(0.0),
+            real_time_factor: self.factor.factor(sources.pace_time, gained).unwrap_or(0.0),
             lateness: gauges.lateness.load(Ordering::Relaxed) as f64 * 1e-9,
             deadline_misses: gauges.deadline_misses.load(Ordering::Relaxed),
             steps_skipped: gauges.steps_skipped.load(Ordering::Relaxed),

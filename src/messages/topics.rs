@@ -2,7 +2,7 @@
 
 use super::{
     Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo,
-    TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs,
+    TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs,
     visualization_msgs,
 };
 
@@ -157,8 +157,11 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
     reliable(10),
 );
 
+/// Output: where the frame of all headers lies, in ROS's own place.
+pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
+
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 17] = [
+pub const ALL: [TopicInfo; 18] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     CLOCK,
@@ -176,4 +179,5 @@ pub const ALL: [TopicInfo; 17] = [
     SESSION,
     JOINT_STATES,
     DIAGNOSTICS,
+    TF_STATIC,
 ];

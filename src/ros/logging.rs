@@ -10,7 +10,7 @@ use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
 use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 use tracing_subscriber::util::SubscriberInitExt;
-use tracing_subscriber::{EnvFilter, fmt};
+use tracing_subscriber::{EnvFilter, Registry, fmt, reload};
 
 use super::args::RosArgs;
 use crate::dds::plan::{Offer, dds_type_name};
@@ -27,6 +27,8 @@ struct Rosout {
 }
 
 static ROSOUT: OnceLock<Arc<Rosout>> = OnceLock::new();
+/// The filter as it was at the start, and the way to change it.
+static FILTER: OnceLock<(String, reload::Handle<EnvFilter, Registry>)> = OnceLock::new();
 
 /// Starts logging. The filter is RUST_LOG if set, else `--log-level` or `info`, with the libraries' noise left out. May
 /// be called more than once; only the first call counts.
@@ -37,17 +39,33 @@ pub fn start(arguments: &RosArgs) {
         let _ = write!(filter, ",{logger}={level}");
     }
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(filter));
+    let text = filter.to_string();
+    let (filter, handle) = reload::Layer::new(filter);
     let rosout = ROSOUT.get_or_init(Arc::default);
     let lines = fmt::layer()
         .with_writer(std::io::stderr)
         .with_ansi(std::io::stderr().is_terminal())
         .with_target(false);
     // A second subscriber is refused; the first one stays.
-    let _ = tracing_subscriber::registry()
+    let started = tracing_subscriber::registry()
         .with(filter)
         .with(lines)
         .with(RosoutLayer(Arc::clone(rosout)))
         .try_init();
+    if started.is_ok() {
+        // The first call is the only one that gets here.
+        let _ = FILTER.set((text, handle));
+    }
+}
+
+/// Adds directives such as `flexdrill=debug` to those of the start, in place of those that were added before. False when
+/// logging was not started here.
+pub fn add_directives(directives: &[String]) -> bool {
+    let Some((start, handle)) = FILTER.get() else {
+        return false;
+    };
+    let filter = format!("{start},{}", directives.join(","));
+    handle.reload(EnvFilter::new(filter)).is_ok()
 }
 
 /// Publishes log lines of this crate on `/rosout` until [`disconnect`]; `node` is the node's full name.
@@ -57,6 +75,7 @@ pub fn connect(port: &mut PortBuilder, node: &str) {
         latched: true,
         depth: 100,
         rate: 10.0,
+        lifespan: Some(10.0),
     };
     let publisher = port.publisher("/rosout", &dds_type_name("rcl_interfaces/msg/Log"), offer);
     let name = node.trim_start_matches('/').replace('/', ".");

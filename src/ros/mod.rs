@@ -1,8 +1,9 @@
 //! The ROS 2 node.
 
 pub mod args;
+pub mod loggers;
 pub mod logging;
-pub mod network;
+
 pub mod node;
 pub mod parameters;
 pub mod rig_node;
@@ -18,12 +19,9 @@ pub enum NodeError {
     /// Wrong ROS 2 arguments.
     #[error(transparent)]
     Args(#[from] args::ArgsError),
-    /// Wrong network settings, or DDS did not start.
-    #[error(transparent)]
-    Network(#[from] network::NetworkError),
     /// DDS, in its own process, could not be brought up.
-    #[error("{0}")]
-    Dds(String),
+    #[error(transparent)]
+    Dds(#[from] crate::dds::port::StartError),
     /// A part of the node could not be started or ended badly.
     #[error("{0}")]
     Stopped(String),

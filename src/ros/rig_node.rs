@@ -2,7 +2,7 @@
 
 use super::NodeError;
 use super::args::{NodeIdentity, Remapping};
-use super::network::Network;
+use crate::dds::network::Network;
 use crate::dds::plan::Offer;
 use crate::dds::port::{Port, PortBuilder, TopicPublisher};
 use crate::messages::std_msgs::Float64;
@@ -28,7 +28,7 @@ impl RigNode {
     /// # Errors
     /// When DDS does not start or a name is not allowed.
     pub fn new(network: &Network, identity: &NodeIdentity, remapping: &Remapping) -> Result<Self, NodeError> {
-        let mut port = PortBuilder::new(network, identity);
+        let mut port = PortBuilder::new(network, &identity.namespace, &identity.name);
         let (mut publishers, mut names) = (Vec::new(), Vec::new());
         for topic in [&topics::ROTARY_SPEED_RPM, &topics::WEIGHT_ON_BIT_KN] {
             let name = remapping.topic(identity, RIG_NODE_NAME, topic.name)?;
@@ -37,6 +37,7 @@ impl RigNode {
                 latched: false,
                 depth: 10,
                 rate: RATE,
+                lifespan: None,
             };
             publishers.push(port.publisher(&name, topic.kind.dds_type, offer));
             names.push(name);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::NodeError;
 use super::args::names::NodeIdentity;
-use super::network::Network;
+use crate::dds::network::Network;
 use crate::dds::port::{Inbox, Monitor, Port, PortBuilder, Sample};
 use crate::messages::topics::TopicInfo;
 use crate::messages::{Message, from_cdr_body};
@@ -35,7 +35,7 @@ impl ListenerBuilder {
     pub fn new(network: &Network, namespace: &str, name: &str) -> Result<Self, NodeError> {
         let twin = NodeIdentity::new(namespace, name)?;
         Ok(Self {
-            port: PortBuilder::new(network, &twin),
+            port: PortBuilder::new(network, &twin.namespace, &twin.name),
             twin,
         })
     }

@@ -17,6 +17,10 @@ pub trait Clock: Send {
     fn rig_time(&self) -> u64;
     /// Lateness that is caught up rather than skipped (s).
     fn tolerance(&self) -> f64;
+    /// How far the clock may jump at once (ns): no more lateness than that tells of a slow machine.
+    fn jump(&self) -> u64 {
+        0
+    }
 }
 
 /// The present instant for stamps (ns since 1970): the system's clock as it was when this was first called, carried on by
@@ -85,5 +89,9 @@ impl Clock for SimulatedClock {
     fn tolerance(&self) -> f64 {
         // /clock may come once a second.
         2.5
+    }
+
+    fn jump(&self) -> u64 {
+        (self.tolerance() * 1e9) as u64
     }
 }

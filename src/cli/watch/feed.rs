@@ -3,10 +3,10 @@
 use std::time::Instant;
 
 use super::board::Board;
+use crate::dds::network::Network;
 use crate::messages::topics;
 use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
 use crate::ros::NodeError;
-use crate::ros::network::Network;
 use crate::ros::subscriber::{Listener, ListenerBuilder, TopicReader};
 
 pub(super) struct Feed {

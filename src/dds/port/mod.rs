@@ -22,9 +22,7 @@ use self::keeper::Keeper;
 use self::outbox::Outbox;
 use super::frames::{Peer, Peers, ToSide};
 use super::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan};
-use crate::ros::NodeError;
-use crate::ros::args::NodeIdentity;
-use crate::ros::network::Network;
+use crate::dds::network::Network;
 
 /// Samples that wait for a part of the node that is busy.
 const SAMPLES: usize = 256;
@@ -32,6 +30,11 @@ const SAMPLES: usize = 256;
 const REQUESTS: usize = 64;
 /// Longest wait for the first start.
 const START: Duration = Duration::from_secs(10);
+
+/// Why DDS could not be brought up.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct StartError(String);
 
 /// What became of the samples of one topic.
 #[derive(Debug, Default)]
@@ -74,12 +77,12 @@ pub struct PortBuilder {
 
 impl PortBuilder {
     /// A node without endpoints.
-    pub fn new(network: &Network, identity: &NodeIdentity) -> Self {
+    pub fn new(network: &Network, namespace: &str, node: &str) -> Self {
         Self {
             plan: Plan {
                 network: network.clone(),
-                namespace: identity.namespace.clone(),
-                node: identity.name.clone(),
+                namespace: namespace.to_owned(),
+                node: node.to_owned(),
                 writers: Vec::new(),
                 readers: Vec::new(),
                 services: Vec::new(),
@@ -142,7 +145,7 @@ impl PortBuilder {
     ///
     /// # Errors
     /// When the process cannot be started, or DDS in it.
-    pub fn start(self) -> Result<Port, NodeError> {
+    pub fn start(self) -> Result<Port, StartError> {
         let shared = Arc::new(Shared {
             outbox: self.outbox,
             writers: self.writers,
@@ -157,15 +160,15 @@ impl PortBuilder {
         let thread = std::thread::Builder::new()
             .name("dds keeper".into())
             .spawn(move || keeper.run(&told))
-            .map_err(|error| NodeError::Dds(format!("the keeper's thread could not be started: {error}")))?;
+            .map_err(|error| StartError(format!("the keeper's thread could not be started: {error}")))?;
         let port = Port {
             shared,
             thread: Some(thread),
         };
         match first.recv_timeout(START) {
             Ok(Ok(())) => Ok(port),
-            Ok(Err(why)) => Err(NodeError::Dds(why)),
-            Err(_) => Err(NodeError::Dds(format!(
+            Ok(Err(why)) => Err(StartError(why)),
+            Err(_) => Err(StartError(format!(
                 "the DDS process has said nothing for {} s",
                 START.as_secs()
             ))),

@@ -151,6 +151,7 @@ mod tests {
         latched: false,
         depth: 10,
         rate: 50.0,
+        lifespan: None,
     };
     const LATCHED: Offer = Offer {
         latched: true,

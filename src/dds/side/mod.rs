@@ -34,7 +34,7 @@ use self::replies::{Answer, ServiceServer};
 use self::topic_writer::TopicWriter;
 use super::frames::{self, Beat, FromSide, LogLevel, ToSide};
 use super::plan::{Plan, ReaderPlan, dds_topic_name};
-use crate::ros::network::NetworkError;
+use crate::dds::network::NetworkError;
 
 /// Name of the subcommand that the node starts itself with.
 pub const SUBCOMMAND: &str = "dds-side";

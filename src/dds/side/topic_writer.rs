@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use ros2_client::{Node, Publisher, WriteError};
-use rustdds::policy::{Durability, History, Reliability, ResourceLimits};
+use rustdds::policy::{Durability, History, Lifespan, Reliability, ResourceLimits};
 use rustdds::{DomainParticipant, QosPolicies, QosPolicyBuilder, TopicKind};
 
 use super::logs::RepairWatch;
@@ -154,7 +154,13 @@ fn create(node: &mut Node, participant: &DomainParticipant, plan: &WriterPlan) -
 }
 
 fn policies(offer: Offer) -> QosPolicies {
-    QosPolicyBuilder::new()
+    let builder = match offer.lifespan {
+        Some(seconds) => QosPolicyBuilder::new().lifespan(Lifespan {
+            duration: rustdds::Duration::from_frac_seconds(seconds),
+        }),
+        None => QosPolicyBuilder::new(),
+    };
+    builder
         .reliability(if offer.reliable {
             Reliability::Reliable {
                 max_blocking_time: rustdds::Duration::ZERO,

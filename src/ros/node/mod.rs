@@ -25,11 +25,11 @@ use self::publish::{Publisher, PublisherParts};
 use self::publishers::Publishers;
 use self::rig::{Now, RigInputs};
 use super::args::{NodeIdentity, Remapping};
-use super::network::Network;
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
-use super::{DEFAULT_NODE_NAME, NodeError, logging};
+use super::{DEFAULT_NODE_NAME, NodeError, loggers, logging};
 use crate::bag::{Recording, RecordingThread};
+use crate::dds::network::Network;
 use crate::dds::port::PortBuilder;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
@@ -105,7 +105,7 @@ pub async fn run(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result
 }
 
 async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result<RunSummary, NodeError> {
-    let mut port = PortBuilder::new(&setup.network, &setup.identity);
+    let mut port = PortBuilder::new(&setup.network, &setup.identity.namespace, &setup.identity.name);
     if setup.rosout {
         logging::connect(&mut port, &setup.identity.full_name());
     }
@@ -156,6 +156,9 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     for task in parameters::serve(&mut port, setup.mapping, &parameters) {
         tasks.spawn(task);
     }
+    for task in loggers::serve(&mut port, setup.mapping, &setup.identity.full_name()) {
+        tasks.spawn(task);
+    }
     let service_name = |name: &str| setup.remapping.service(&setup.identity, DEFAULT_NODE_NAME, name);
     for task in control::serve(&mut port, setup.mapping, &control, service_name)? {
         tasks.spawn(task);
@@ -195,6 +198,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         alarms: AlarmDesk::new(Arc::clone(&config), setup.alarm_state.as_deref(), asked, rig_time()),
         conditioner,
         now,
+        use_sim_time: setup.use_sim_time,
         rig_time,
         dds: port.monitor(),
         node_name: setup.identity.full_name(),

@@ -53,6 +53,8 @@ pub struct PublisherParts {
     pub conditioner: Arc<Mutex<Conditioner>>,
     /// Time as the conditioner counts it.
     pub now: Now,
+    /// `/clock` paces the model.
+    pub use_sim_time: bool,
     /// Present instant on the rig's clock (ns since 1970).
     pub rig_time: Arc<dyn Fn() -> i64 + Send + Sync>,
     /// DDS.
@@ -138,7 +140,7 @@ impl Publisher {
             self.record_received(received);
         }
         let now = monotonic::now();
-        self.status.note(now, &self.parts.gauges);
+        self.status.note(self.pace_time(), &self.parts.gauges);
         let rates = self.parts.config.outputs.rates;
         if due(&mut self.next_status, now, rates.status) {
             self.send_status();
@@ -147,7 +149,7 @@ impl Publisher {
             self.send_diagnostics();
         }
         if due(&mut self.next_alarms, now, NODE_ALARM_RATE) {
-            let factor = self.status.real_time_factor(now, &self.parts.gauges);
+            let factor = self.status.real_time_factor(self.pace_time(), &self.parts.gauges);
             alarms::judge_node(&mut self.parts, self.evidence.failure, factor);
         }
         let parts = &mut self.parts;
@@ -261,7 +263,7 @@ impl Publisher {
             gauges: &parts.gauges,
             conditioner: &conditioner,
             now: (parts.now)(),
-            wall: monotonic::now(),
+            pace_time: self.pace_time(),
             outputs: &outputs,
             recording: parts.recording.as_ref(),
             dds: &parts.dds.health(),
@@ -299,6 +301,17 @@ impl Publisher {
                 .judge(&self.parts.node_name, &self.newest_status, &self.evidence),
         };
         self.parts.send_message(&topics::DIAGNOSTICS, &message, self.instant());
+    }
+
+    /// Time that the model is to keep up with (ns). Under `/clock`, which jumps and may stand still, it is what the model
+    /// has gone through or given up.
+    fn pace_time(&self) -> u64 {
+        if self.parts.use_sim_time {
+            let ticks = self.parts.gauges.ticks.load(Ordering::Relaxed);
+            (ticks as f64 * self.parts.config.solver.time_step * 1e9) as u64
+        } else {
+            monotonic::now()
+        }
     }
 
     /// The present instant of the run (ns since 1970).

@@ -46,6 +46,7 @@ impl Publishers {
                 latched: topic.qos.transient_local,
                 depth: topic.qos.depth as i32,
                 rate: rate(config, topic).max(CHANGES_RATE),
+                lifespan: None,
             };
             let publisher = port.publisher(&name, topic.kind.dds_type, offer);
             entries.push(Entry { topic, name, publisher });

@@ -52,6 +52,7 @@ impl Parameters {
             latched: false,
             depth: 1000,
             rate: 10.0,
+            lifespan: None,
         };
         let events = port.publisher(
             "/parameter_events",
