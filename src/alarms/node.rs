@@ -31,8 +31,10 @@ pub struct NodeState<'a> {
 /// How the recording is.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RecordingState {
-    /// Why writing failed; nothing more is recorded then.
+    /// Why nothing can be written at present.
     pub error: Option<String>,
+    /// What was wrong a moment ago, when the recording goes on in another file since.
+    pub notice: Option<String>,
     /// Messages lost so far.
     pub drops: u64,
 }
@@ -160,13 +162,19 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory) -> Finding
     };
     let lost = recording.drops.saturating_sub(memory.drops);
     memory.drops = recording.drops;
-    let (priority, evidence, cause) = match &recording.error {
-        Some(error) => (
+    let stopped = "The disk is full or has gone, or the file or its folder was removed.";
+    let (priority, evidence, cause) = match (&recording.error, &recording.notice) {
+        (Some(error), _) => (
             Priority::Medium,
             format!("The recording stopped: {error}."),
-            "The disk is full or has gone, or the file was removed.",
+            stopped,
         ),
-        None if lost > 0 => (
+        (None, Some(notice)) => (
+            Priority::Medium,
+            format!("The recording had stopped and goes on in another file: {notice}."),
+            stopped,
+        ),
+        (None, None) if lost > 0 => (
             Priority::Low,
             format!(
                 "{lost} messages did not get into the recording, {} so far.",
@@ -174,14 +182,15 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory) -> Finding
             ),
             "The disk is too slow.",
         ),
-        None => return Finding::default(),
+        (None, None) => return Finding::default(),
     };
     Finding {
         priority: Some(priority),
         evidence,
         cause: cause.to_owned(),
         consequence: "The run cannot be replayed to the bit, and the journal of alarms has gaps.".to_owned(),
-        what_to_do: "Free the disk or record to another, and start the node again with --record.".to_owned(),
+        what_to_do: "Free the disk: the recording then goes on in another file by itself. Or start the node again with \
+                     --record on another disk.".to_owned(),
         ..Finding::default()
     }
 }
