@@ -11,6 +11,10 @@ use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
 /// Deadband of the real-time factor: less than that between the two setpoints.
 const FACTOR_DEADBAND: f64 = 0.01;
 
+/// How long a loss of messages counts (s): longer than the alarm's default delay, which a loss of a moment would not
+/// outlast.
+const LOSS_COUNTS: f64 = 5.0;
+
 /// What the node knows of itself at an instant.
 #[derive(Debug)]
 pub struct NodeState<'a> {
@@ -44,6 +48,8 @@ pub struct RecordingState {
 pub(super) struct Memory {
     pace: Option<Priority>,
     drops: u64,
+    /// Messages that the recording lost in a row of losses, and until when that counts (s).
+    losses: Option<(u64, f64)>,
 }
 
 /// What the node's state says of every alarm of the node.
@@ -54,7 +60,10 @@ pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId,
         weight,
         (AlarmId::RealTime, real_time(state, memory)),
         (AlarmId::Solver, solver(state.failure)),
-        (AlarmId::Recording, recording(state.recording.as_ref(), memory)),
+        (
+            AlarmId::Recording,
+            recording(state.recording.as_ref(), memory, state.now),
+        ),
     ]
 }
 
@@ -156,41 +165,48 @@ fn solver(failure: Option<StepFailure>) -> Finding {
     }
 }
 
-fn recording(recording: Option<&RecordingState>, memory: &mut Memory) -> Finding {
+fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) -> Finding {
     let Some(recording) = recording else {
         return Finding::default();
     };
     let lost = recording.drops.saturating_sub(memory.drops);
     memory.drops = recording.drops;
+    let row = memory.losses.filter(|(_, until)| now < *until);
+    if lost > 0 {
+        let before = row.map_or(0, |(lost, _)| lost);
+        memory.losses = Some((before + lost, now + LOSS_COUNTS));
+    } else {
+        memory.losses = row;
+    }
     let stopped = "The disk is full or has gone, or the file or its folder was removed.";
     let (priority, evidence, cause) = match (&recording.error, &recording.notice) {
-        (Some(error), _) => (
-            Priority::Medium,
-            format!("The recording stopped: {error}."),
-            stopped,
-        ),
+        (Some(error), _) => (Priority::Medium, format!("The recording stopped: {error}."), stopped),
         (None, Some(notice)) => (
             Priority::Medium,
             format!("The recording had stopped and goes on in another file: {notice}."),
             stopped,
         ),
-        (None, None) if lost > 0 => (
-            Priority::Low,
-            format!(
-                "{lost} messages did not get into the recording, {} so far.",
-                recording.drops
+        (None, None) => match memory.losses {
+            Some((lost, _)) => (
+                Priority::Low,
+                format!(
+                    "{lost} messages did not get into the recording, {} so far.",
+                    recording.drops
+                ),
+                "The disk is too slow.",
             ),
-            "The disk is too slow.",
-        ),
-        (None, None) => return Finding::default(),
+            None => return Finding::default(),
+        },
     };
     Finding {
         priority: Some(priority),
         evidence,
         cause: cause.to_owned(),
         consequence: "The run cannot be replayed to the bit, and the journal of alarms has gaps.".to_owned(),
-        what_to_do: "Free the disk: the recording then goes on in another file by itself. Or start the node again with \
-                     --record on another disk.".to_owned(),
+        what_to_do:
+            "Free the disk: the recording then goes on in another file by itself. Or start the node again with \
+                     --record on another disk."
+                .to_owned(),
         ..Finding::default()
     }
 }

@@ -215,9 +215,7 @@ impl BagError {
 /// What a person can do about the commonest ones.
 fn hint(error: &io::Error) -> &'static str {
     match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            "; free space, what was written before is kept"
-        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "; free space, what was written before is kept",
         io::ErrorKind::FileTooLarge => {
             "; a file may not grow further (ulimit -f, or the file system), what was written before is kept"
         }

@@ -12,8 +12,8 @@ use super::recording_health::{Counts, RecordingHealth};
 use super::storage::Storage;
 use super::{BagError, Recording, Topic};
 
-/// How often it is looked whether the file is still at its place: what is wrong is told within two seconds.
-const LOOK: Duration = Duration::from_secs(1);
+/// How often it is looked whether the file is still at its place.
+const LOOK: Duration = Duration::from_millis(500);
 /// Wait before a file that could not be begun is tried again; doubles from time to time.
 const FIRST_WAIT: Duration = Duration::from_secs(1);
 /// Longest such wait.
@@ -365,9 +365,10 @@ impl LiveRecorder {
 
     fn report(&self) {
         let before: u64 = self.done.iter().map(|file| file.tally.messages()).sum();
-        let (in_file, safe) = self.part.as_ref().map_or((0, 0), |part| {
-            (part.in_file().messages(), part.safe().messages())
-        });
+        let (in_file, safe) = self
+            .part
+            .as_ref()
+            .map_or((0, 0), |part| (part.in_file().messages(), part.safe().messages()));
         self.health.set_counts(Counts {
             written: (before + in_file).saturating_sub(self.doubtful),
             safe: (before + safe).saturating_sub(self.doubtful),

@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use super::BagError;
+use super::storage::sync_folder;
 
 /// Name of rosbag2's metadata file.
 pub(super) const METADATA: &str = "metadata.yaml";
@@ -64,6 +65,7 @@ impl Location {
             });
         }
         std::fs::create_dir_all(&location.folder).map_err(BagError::io("make the folder", &location.folder))?;
+        sync_folder(&location.folder);
         Ok(location)
     }
 

@@ -15,8 +15,8 @@ use crate::messages::topics::{self, TopicInfo};
 
 /// Messages that may wait for the disk: at 300 per second, over 20 s.
 const QUEUE: usize = 8192;
-/// Bytes that may wait for the disk: the largest tool's messages of 20 s.
-const QUEUE_BYTES: usize = 256 << 20;
+/// Bytes that may wait for the disk: at 16 kB a message, as many as messages.
+const QUEUE_BYTES: usize = 128 << 20;
 /// How often it is looked what is due when no message comes.
 const TICK: Duration = Duration::from_millis(50);
 /// Longest wait for the end of a recording: a disk that does not answer must not hold the end of the node.

@@ -149,7 +149,7 @@ fn id(found: &std::fs::Metadata) -> FileId {
 }
 
 /// Brings a new name to the disk. File systems that cannot do it lose the name only together with the machine.
-fn sync_folder(path: &Path) {
+pub(super) fn sync_folder(path: &Path) {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let _ = File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
 }

@@ -78,7 +78,10 @@ pub(super) fn shutdown(recording: bool) -> io::Result<impl Future<Output = ()>> 
                     Request::Wait if insisted => {}
                     Request::Wait => {
                         insisted = true;
-                        eprintln!("the end of the recording is being written; that takes at most {} s", left.as_secs());
+                        eprintln!(
+                            "the end of the recording is being written; that takes at most {} s",
+                            left.as_secs()
+                        );
                     }
                     Request::Insist => break,
                 }

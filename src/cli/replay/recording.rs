@@ -39,9 +39,7 @@ pub(super) struct Script {
 
 /// Whether a bag is a recording of the twin, by us or others: it says what the run was made with.
 pub(super) fn is_ours(bag: &Bag) -> bool {
-    bag.topics()
-        .iter()
-        .any(|topic| topic.ros_type == SessionInfo::ROS_TYPE)
+    bag.topics().iter().any(|topic| topic.ros_type == SessionInfo::ROS_TYPE)
 }
 
 impl Script {
