@@ -226,6 +226,29 @@ fn after_a_full_disk_it_goes_on_in_another_file() {
     for part in ["- \"run_0.mcap\"", "- \"run_1.mcap\"", "- path: \"run_1.mcap\""] {
         assert!(metadata.contains(part), "{metadata}");
     }
+    // Each file can be used alone, by its index.
+    for file in ["run_0.mcap", "run_1.mcap"] {
+        let bytes = std::fs::read(path.join(file)).unwrap();
+        let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
+        let statistics = summary.stats.as_ref().unwrap();
+        let indexed: usize = summary
+            .chunk_indexes
+            .iter()
+            .map(|chunk| summary.stream_chunk(&bytes, chunk).unwrap().map(Result::unwrap).count())
+            .sum();
+        assert_eq!(statistics.message_count, indexed as u64, "{file}");
+        assert_eq!(mcap::MessageStream::new(&bytes).unwrap().count(), indexed);
+        assert_eq!(statistics.chunk_count as usize, summary.chunk_indexes.len());
+        assert_eq!(statistics.channel_count as usize, summary.channels.len());
+        assert_eq!(usize::from(statistics.schema_count), summary.schemas.len());
+        let alone = bag::open(&path.join(file)).unwrap();
+        assert_eq!(alone.message_count(), Some(indexed as u64));
+        let (first, last) = alone.bounds().unwrap();
+        assert_eq!(
+            (first as u64, last as u64),
+            (statistics.message_start_time, statistics.message_end_time)
+        );
+    }
     // A copy by `recover` says what is missing too.
     let recovered = bag::recover(&path, &folder.path().join("copy")).unwrap();
     assert_eq!(recovered.gaps.len(), 3);

@@ -91,7 +91,7 @@ pub enum BagError {
     },
     /// A recording ended while it could not be written, or its end could not.
     #[error(
-        "the recording {path} is not complete: {source}; {messages} messages are in it, {lost} are lost",
+        "the recording {path} is not complete: {problem}; {messages} messages are in it, {lost} are lost",
         path = path.display()
     )]
     Incomplete {
@@ -102,7 +102,7 @@ pub enum BagError {
         /// Messages lost.
         lost: u64,
         /// Why.
-        source: Box<BagError>,
+        problem: Box<BagError>,
     },
     /// The MCAP writer refused.
     #[error("cannot write {path}: {source}", path = path.display())]

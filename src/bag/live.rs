@@ -21,6 +21,9 @@ const LONGEST_WAIT: Duration = Duration::from_secs(10);
 /// Names that are tried for a file, where others have taken them.
 const NAMES: usize = 1000;
 
+/// Files that are kept open because they had no room for their end.
+const UNENDED: usize = 16;
+
 /// A message on its way into the file.
 #[derive(Debug)]
 pub(super) struct Item {
@@ -80,6 +83,8 @@ pub(super) struct LiveRecorder {
     next: usize,
     /// The files before.
     done: Vec<FileEntry>,
+    /// Of these, the ones that had no room for their end.
+    unended: Vec<Part>,
     /// Messages of the open chunk: should it not get into the file, they go into the next.
     open: Vec<Item>,
     /// Messages that are in no file.
@@ -118,6 +123,7 @@ impl LiveRecorder {
             part: Some(part),
             next: 1,
             done: Vec::new(),
+            unended: Vec::new(),
             open: Vec::new(),
             lost: 0,
             doubtful: 0,
@@ -177,7 +183,7 @@ impl LiveRecorder {
         match self.part.take() {
             Some(mut part) => {
                 if let Err(error) = part.end(&self.topics) {
-                    self.count_doubtful(&mut part, &error);
+                    self.end_early(&mut part, &error);
                     problem = Some(error);
                 }
                 self.done.push(part.file_entry());
@@ -187,6 +193,7 @@ impl LiveRecorder {
                 problem = self.error.take();
             }
         }
+        self.end_unended();
         self.report();
         let lost = self.lost + self.health.refused();
         if !self.done.is_empty() {
@@ -202,11 +209,11 @@ impl LiveRecorder {
         let all = self.in_files();
         let path = self.first_file();
         match problem {
-            Some(source) => Err(BagError::Incomplete {
+            Some(problem) => Err(BagError::Incomplete {
                 path,
                 messages: all.messages(),
                 lost,
-                source: Box::new(source),
+                problem: Box::new(problem),
             }),
             None => Ok(Recording {
                 path,
@@ -247,15 +254,18 @@ impl LiveRecorder {
     fn fail(&mut self, error: BagError) {
         let Some(mut part) = self.part.take() else { return };
         tracing::error!("the recording stopped: {error}; the twin goes on without it");
-        self.count_doubtful(&mut part, &error);
+        let worked = part.safe().messages() > 0;
+        let indexed = self.end_early(&mut part, &error);
         if matches!(error, BagError::Gone { .. }) {
             self.lost += part.in_file().messages();
         } else if part.in_file().messages() == 0 {
             let _ = self.storage.remove(part.path());
         } else {
             self.done.push(part.file_entry());
+            if !indexed && self.unended.len() < UNENDED {
+                self.unended.push(part);
+            }
         }
-        let worked = part.safe().messages() > 0;
         self.health.set_error(&error);
         self.error = Some(error);
         if worked {
@@ -267,15 +277,21 @@ impl LiveRecorder {
     }
 
     /// Ends a file after an error, and counts what the disk may have lost of it. A disk that has refused once forgets
-    /// what it was to write, and says nothing of it the next time.
-    fn count_doubtful(&mut self, part: &mut Part, error: &BagError) {
+    /// what it was to write, and says nothing of it the next time. Whether there was room for the index.
+    fn end_early(&mut self, part: &mut Part, error: &BagError) -> bool {
         let ended = part.end_early();
         match error {
             BagError::Gone { .. } => {}
             BagError::NotSafe { messages, .. } => self.doubtful += messages,
-            _ if !ended => self.doubtful += part.in_file().messages() - part.safe().messages(),
+            _ if !ended.safe => self.doubtful += part.in_file().messages() - part.safe().messages(),
             _ => {}
         }
+        ended.indexed
+    }
+
+    /// Ends the files before that had no room for it.
+    fn end_unended(&mut self) {
+        self.unended.retain_mut(|part| !part.end_early().indexed);
     }
 
     /// Goes on in a new file, if one can be written.
@@ -292,6 +308,7 @@ impl LiveRecorder {
                 self.health.clear_error(before.as_ref());
                 self.open.clear();
                 self.part = Some(part);
+                self.end_unended();
             }
             Err(error) => {
                 tracing::debug!("the recording cannot go on yet: {error}");

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use mcap::records::{MessageHeader, Metadata as McapMetadata, op};
+use mcap::records::{MessageHeader, Metadata as McapMetadata};
 use mcap::write::NoSeek;
 use mcap::{Compression, McapError, WriteOptions};
 
+use super::mcap_file::early_end::{self, Content};
 use super::metadata::{self, FileEntry};
 use super::storage::{Storage, StorageFile};
 use super::{BagError, Topic, qos};
@@ -109,6 +110,15 @@ pub(super) struct Entry<'a> {
     pub bytes: &'a [u8],
 }
 
+/// How a file was ended early.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EarlyEnd {
+    /// With an index.
+    pub indexed: bool,
+    /// Everything in it is on the disk, for all that the disk says.
+    pub safe: bool,
+}
+
 /// A file of a recording. A chunk is put together in memory and written whole; the first after a tenth of a second, later
 /// ones after half a second, and then brought to the disk.
 ///
@@ -119,6 +129,9 @@ pub(super) struct Part {
     sink: Sink,
     writer: McapWriter,
     channels: Vec<u16>,
+    schemas: u16,
+    /// Its own end is in it.
+    ended: bool,
     /// Length of the file up to its last whole chunk.
     length: u64,
     /// With the open chunk.
@@ -141,7 +154,7 @@ impl Part {
     /// When the file is there already or cannot be written; what was made of it is left.
     pub fn create(storage: &dyn Storage, path: &Path, topics: &[Topic]) -> Result<Self, BagError> {
         let sink = Sink::default();
-        let (writer, channels) = start(sink.clone(), topics).map_err(write_error(path))?;
+        let (writer, channels, schemas) = start(sink.clone(), topics).map_err(write_error(path))?;
         let file = storage.create(path).map_err(|source| match source.kind() {
             ErrorKind::AlreadyExists => BagError::Exists { path: path.to_owned() },
             _ => BagError::io("make", path)(source),
@@ -153,6 +166,8 @@ impl Part {
             sink,
             writer,
             channels,
+            schemas,
+            ended: false,
             length: 0,
             taken: tally.clone(),
             in_file: tally.clone(),
@@ -298,26 +313,39 @@ impl Part {
         ended
             .and_then(|()| self.writer.finish().map(drop))
             .map_err(write_error(&self.path))?;
-        self.put_sink()?;
+        // Kept for an early end, should this one have no room.
+        let end = self.sink.bytes().clone();
+        self.length = self.put(&end).map_err(BagError::io("write", &self.path))?;
+        self.ended = true;
         self.sync()
     }
 
-    /// Ends the file where it is whole, without an index, as well as the disk lets it: readers then find its end. Whether
-    /// that brought everything in it to the disk.
-    pub fn end_early(&mut self) -> bool {
-        let end = [
-            &[op::DATA_END][..],
-            &4_u64.to_le_bytes(),
-            &[0; 4],
-            &[op::FOOTER],
-            &20_u64.to_le_bytes(),
-            &[0; 20],
-            mcap::MAGIC,
-        ]
-        .concat();
-        let _ = self.put(&end);
-        // What is in the file is brought to the disk even where its end has no room.
-        self.file.sync().is_ok() || self.in_file == self.safe
+    /// Ends the file where it is whole, as well as the disk lets it. To be tried again later where that is not with an
+    /// index: readers that want one are many.
+    pub fn end_early(&mut self) -> EarlyEnd {
+        let finished = self.writer.finish().is_ok();
+        let bounds = self.in_file.bounds.unwrap_or((0, 0));
+        let content = Content {
+            length: self.length,
+            counts: self
+                .channels
+                .iter()
+                .copied()
+                .zip(self.in_file.per_topic.iter().copied())
+                .collect(),
+            bounds,
+            schemas: self.schemas,
+        };
+        let indexed = early_end::indexed(&self.sink.bytes(), &content);
+        let has_room = self.ended || finished && self.put(&indexed).is_ok();
+        if !has_room {
+            let _ = self.put(&early_end::shortest());
+        }
+        EarlyEnd {
+            indexed: has_room,
+            // What is in the file is brought to the disk even where its end has no room.
+            safe: self.file.sync().is_ok() || self.in_file == self.safe,
+        }
     }
 
     /// What the metadata says of the file.
@@ -335,11 +363,12 @@ impl Part {
     /// Writes what the MCAP writer has put into memory.
     fn put_sink(&mut self) -> Result<(), BagError> {
         let bytes = std::mem::take(&mut *self.sink.bytes());
-        self.put(&bytes).map_err(BagError::io("write", &self.path))
+        self.length = self.put(&bytes).map_err(BagError::io("write", &self.path))?;
+        Ok(())
     }
 
-    /// Writes all of `bytes` behind what is whole, or cuts the file back to that.
-    fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
+    /// Writes all of `bytes` behind what is whole, or cuts the file back to that. Where it ends then (bytes).
+    fn put(&mut self, bytes: &[u8]) -> io::Result<u64> {
         let mut rest = bytes;
         let mut offset = self.length;
         while !rest.is_empty() {
@@ -353,11 +382,10 @@ impl Part {
                 Err(error) => return self.cut_back(error),
             }
         }
-        self.length = offset;
-        Ok(())
+        Ok(offset)
     }
 
-    fn cut_back(&mut self, error: io::Error) -> io::Result<()> {
+    fn cut_back(&mut self, error: io::Error) -> io::Result<u64> {
         // Where this fails too, readers find the half chunk and stop before it.
         let _ = self.file.set_len(self.length);
         Err(error)
@@ -369,8 +397,8 @@ fn span(before: u32) -> Duration {
     FIRST_SPAN.saturating_mul(1 << before.min(8)).min(LONGEST_SPAN)
 }
 
-/// The header, schemas and channels.
-fn start(sink: Sink, topics: &[Topic]) -> Result<(McapWriter, Vec<u16>), McapError> {
+/// The header, schemas and channels; the channels, and the number of schemas.
+fn start(sink: Sink, topics: &[Topic]) -> Result<(McapWriter, Vec<u16>, u16), McapError> {
     let mut writer = WriteOptions::new()
         .profile("ros2")
         .library(concat!("flexdrill ", env!("CARGO_PKG_VERSION")))
@@ -383,15 +411,18 @@ fn start(sink: Sink, topics: &[Topic]) -> Result<(McapWriter, Vec<u16>), McapErr
         .disable_seeking(true)
         .create(NoSeek::new(sink))?;
     let mut channels = Vec::with_capacity(topics.len());
+    let mut schemas = 0;
     for topic in topics {
         let schema = writer.add_schema(&topic.ros_type, &topic.schema_encoding, topic.schema.as_bytes())?;
+        // Schemas are numbered from 1; topics of one type share one.
+        schemas = schema.max(schemas);
         let mut metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), qos::to_yaml(&topic.qos))]);
         if !topic.type_hash.is_empty() {
             metadata.insert("topic_type_hash".to_owned(), topic.type_hash.clone());
         }
         channels.push(writer.add_channel(schema, &topic.name, &topic.encoding, &metadata)?);
     }
-    Ok((writer, channels))
+    Ok((writer, channels, schemas))
 }
 
 fn write_error(path: &Path) -> impl FnOnce(McapError) -> BagError {
