@@ -205,18 +205,47 @@ fn a_killed_twin_leaves_its_first_moments_and_nothing_that_looks_whole() {
     assert!(messages > 20 && !whole, "{messages}");
 }
 
+/// Recordings of some seconds in several files, which others read too.
 #[test]
-fn a_limit_of_the_file_size_splits_the_recording_and_does_not_end_the_twin() {
+fn a_limit_of_the_file_size_splits_the_recording() {
     let Some(network) = Network::new() else { return };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run");
     let mut command = network.command("prlimit");
-    command.arg("--fsize=150000").arg(env!("CARGO_BIN_EXE_flexdrill"));
+    command.arg("--fsize=200000").arg(env!("CARGO_BIN_EXE_flexdrill"));
     command
-        .args(["run", "--duration", "6", "--config"])
+        .args(["run", "--duration", "8", "--config"])
         .arg(common::small_config());
     command.arg("--record").arg(&path);
     let mut twin = Program::start(command);
+    assert_eq!(twin.end(), Some(0), "{}", twin.said());
+    let said = twin.said();
+    assert!(path.join("run_1.mcap").is_file(), "{said}");
+    assert!(!said.contains("stopped"), "{said}");
+    let (messages, lost) = counts(&said);
+    assert_eq!((messages, true), whole(&path), "{said}");
+    assert_eq!(lost, 0, "{said}");
+    if let Some(printed) = common::python::run("bags.py", &["parts", path.to_str().unwrap()], "") {
+        assert_eq!(printed.trim(), format!("messages {messages}"));
+    }
+}
+
+/// A write beyond the limit sends a signal that ends a program that does not expect it.
+#[test]
+fn a_file_that_may_suddenly_not_grow_does_not_end_the_twin() {
+    let Some(network) = Network::new() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run");
+    let mut twin = network.twin(&["--duration", "8", "--record", path.to_str().unwrap()]);
+    twin.wait_for("model time runs");
+    std::thread::sleep(Duration::from_secs(3));
+    // Room for a chunk or so, and for the end of the file.
+    let limit = std::fs::metadata(path.join("run_0.mcap")).unwrap().len() + 60_000;
+    let limit = Command::new("prlimit")
+        .args([&format!("--fsize={limit}"), "--pid", &twin.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(limit.success());
     assert_eq!(twin.end(), Some(0), "{}", twin.said());
     let said = twin.said();
     assert!(said.contains("a file may not grow further"), "{said}");
@@ -224,9 +253,6 @@ fn a_limit_of_the_file_size_splits_the_recording_and_does_not_end_the_twin() {
     let (messages, lost) = counts(&said);
     assert_eq!((messages, true), whole(&path), "{said}");
     assert_eq!(lost, 0, "{said}");
-    if let Some(printed) = common::python::run("bags.py", &["parts", path.to_str().unwrap()], "") {
-        assert_eq!(printed.trim(), format!("messages {messages}"));
-    }
 }
 
 /// A disk with room for three seconds, and again for more nine seconds after the start.

@@ -237,8 +237,33 @@ impl LiveRecorder {
         if part.in_file() == part.taken() {
             self.open.clear();
         }
-        if let Err(error) = flushed {
-            self.fail(error);
+        match flushed {
+            Err(error) => self.fail(error),
+            Ok(()) if part.is_full() => self.split(),
+            Ok(()) => {}
+        }
+    }
+
+    /// Ends a file that is as large as it may be, and goes on in another one.
+    fn split(&mut self) {
+        let Some(mut part) = self.part.take() else { return };
+        if let Err(error) = part.end(&self.topics) {
+            self.part = Some(part);
+            return self.fail(error);
+        }
+        self.done.push(part.file_entry());
+        match self.begin() {
+            Ok(part) => {
+                tracing::info!("the recording goes on in {}", part.path().display());
+                self.health.set_path(part.path());
+                self.part = Some(part);
+            }
+            Err(error) => {
+                tracing::error!("the recording stopped: {error}; the twin goes on without it");
+                self.health.set_error(&error);
+                self.error = Some(error);
+                self.retry.later();
+            }
         }
     }
 

@@ -23,6 +23,12 @@ const FIRST_SPAN: Duration = Duration::from_millis(100);
 const LONGEST_SPAN: Duration = Duration::from_millis(500);
 /// Bytes that a message takes in a chunk beside its own.
 const MESSAGE_HEAD: usize = 31;
+/// Size beyond which a recording goes on in another file (bytes): below the 4 GiB that a FAT file system takes. It also
+/// bounds the index, which is in memory until the file ends.
+const LARGEST_FILE: u64 = (4 << 30) - (64 << 20);
+/// Bytes of the index per chunk, and per channel in each chunk.
+const CHUNK_INDEX: u64 = 128;
+const CHANNEL_INDEX: u64 = 10;
 
 type McapWriter = mcap::Writer<NoSeek<Sink>>;
 
@@ -134,6 +140,11 @@ pub(super) struct Part {
     ended: bool,
     /// Length of the file up to its last whole chunk.
     length: u64,
+    /// Length that it may have (bytes).
+    largest: u64,
+    /// What its end takes at most beside the chunks' index (bytes).
+    end_size: u64,
+    largest_chunk: u64,
     /// With the open chunk.
     taken: Tally,
     in_file: Tally,
@@ -169,6 +180,9 @@ impl Part {
             schemas,
             ended: false,
             length: 0,
+            largest: storage.largest_file().unwrap_or(u64::MAX).min(LARGEST_FILE),
+            end_size: topics.iter().map(end_size).sum(),
+            largest_chunk: 0,
             taken: tally.clone(),
             in_file: tally.clone(),
             safe: tally,
@@ -249,12 +263,21 @@ impl Part {
         // A chunk without messages would tell readers that the recording begins in 1970.
         if self.chunk.is_some() {
             self.writer.flush().map_err(write_error(&self.path))?;
+            let before = self.length;
             self.put_sink()?;
+            self.largest_chunk = self.largest_chunk.max(self.length - before);
             self.in_file = self.taken.clone();
             (self.chunk, self.chunk_bytes) = (None, 0);
             self.chunks = self.chunks.saturating_add(1);
         }
         self.sync_if_due()
+    }
+
+    /// Whether the file is to be ended before it takes another chunk: then its end would have no room.
+    pub fn is_full(&self) -> bool {
+        let index = u64::from(self.chunks) * (CHUNK_INDEX + CHANNEL_INDEX * self.channels.len() as u64);
+        // The next chunk may be larger than any before.
+        self.length + 2 * self.largest_chunk + index + self.end_size > self.largest
     }
 
     /// Brings the file to the disk when the last time is long enough ago.
@@ -390,6 +413,15 @@ impl Part {
         let _ = self.file.set_len(self.length);
         Err(error)
     }
+}
+
+/// What a topic takes in the end of a file: its schema and channel, and its part of rosbag2's metadata.
+fn end_size(topic: &Topic) -> u64 {
+    let qos = qos::to_yaml(&topic.qos);
+    let texts = [&topic.name, &topic.ros_type, &topic.schema, &topic.type_hash];
+    let own: usize = texts.iter().map(|text| 2 * text.len()).sum();
+    // The metadata moves the QoS in by six places a line.
+    (own + 2 * qos.len() + 6 * qos.lines().count() + 512) as u64
 }
 
 /// Time that a chunk spans, or that passes between two times the file is brought to the disk, after so many.

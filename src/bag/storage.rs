@@ -5,6 +5,8 @@ use std::io::{self, ErrorKind, Write as _};
 use std::os::unix::fs::{FileExt as _, MetadataExt as _};
 use std::path::Path;
 
+use rustix::process::{Resource, getrlimit};
+
 /// Which file it is, whatever its name: device and number on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FileId {
@@ -68,6 +70,9 @@ pub trait Storage: Send + Sync {
     /// When there is none.
     fn id(&self, path: &Path) -> io::Result<FileId>;
 
+    /// Largest file that may be written (bytes), if that is known.
+    fn largest_file(&self) -> Option<u64>;
+
     /// Puts a small text at `path`: all of it or nothing, and never over another file.
     ///
     /// # Errors
@@ -98,6 +103,10 @@ impl Storage for Disk {
 
     fn id(&self, path: &Path) -> io::Result<FileId> {
         std::fs::metadata(path).map(|found| id(&found))
+    }
+
+    fn largest_file(&self) -> Option<u64> {
+        getrlimit(Resource::Fsize).current
     }
 
     fn put(&self, path: &Path, text: &str) -> io::Result<()> {

@@ -185,6 +185,10 @@ impl Storage for Faulty {
         Disk.id(path)
     }
 
+    fn largest_file(&self) -> Option<u64> {
+        Disk.largest_file()
+    }
+
     fn put(&self, path: &Path, text: &str) -> io::Result<()> {
         self.0.turn(false, false)?;
         Disk.put(path, text)
