@@ -371,6 +371,24 @@ fn a_file_that_is_replaced_is_noticed() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "something else");
 }
 
+/// The mount point of a disk that was taken out is a folder of another one, which is not to be filled.
+#[test]
+fn nothing_is_written_to_another_disk() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run");
+    let disk = Faulty::new(Counted::All, Fault::Short);
+    let recording = start(disk.clone(), &path).unwrap();
+    send_at_pace(&recording, 0, 300);
+    std::fs::remove_dir_all(&path).unwrap();
+    disk.swap();
+    send_at_pace(&recording, 300, 1500);
+    let error = recording.health().error().unwrap();
+    assert!(error.contains("on another disk"), "{error}");
+    let ended = recording.finish();
+    assert!(ended.unwrap_err().to_string().contains("on another disk"));
+    assert!(!path.exists());
+}
+
 #[test]
 fn the_first_messages_are_on_the_disk_at_once() {
     let folder = tempfile::tempdir().unwrap();

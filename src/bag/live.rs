@@ -7,9 +7,10 @@ use std::time::{Duration, Instant};
 
 use super::location::Location;
 use super::metadata::{self, FileEntry};
-use super::part::{Entry, Part, Tally};
+use super::part::{Entry, Part};
 use super::recording_health::{Counts, RecordingHealth};
 use super::storage::Storage;
+use super::tally::Tally;
 use super::{BagError, Recording, Topic};
 
 /// How often it is looked whether the file is still at its place.

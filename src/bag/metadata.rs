@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::part::Tally;
 use super::storage::Storage;
+use super::tally::Tally;
 use super::{BagError, Topic, qos};
 
 /// A file of a recording, as its metadata names it.

@@ -24,7 +24,8 @@
 //! ```
 //!
 //! # Layout
-//! - `storage`: what is asked of the file system. `part`: one MCAP file that is written. `recorder`: a recording that the
+//! - `storage`: what is asked of the file system. `part`: one MCAP file that is written, by `sink`, with its
+//!   `tally`. `recorder`: a recording that the
 //!   first error ends; `live`: one that goes on in another file; `recording_thread`: the same behind a queue, with its
 //!   `recording_health`. `location`: where the files go. `metadata`: rosbag2's `metadata.yaml`.
 //! - `reader`: [`open`], all sources merged in time order. `mcap_file`, `sqlite`: one source each.
@@ -44,8 +45,10 @@ mod recorder;
 mod recording_health;
 mod recording_thread;
 mod recover;
+mod sink;
 mod sqlite;
 mod storage;
+mod tally;
 mod topic;
 
 pub use error::BagError;

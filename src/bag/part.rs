@@ -1,19 +1,19 @@
 //! One MCAP file that is being written.
 
 use std::collections::BTreeMap;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use mcap::McapError;
 use mcap::records::{MessageHeader, Metadata as McapMetadata};
-use mcap::write::NoSeek;
-use mcap::{Compression, McapError, WriteOptions};
 
 use super::mcap_file::early_end::{self, Content};
 use super::metadata::{self, FileEntry};
+use super::sink::{McapWriter, Sink, end_size, start};
 use super::storage::{Storage, StorageFile};
-use super::{BagError, Topic, qos};
+use super::tally::Tally;
+use super::{BagError, Topic};
 
 /// Uncompressed size at which a chunk is closed (bytes).
 const CHUNK_SIZE: usize = 768 << 10;
@@ -29,77 +29,6 @@ const LARGEST_FILE: u64 = (4 << 30) - (64 << 20);
 /// Bytes of the index per chunk, and per channel in each chunk.
 const CHUNK_INDEX: u64 = 128;
 const CHANNEL_INDEX: u64 = 10;
-
-type McapWriter = mcap::Writer<NoSeek<Sink>>;
-
-/// Where the MCAP writer writes: memory, so that only whole chunks go to the file, and every error of the file is ours.
-#[derive(Clone, Default)]
-struct Sink(Arc<Mutex<Vec<u8>>>);
-
-impl Sink {
-    fn bytes(&self) -> MutexGuard<'_, Vec<u8>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.bytes().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-/// How much was recorded.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct Tally {
-    /// Messages per topic.
-    pub per_topic: Vec<u64>,
-    /// First and last log time (ns).
-    pub bounds: Option<(u64, u64)>,
-}
-
-impl Tally {
-    /// Nothing yet of so many topics.
-    pub fn new(topics: usize) -> Self {
-        Self {
-            per_topic: vec![0; topics],
-            bounds: None,
-        }
-    }
-
-    /// Messages of all topics.
-    pub fn messages(&self) -> u64 {
-        self.per_topic.iter().sum()
-    }
-
-    fn count(&mut self, topic: usize, log_time: u64) {
-        if let Some(count) = self.per_topic.get_mut(topic) {
-            *count += 1;
-        }
-        self.widen((log_time, log_time));
-    }
-
-    /// Adds another.
-    pub fn add(&mut self, other: &Self) {
-        for (sum, count) in self.per_topic.iter_mut().zip(&other.per_topic) {
-            *sum += count;
-        }
-        if let Some(bounds) = other.bounds {
-            self.widen(bounds);
-        }
-    }
-
-    fn widen(&mut self, (from, to): (u64, u64)) {
-        self.bounds = Some(match self.bounds {
-            None => (from, to),
-            Some((first, last)) => (first.min(from), last.max(to)),
-        });
-    }
-}
 
 /// A message as it is recorded.
 #[derive(Debug, Clone, Copy)]
@@ -415,46 +344,9 @@ impl Part {
     }
 }
 
-/// What a topic takes in the end of a file: its schema and channel, and its part of rosbag2's metadata.
-fn end_size(topic: &Topic) -> u64 {
-    let qos = qos::to_yaml(&topic.qos);
-    let texts = [&topic.name, &topic.ros_type, &topic.schema, &topic.type_hash];
-    let own: usize = texts.iter().map(|text| 2 * text.len()).sum();
-    // The metadata moves the QoS in by six places a line.
-    (own + 2 * qos.len() + 6 * qos.lines().count() + 512) as u64
-}
-
 /// Time that a chunk spans, or that passes between two times the file is brought to the disk, after so many.
 fn span(before: u32) -> Duration {
     FIRST_SPAN.saturating_mul(1 << before.min(8)).min(LONGEST_SPAN)
-}
-
-/// The header, schemas and channels; the channels, and the number of schemas.
-fn start(sink: Sink, topics: &[Topic]) -> Result<(McapWriter, Vec<u16>, u16), McapError> {
-    let mut writer = WriteOptions::new()
-        .profile("ros2")
-        .library(concat!("flexdrill ", env!("CARGO_PKG_VERSION")))
-        // Chunks are closed by `flush` alone.
-        .chunk_size(None)
-        .compression(Some(Compression::Zstd))
-        // Compression in this thread: chunks are small, and the result is the same on every machine.
-        .compression_threads(0)
-        // Chunks are put together in memory and written whole, never as an open end.
-        .disable_seeking(true)
-        .create(NoSeek::new(sink))?;
-    let mut channels = Vec::with_capacity(topics.len());
-    let mut schemas = 0;
-    for topic in topics {
-        let schema = writer.add_schema(&topic.ros_type, &topic.schema_encoding, topic.schema.as_bytes())?;
-        // Schemas are numbered from 1; topics of one type share one.
-        schemas = schema.max(schemas);
-        let mut metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), qos::to_yaml(&topic.qos))]);
-        if !topic.type_hash.is_empty() {
-            metadata.insert("topic_type_hash".to_owned(), topic.type_hash.clone());
-        }
-        channels.push(writer.add_channel(schema, &topic.name, &topic.encoding, &metadata)?);
-    }
-    Ok((writer, channels, schemas))
 }
 
 fn write_error(path: &Path) -> impl FnOnce(McapError) -> BagError {

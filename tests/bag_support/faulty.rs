@@ -43,6 +43,7 @@ struct Plan {
     until: AtomicUsize,
     count: AtomicUsize,
     fired: AtomicBool,
+    swapped: AtomicBool,
     gate: Mutex<bool>,
     opened: Condvar,
 }
@@ -106,6 +107,7 @@ impl Faulty {
             until: AtomicUsize::new(usize::MAX),
             count: AtomicUsize::new(0),
             fired: AtomicBool::new(false),
+            swapped: AtomicBool::new(false),
             gate: Mutex::new(false),
             opened: Condvar::new(),
         }))
@@ -121,6 +123,11 @@ impl Faulty {
     /// All operations fail from now on.
     pub fn fail(&self) {
         self.0.from.store(0, Ordering::SeqCst);
+    }
+
+    /// From now on every path leads to another disk, as when one was taken out.
+    pub fn swap(&self) {
+        self.0.swapped.store(true, Ordering::SeqCst);
     }
 
     /// None fails any more, and what hangs goes on.
@@ -182,7 +189,11 @@ impl Storage for Faulty {
     }
 
     fn id(&self, path: &Path) -> io::Result<FileId> {
-        Disk.id(path)
+        let mut id = Disk.id(path)?;
+        if self.0.swapped.load(Ordering::SeqCst) {
+            id.device += 1;
+        }
+        Ok(id)
     }
 
     fn largest_file(&self) -> Option<u64> {
