@@ -136,9 +136,9 @@ fn kill_after(seconds: f64) {
 #[test]
 fn a_killed_process_loses_at_most_its_last_second() {
     // Prime to any interval of the recorder.
-    let times = (0..40_u32).map(|number| 0.1 + 0.071 * f64::from(number));
+    let times = (0..80_u32).map(|number| 0.1 + 0.037 * f64::from(number));
     let times: Vec<f64> = times.collect();
-    for together in times.chunks(8) {
+    for together in times.chunks(16) {
         std::thread::scope(|scope| {
             for seconds in together {
                 scope.spawn(|| kill_after(*seconds));

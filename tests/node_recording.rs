@@ -15,7 +15,7 @@ use std::time::Duration;
 
 use common::{Network, Program};
 use flexdrill::bag::{self, Recorder, Topic};
-use flexdrill::messages::{BitState, TwinStatus};
+use flexdrill::messages::{AppliedInputs, BitState, TwinStatus};
 use serde_json::json;
 
 /// Messages of the topics that do not tell of wall-clock time or of the node itself, per topic in their order.
@@ -205,6 +205,26 @@ fn a_killed_twin_leaves_its_first_moments_and_nothing_that_looks_whole() {
     assert!(messages > 20 && !whole, "{messages}");
 }
 
+/// In a run in which nothing changes, over all the files of its recording.
+fn applied_inputs_are_told_every_second(path: &Path) {
+    let applied: Vec<AppliedInputs> = bag::open(path)
+        .unwrap()
+        .map(Result::unwrap)
+        .filter(|message| message.topic.is("twin/applied_inputs"))
+        .map(|message| message.decode().unwrap())
+        .collect();
+    // Of 8 s, less what a slow start takes.
+    assert!(applied.len() >= 7, "{}", applied.len());
+    for pair in applied.windows(2) {
+        let steps = pair[1].step - pair[0].step + pair[1].skipped_steps - pair[0].skipped_steps;
+        // Steps of 0.5 ms; sent with an output, of which there are 50 a second.
+        assert!((1..=2040).contains(&steps), "{steps}");
+        assert_eq!(pair[1].rotary_speed, pair[0].rotary_speed);
+    }
+    let last = applied.last().unwrap();
+    assert!(!last.reset && last.step > 12_000, "{last:?}");
+}
+
 /// Recordings of some seconds in several files, which others read too.
 #[test]
 fn a_limit_of_the_file_size_splits_the_recording() {
@@ -225,6 +245,7 @@ fn a_limit_of_the_file_size_splits_the_recording() {
     let (messages, lost) = counts(&said);
     assert_eq!((messages, true), whole(&path), "{said}");
     assert_eq!(lost, 0, "{said}");
+    applied_inputs_are_told_every_second(&path);
     if let Some(printed) = common::python::run("bags.py", &["parts", path.to_str().unwrap()], "") {
         assert_eq!(printed.trim(), format!("messages {messages}"));
     }

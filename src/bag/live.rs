@@ -84,6 +84,8 @@ pub(super) struct LiveRecorder {
     next: usize,
     /// The files before.
     done: Vec<FileEntry>,
+    /// Messages in them.
+    done_messages: u64,
     /// Of these, the ones that had no room for their end.
     unended: Vec<Part>,
     /// Messages of the open chunk: should it not get into the file, they go into the next.
@@ -124,6 +126,7 @@ impl LiveRecorder {
             part: Some(part),
             next: 1,
             done: Vec::new(),
+            done_messages: 0,
             unended: Vec::new(),
             open: Vec::new(),
             lost: 0,
@@ -187,7 +190,7 @@ impl LiveRecorder {
                     self.end_early(&mut part, &error);
                     problem = Some(error);
                 }
-                self.done.push(part.file_entry());
+                self.keep(&part);
             }
             None => {
                 self.lost += self.open.len() as u64;
@@ -252,7 +255,7 @@ impl LiveRecorder {
             self.part = Some(part);
             return self.fail(error);
         }
-        self.done.push(part.file_entry());
+        self.keep(&part);
         match self.begin() {
             Ok(part) => {
                 tracing::info!("the recording goes on in {}", part.path().display());
@@ -287,7 +290,7 @@ impl LiveRecorder {
         } else if part.in_file().messages() == 0 {
             let _ = self.storage.remove(part.path());
         } else {
-            self.done.push(part.file_entry());
+            self.keep(&part);
             if !indexed && self.unended.len() < UNENDED {
                 self.unended.push(part);
             }
@@ -398,6 +401,12 @@ impl LiveRecorder {
         }
     }
 
+    /// Counts a file as one of the recording.
+    fn keep(&mut self, part: &Part) {
+        self.done_messages += part.in_file().messages();
+        self.done.push(part.file_entry());
+    }
+
     fn in_files(&self) -> Tally {
         let mut all = Tally::new(self.topics.len());
         for file in &self.done {
@@ -407,7 +416,7 @@ impl LiveRecorder {
     }
 
     fn report(&self) {
-        let before: u64 = self.done.iter().map(|file| file.tally.messages()).sum();
+        let before = self.done_messages;
         let (in_file, safe) = self
             .part
             .as_ref()
