@@ -316,6 +316,7 @@ fn inputs_pace_and_recording_call_too() {
             real_time_factor: Some(0.85),
             recording: Some(RecordingState {
                 error: Some("no space left".to_owned()),
+                notice: None,
                 drops: 3,
             }),
             dds: Health::default(),
@@ -349,6 +350,46 @@ fn inputs_pace_and_recording_call_too() {
             (AlarmEvent::RAISED, Alarm::HIGH)
         ]
     );
+}
+
+/// Losses of a moment outlast the alarm's delay, and so does what is over already.
+#[test]
+fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
+    let calls = |recording: &dyn Fn(i64) -> RecordingState| {
+        let config = config();
+        let conditioner = Conditioner::new(config.inputs.rules());
+        let mut book = AlarmBook::fresh(config, 0);
+        for tenth in 0..40 {
+            let state = NodeState {
+                conditioner: &conditioner,
+                now: tenth as f64 * 0.1,
+                run_state: RunState::Running,
+                failure: None,
+                real_time_factor: Some(1.0),
+                recording: Some(recording(tenth)),
+            };
+            book.observe_node(&state, tenth * SECOND / 10);
+        }
+        let (_, list) = publish(&mut book, 4);
+        let alarm = find(&list.unwrap(), "recording").clone();
+        (alarm.priority, alarm.evidence)
+    };
+    let good = RecordingState::default();
+    assert_eq!(calls(&|_| good.clone()).0, Alarm::NO_PRIORITY);
+    let lost = |tenth| RecordingState {
+        drops: if tenth < 5 { 0 } else { 7 },
+        ..RecordingState::default()
+    };
+    let (priority, evidence) = calls(&lost);
+    assert_eq!(priority, Alarm::LOW);
+    assert!(evidence.contains("7 messages"), "{evidence}");
+    let over = |_| RecordingState {
+        notice: Some("its folder was removed".to_owned()),
+        ..RecordingState::default()
+    };
+    let (priority, evidence) = calls(&over);
+    assert_eq!(priority, Alarm::MEDIUM);
+    assert!(evidence.contains("its folder was removed"), "{evidence}");
 }
 
 /// A replay of the small tool with levels so low that there are alarms; what it says.

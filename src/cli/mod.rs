@@ -65,6 +65,9 @@ pub fn main() -> ExitCode {
     }
     let (arguments, ros_args) = args::split(std::env::args());
     let cli = Cli::parse_from(arguments);
+    if let Err(error) = signals::outlive_file_size_limit() {
+        eprintln!("warning: a limit of the file size will end the program: {error}");
+    }
     let result: anyhow::Result<()> = match cli.command {
         Command::Run(args) => run::run(&args, &ros_args),
         Command::Rig(args) => rig::run(&args, &ros_args),

@@ -9,7 +9,7 @@ use crate::bag;
 /// Make a whole bag of one that was cut short or damaged.
 #[derive(Debug, clap::Args)]
 pub struct RecoverArgs {
-    /// Bag: an .mcap or .db3 file, or a folder with metadata.yaml.
+    /// Bag: an .mcap or .db3 file, or a folder with such files.
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// New bag: a file if it ends in .mcap, else a folder.
@@ -39,6 +39,9 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
     }
     for damage in &recovered.damaged {
         eprintln!("left out: {damage}");
+    }
+    for gap in &recovered.gaps {
+        eprintln!("lost while it was recorded: {gap}");
     }
     for (topic, count) in recovered.topics.iter().zip(&recovered.recording.per_topic) {
         println!("{count:>10}  {}  {}", topic.name, topic.ros_type);

@@ -77,7 +77,7 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
     );
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {
-        let shutdown = signals::shutdown()?;
+        let shutdown = signals::shutdown(false)?;
         tokio::select! {
             () = shutdown => {}
             () = play(&node, &samples, args.rate, args.again) => {}

@@ -99,7 +99,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .enable_all()
         .build()?;
     let summary = runtime.block_on(async {
-        let shutdown = signals::shutdown()?;
+        let shutdown = signals::shutdown(setup.record.is_some())?;
         anyhow::Ok(node::run(setup, shutdown).await?)
     })?;
     print_summary(&summary);
@@ -208,15 +208,25 @@ fn print_summary(summary: &RunSummary) {
          {halved_steps} halved, {failed_steps} failed"
     );
     if let Some(recording) = &summary.recording {
+        let files = match recording.files {
+            1 => String::new(),
+            files => format!(" and {} more", files - 1),
+        };
         println!(
-            "recorded {} messages to {}",
+            "recorded {} messages to {}{files}",
             recording.messages,
             recording.path.display()
         );
-        if summary.status.recording_drops > 0 {
+        if recording.lost > 0 {
             println!(
-                "{} messages did not get into the recording: the disk was too slow",
-                summary.status.recording_drops
+                "{} messages did not get into the recording: the disk was too slow, or failed for a while",
+                recording.lost
+            );
+        }
+        if recording.doubtful > 0 {
+            println!(
+                "{} messages of the recording may be lost: the disk refused to keep them",
+                recording.doubtful
             );
         }
     }

@@ -147,13 +147,13 @@ pub(super) fn recording(status: &TwinStatus, previous: &TwinStatus) -> Judgement
         TwinStatus::RECORDING_FAILED => (
             DiagnosticStatus::ERROR,
             format!(
-                "the recording to {} stopped on an error; the twin goes on",
+                "the recording to {} stopped on an error, which the alarm tells; the twin goes on",
                 status.recording_path
             ),
         ),
         TwinStatus::RECORDING_ON if lost > 0 => (
             DiagnosticStatus::WARN,
-            format!("{lost} messages lost: the disk is too slow"),
+            format!("{lost} messages lost: the disk is too slow, or failed for a while"),
         ),
         TwinStatus::RECORDING_ON => (DiagnosticStatus::OK, format!("recording to {}", status.recording_path)),
         _ => (DiagnosticStatus::OK, "not recording".to_owned()),

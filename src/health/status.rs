@@ -255,7 +255,7 @@ fn fill_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
         } else {
             TwinStatus::RECORDING_ON
         };
-        status.recording_path = recording.path().display().to_string();
+        status.recording_path = health.path().display().to_string();
         status.recording_messages = health.messages();
         status.recording_drops = health.drops();
     }

@@ -390,7 +390,8 @@ pub mod flexdrill {
     }
 
     /// What drives the model from a step on, sent when anything of it changes. The sequence of these messages and the
-    /// configuration determine a run to the bit.
+    /// configuration determine a run to the bit. While nothing changes it is sent again every second of model time, with
+    /// reset false and with all parameters changed since the start, for who listens or records from later on.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AppliedInputs {
         /// Stamp: model time on the rig's clock. Frame: the tool.
@@ -735,9 +736,9 @@ pub mod flexdrill {
         pub recording_state: u8,
         /// File that is recorded to, empty if none.
         pub recording_path: std::string::String,
-        /// Messages recorded.
+        /// Messages in the recording's files; those of the last moments are still on their way there.
         pub recording_messages: u64,
-        /// Messages that the recording lost.
+        /// Messages that the recording lost, and those in a file that the disk refused to keep.
         pub recording_drops: u64,
         /// SHA-256 of the configuration in force.
         pub config_hash: std::string::String,
@@ -810,7 +811,8 @@ pub mod flexdrill {
         pub const RECORDING_OFF: u8 = 0;
         /// Recording to recording_path.
         pub const RECORDING_ON: u8 = 1;
-        /// The recording stopped on an error; what was written before is kept.
+        /// The recording stopped on an error; what was written before is kept. It goes on in another file as soon as that can be
+        /// written, and is RECORDING_ON again then.
         pub const RECORDING_FAILED: u8 = 2;
         /// The steps' errors are those of runs that agree with a finer step within about a tenth in ripple and forces.
         pub const QUALITY_GOOD: u8 = 0;

@@ -1,6 +1,8 @@
 //! From a frame to the messages that are due, in the order in which they are published. The node and a replay both
 //! use this, so that they give the same bytes.
 
+use std::collections::BTreeMap;
+
 use super::builtin_interfaces::Time;
 use super::fill::{self, ShapeStyle};
 use super::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
@@ -20,6 +22,10 @@ use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
 /// level has by default.
 const ALARM_RATE: f64 = 10.0;
 
+/// How often what drives the run is sent again while nothing of it changes (s on the rig's clock): who listens or records
+/// from later on knows it this soon.
+const REPEAT: f64 = 1.0;
+
 /// A message ready to be sent and recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct Encoded<'a> {
@@ -33,6 +39,15 @@ pub struct Encoded<'a> {
 
 /// A parameter changed while running, that [`AppliedInputs`] has no field for.
 pub type ParameterChange = (String, f64);
+
+/// What drives the run, as it was sent last.
+struct Driven {
+    inputs: RunInputs,
+    /// Parameters changed since the start.
+    changes: BTreeMap<String, f64>,
+    /// When it was sent last.
+    ticks: u64,
+}
 
 /// Makes messages, keeping their memory.
 pub struct Outputs {
@@ -53,6 +68,8 @@ pub struct Outputs {
     warned: Option<(u64, bool)>,
     /// How often a warning was suppressed or released; counts as a change too.
     suppressions: u64,
+    /// `None` before the first.
+    driven: Option<Driven>,
 }
 
 /// The publishing schedule of a configuration.
@@ -95,6 +112,7 @@ impl Outputs {
             ageing: Ageing::default(),
             warned: None,
             suppressions: 0,
+            driven: None,
         }
     }
 
@@ -195,6 +213,49 @@ impl Outputs {
     /// # Errors
     /// As [`Outputs::frame`].
     pub fn applied<E: From<CdrError>>(
+        &mut self,
+        inputs: &RunInputs,
+        changes: &[ParameterChange],
+        ticks: u64,
+        send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut known = self.driven.take().map(|driven| driven.changes).unwrap_or_default();
+        known.extend(changes.iter().cloned());
+        self.driven = Some(Driven {
+            inputs: *inputs,
+            changes: known,
+            ticks,
+        });
+        self.send_applied(inputs, changes, ticks, send)
+    }
+
+    /// Sends what drives the run again, with all parameters changed since the start, when a second has passed since the
+    /// last time. To be called with every frame, after [`Outputs::frame`]. The values are those in force: a replay that
+    /// applies them changes nothing.
+    ///
+    /// # Errors
+    /// As [`Outputs::frame`].
+    pub fn repeat_applied<E: From<CdrError>>(
+        &mut self,
+        frame: &Frame,
+        send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let interval = (REPEAT / self.timeline.time_step).round() as u64;
+        let Some(driven) = &mut self.driven else { return Ok(()) };
+        if frame.ticks < driven.ticks + interval {
+            return Ok(());
+        }
+        driven.ticks = frame.ticks;
+        let inputs = RunInputs {
+            step: frame.snapshot.step,
+            reset: false,
+            ..driven.inputs
+        };
+        let changes: Vec<ParameterChange> = driven.changes.clone().into_iter().collect();
+        self.send_applied(&inputs, &changes, frame.ticks, send)
+    }
+
+    fn send_applied<E: From<CdrError>>(
         &mut self,
         inputs: &RunInputs,
         changes: &[ParameterChange],

@@ -133,7 +133,7 @@ pub const TOOL_SHAPE: TopicInfo = TopicInfo::new(
     Cadence::Rate("tool_shape"),
     BEST_EFFORT,
 );
-/// Output: what drives the model from which step on.
+/// Output: what drives the model from which step on, on change and every second.
 pub const APPLIED_INPUTS: TopicInfo = TopicInfo::new(
     "twin/applied_inputs",
     AppliedInputs::INFO,

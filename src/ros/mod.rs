@@ -29,7 +29,7 @@ pub enum NodeError {
     #[error(transparent)]
     Build(#[from] flexdrill_core::twin::BuildError),
     /// The recording.
-    #[error("recording: {0}")]
+    #[error(transparent)]
     Recording(#[from] crate::bag::BagError),
     /// A checkpoint that cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]

@@ -127,6 +127,7 @@ pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure
         real_time_factor,
         recording: parts.recording.as_ref().map(|recording| RecordingState {
             error: recording.health().error(),
+            notice: recording.health().notice(),
             drops: recording.health().drops(),
         }),
     };

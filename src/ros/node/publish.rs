@@ -182,10 +182,10 @@ impl Publisher {
                 self.evidence.motion = MotionEvidence::of(&frame.snapshot);
                 let parts = &self.parts;
                 let began = monotonic::now();
-                let sent = self
-                    .outputs
-                    .as_mut()
-                    .map_or(Ok(()), |outputs| outputs.frame(&frame, |encoded| parts.send(encoded)));
+                let sent = self.outputs.as_mut().map_or(Ok(()), |outputs| {
+                    outputs.frame(&frame, |encoded| parts.send(encoded))?;
+                    outputs.repeat_applied(&frame, |encoded| parts.send(encoded))
+                });
                 self.status.add_publishing(monotonic::now().saturating_sub(began));
                 if let Some(outputs) = self.outputs.as_ref().filter(|_| frame.due.has(Output::Alarms)) {
                     let stamp = outputs.instant(frame.ticks);
