@@ -2,6 +2,7 @@
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
+use crate::rig_inputs::DriverSummary;
 use flexdrill_alarms::{Priority, Setpoints};
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
@@ -18,6 +19,8 @@ pub struct NodeState<'a> {
     pub conditioner: &'a Conditioner,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
+    /// Who sends each input, by [`InputKind::index`].
+    pub drivers: [DriverSummary; 2],
     /// What the solver does.
     pub run_state: RunState,
     /// Why and where the last step failed, while the model stands still for it.
@@ -45,11 +48,12 @@ pub(super) struct Memory {
 }
 
 /// What the node's state says of every alarm of the node.
-pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 5] {
+pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 6] {
     let [speed, weight] = InputKind::ALL.map(|kind| (AlarmId::of_input(kind), input(kind, state)));
     [
         speed,
         weight,
+        (AlarmId::TwoDrivers, two_drivers(&state.drivers)),
         (AlarmId::RealTime, real_time(state, memory)),
         (AlarmId::Solver, solver(state.failure)),
         (AlarmId::Recording, recording(state.recording.as_ref(), memory)),
@@ -100,6 +104,41 @@ fn input(kind: InputKind, state: &NodeState<'_>) -> Finding {
         cause: cause.to_owned(),
         consequence: "The model no longer follows the rig: its hazards may be missed.".to_owned(),
         what_to_do: format!("Look after what sends {topic}; go by the rig's own instruments until it is back."),
+        ..Finding::default()
+    }
+}
+
+fn two_drivers(drivers: &[DriverSummary; 2]) -> Finding {
+    let several = InputKind::ALL
+        .into_iter()
+        .zip(drivers)
+        .filter(|(_, drivers)| drivers.several);
+    let said: Vec<String> = several
+        .map(|(kind, drivers)| {
+            let driving = match drivers.driving.as_str() {
+                "" => "nobody drives".to_owned(),
+                driving => format!("{driving} drives"),
+            };
+            format!("{kind} is sent by {} at once, {driving}", drivers.heard.join(" and "))
+        })
+        .collect();
+    if said.is_empty() {
+        return Finding::default();
+    }
+    let most = drivers
+        .iter()
+        .map(|drivers| drivers.heard.len())
+        .max()
+        .unwrap_or_default();
+    Finding {
+        priority: Some(Priority::Medium),
+        value: most as f64,
+        threshold: 1.0,
+        unit: "publishers",
+        evidence: format!("{}.", said.join("; ")),
+        cause: "A second rig, a replayed log or a test publishes in the same domain and namespace.".to_owned(),
+        consequence: "The model may follow what the tool does not do: its hazards may be missed or made up.".to_owned(),
+        what_to_do: "Stop all but the rig's own, or set inputs.driver.policy to named with its node or id.".to_owned(),
         ..Finding::default()
     }
 }

@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod numbers;
 mod paper;
 mod progress;
 mod recover;
@@ -18,6 +19,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::ros::args;
+use crate::told::printable_lines;
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
 #[derive(Debug, Parser)]
@@ -72,7 +74,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!("error: {}", printable_lines(&format!("{error:#}")));
             if error.is::<WrongUse>() {
                 ExitCode::from(WRONG_USE)
             } else {

@@ -8,7 +8,7 @@ use super::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
 use flexdrill_config::reading;
-use flexdrill_core::units::{klbf_to_kn, n_to_kn, rad_per_s_to_rpm};
+use flexdrill_core::units::{kgf_to_kn, klbf_to_kn, lbf_to_kn, n_to_kn, rad_per_s_to_rpm, tf_to_kn};
 
 /// Which column of a log is what.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,7 +52,7 @@ pub struct Columns {
 pub struct TimeColumn {
     /// Name in the header.
     pub column: String,
-    /// `seconds`, `milliseconds` or `iso8601`. Default seconds.
+    /// `seconds`, `milliseconds`, `iso8601` or `time_of_day`. Default seconds.
     #[serde(default)]
     pub format: TimeFormat,
 }
@@ -109,6 +109,15 @@ pub enum WeightUnit {
     /// Ten newton times thousand.
     #[serde(rename = "kdaN")]
     Kilodecanewton,
+    /// Kilogram-force.
+    #[serde(rename = "kgf")]
+    KilogramForce,
+    /// Tonne-force: a thousand kilograms-force.
+    #[serde(rename = "tf")]
+    TonneForce,
+    /// Pound-force.
+    #[serde(rename = "lbf")]
+    PoundForce,
     /// Thousand pounds-force.
     #[serde(rename = "klbf")]
     Kilopound,
@@ -120,6 +129,9 @@ impl WeightUnit {
             Self::N => n_to_kn(value),
             Self::Kilonewton => value,
             Self::Kilodecanewton => value * 10.0,
+            Self::KilogramForce => kgf_to_kn(value),
+            Self::TonneForce => tf_to_kn(value),
+            Self::PoundForce => lbf_to_kn(value),
             Self::Kilopound => klbf_to_kn(value),
         }
     }

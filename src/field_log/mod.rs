@@ -9,6 +9,7 @@ mod condition;
 mod error;
 mod hookload;
 mod mapping;
+mod parts;
 mod range;
 mod read;
 mod report;

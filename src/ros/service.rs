@@ -33,6 +33,16 @@ const CLIENT_WAIT: Duration = Duration::from_millis(500);
 /// once per client.
 const MATCH_WAIT: Duration = Duration::from_millis(100);
 
+tokio::task_local! {
+    /// Who asked for what is being answered.
+    static CLIENT: [u8; 16];
+}
+
+/// The client whose request is being answered: the GUID of its DDS writer; none outside of a handler.
+pub fn client() -> Option<[u8; 16]> {
+    CLIENT.try_with(|client| *client).ok()
+}
+
 /// Which form of services is served.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ServiceMapping {
@@ -197,7 +207,8 @@ impl ServiceServer {
                     continue;
                 }
             };
-            let response = handler(request).await;
+            let client = GUID::from(id.writer_gid).to_bytes();
+            let response = CLIENT.scope(client, async { handler(request).await }).await;
             if known_clients.insert(GUID::from(id.writer_gid)) {
                 self.wait_for_client(&id).await;
             }

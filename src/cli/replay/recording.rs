@@ -10,6 +10,7 @@ use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{AppliedInputs, JointDeflections, Message, SessionInfo, TwinStatus};
+use crate::told::printable;
 use flexdrill_config::Config;
 
 /// What of a recording is needed.
@@ -115,14 +116,14 @@ impl Script {
         if self.session.version != env!("CARGO_PKG_VERSION") {
             eprintln!(
                 "recorded with flexdrill {}, replayed with {}: outputs may differ",
-                self.session.version,
+                printable(&self.session.version),
                 env!("CARGO_PKG_VERSION")
             );
         }
         let time_step = config.solver.time_step;
         println!(
             "recording of configuration {}, {} changes of inputs, {} s",
-            short(&self.session.config_hash),
+            printable(short(&self.session.config_hash)),
             self.applied.len(),
             self.total(time_step)
         );

@@ -1,0 +1,506 @@
+//! Who drives: publishers of each input, and which of them the model listens to.
+
+use std::fmt;
+
+use crate::told::printable;
+use flexdrill_config::{DriverPolicy, InputsConfig};
+use flexdrill_core::inputs::{InputKind, InputRoute};
+
+/// Publishers kept per input; of more, the one that has been silent longest is forgotten.
+const MOST_HEARD: usize = 16;
+/// Descriptions kept.
+const MOST_KNOWN: usize = 64;
+/// Publishers named in a status.
+const MOST_SHOWN: usize = 4;
+/// Bytes of an id that tell the process; the others tell the writer in it.
+const PROCESS: usize = 12;
+
+/// A publisher: the GUID of its DDS writer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct DriverId(pub [u8; 16]);
+
+impl DriverId {
+    /// Whether both belong to one DDS participant, which is one process.
+    pub fn same_process(&self, other: &Self) -> bool {
+        self.0[..PROCESS] == other.0[..PROCESS]
+    }
+}
+
+/// Hexadecimal, a dot between the process and the writer in it.
+impl fmt::Display for DriverId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (place, byte) in self.0.iter().enumerate() {
+            if place == PROCESS {
+                write!(f, ".")?;
+            }
+            write!(f, "{byte:02x}")?;
+        }
+        Ok(())
+    }
+}
+
+/// What is known of a publisher. `Display` is `node @ host (id)`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Driver {
+    /// Its writer.
+    pub id: DriverId,
+    /// Absolute name of its node, where discovery has told it.
+    pub node: Option<String>,
+    /// Address or name of its machine, where discovery has told it.
+    pub host: Option<String>,
+}
+
+impl Driver {
+    /// Of whom nothing but the id is known.
+    pub fn unknown(id: DriverId) -> Self {
+        Self {
+            id,
+            node: None,
+            host: None,
+        }
+    }
+}
+
+impl fmt::Display for Driver {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let node = self.node.as_deref().unwrap_or("unnamed node");
+        let host = self.host.as_deref().unwrap_or("unknown host");
+        write!(f, "{} @ {} ({})", printable(node), printable(host), self.id)
+    }
+}
+
+/// Who may drive.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rule {
+    /// Which of several.
+    pub policy: DriverPolicy,
+    /// Absolute names of nodes, or ids, for [`DriverPolicy::Named`].
+    pub named: Vec<String>,
+    /// Silence (s) after which a publisher counts as gone, by [`InputKind::index`].
+    pub silent_after: [f64; 2],
+}
+
+impl Rule {
+    /// As a configuration has it: a publisher has gone when its input would be stale.
+    pub fn of(inputs: &InputsConfig) -> Self {
+        Self {
+            policy: inputs.driver.policy,
+            named: inputs.driver.named.clone(),
+            silent_after: [inputs.rotary_speed.max_age, inputs.weight_on_bit.max_age],
+        }
+    }
+}
+
+/// A sample of a publisher that does not drive. Its `Display` is a sentence with what to do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NotDriving {
+    /// Of which input.
+    pub kind: InputKind,
+    /// On which topic.
+    pub route: InputRoute,
+    /// As received (r/min or kN).
+    pub value: f64,
+    /// Who sent it.
+    pub sender: Driver,
+    /// Who drives; none where only others are allowed.
+    pub driving: Option<Driver>,
+    /// For how long the one that drives must be silent (s).
+    pub silent_after: f64,
+}
+
+impl fmt::Display for NotDriving {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (topic, unit) = (self.route.topic(self.kind), self.kind.unit());
+        write!(f, "{topic}: {} {unit} of {} refused: ", self.value, self.sender)?;
+        match &self.driving {
+            Some(driving) => write!(
+                f,
+                "{driving} drives until it has been silent for {} s (inputs.driver.policy first); stop one of them",
+                self.silent_after
+            ),
+            None => write!(
+                f,
+                "inputs.driver.named does not list it; stop it, or add its node or id to the list"
+            ),
+        }
+    }
+}
+
+/// One publisher of an input.
+#[derive(Debug, Clone, Copy)]
+struct Heard {
+    id: DriverId,
+    route: InputRoute,
+    /// First sample since it was last gone (s).
+    since: f64,
+    /// Newest sample (s).
+    last: f64,
+    /// Newest sample that was a number (s).
+    last_number: Option<f64>,
+}
+
+#[derive(Debug, Clone, Default)]
+struct Channel {
+    heard: Vec<Heard>,
+    driving: Option<DriverId>,
+    refused: u64,
+}
+
+/// Keeps who sends each input and decides who drives. Times are seconds on the clock of the inputs' ages.
+#[derive(Debug, Clone)]
+pub struct Drivers {
+    rule: Rule,
+    channels: [Channel; 2],
+    known: Vec<Driver>,
+}
+
+/// How the publishers of an input are.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct DriverSummary {
+    /// Who drives; empty while nobody does.
+    pub driving: String,
+    /// All that are heard, the one that drives first.
+    pub heard: Vec<String>,
+    /// Two or more send at once.
+    pub several: bool,
+    /// Samples refused because their sender does not drive.
+    pub refused: u64,
+}
+
+impl Drivers {
+    /// Nobody heard yet.
+    pub fn new(rule: Rule) -> Self {
+        Self {
+            rule,
+            channels: [Channel::default(), Channel::default()],
+            known: Vec::new(),
+        }
+    }
+
+    /// Takes over changed times.
+    pub fn set_rule(&mut self, rule: Rule) {
+        self.rule = rule;
+    }
+
+    /// Keeps what discovery says of a publisher.
+    pub fn describe(&mut self, driver: Driver) {
+        match self.known.iter_mut().find(|known| known.id == driver.id) {
+            Some(known) => {
+                known.node = driver.node.or(known.node.take());
+                known.host = driver.host.or(known.host.take());
+            }
+            None => {
+                if self.known.len() >= MOST_KNOWN {
+                    self.known.remove(0);
+                }
+                self.known.push(driver);
+            }
+        }
+    }
+
+    /// Whether a publisher has been described with node and host.
+    pub fn is_described(&self, id: DriverId) -> bool {
+        let known = self.known.iter().find(|known| known.id == id);
+        known.is_some_and(|known| known.node.is_some() && known.host.is_some())
+    }
+
+    fn driver(&self, id: DriverId) -> Driver {
+        let known = self.known.iter().find(|known| known.id == id);
+        known.cloned().unwrap_or_else(|| Driver::unknown(id))
+    }
+
+    /// Judges a sample (r/min or kN) by its sender, at the time of its arrival.
+    ///
+    /// # Errors
+    /// When another publisher drives, or this one may not.
+    pub fn offer(
+        &mut self,
+        kind: InputKind,
+        route: InputRoute,
+        id: DriverId,
+        time: f64,
+        value: f64,
+    ) -> Result<(), NotDriving> {
+        let silent_after = self.rule.silent_after[kind.index()];
+        let named = self.rule.policy == DriverPolicy::Named && !self.is_named(id);
+        let channel = &mut self.channels[kind.index()];
+        channel.hear(id, route, time, value, silent_after);
+        let driving = match self.rule.policy {
+            DriverPolicy::First => channel.other_driver(id, route, time, silent_after),
+            DriverPolicy::Newest | DriverPolicy::Named => None,
+        };
+        if named || driving.is_some() {
+            channel.refused += 1;
+            return Err(NotDriving {
+                kind,
+                route,
+                value,
+                sender: self.driver(id),
+                driving: driving.map(|driving| self.driver(driving)),
+                silent_after,
+            });
+        }
+        // What is no number does not drive anything.
+        if value.is_finite() {
+            channel.driving = Some(id);
+        }
+        Ok(())
+    }
+
+    fn is_named(&self, id: DriverId) -> bool {
+        let driver = self.driver(id);
+        let text = id.to_string();
+        self.rule
+            .named
+            .iter()
+            .any(|name| *name == text || driver.node.as_ref() == Some(name))
+    }
+
+    /// How the publishers of an input are at `now` (s).
+    pub fn summary(&self, kind: InputKind, now: f64) -> DriverSummary {
+        let channel = &self.channels[kind.index()];
+        let mut present = channel.present(now, self.rule.silent_after[kind.index()]);
+        present.sort_by_key(|heard| (Some(heard.id) != channel.driving, heard.id));
+        let mut shown: Vec<String> = present
+            .iter()
+            .take(MOST_SHOWN)
+            .map(|heard| self.driver(heard.id).to_string())
+            .collect();
+        if present.len() > MOST_SHOWN {
+            shown.push(format!("and {} more", present.len() - MOST_SHOWN));
+        }
+        let driving = present.iter().find(|heard| Some(heard.id) == channel.driving);
+        DriverSummary {
+            driving: driving.map_or_else(String::new, |heard| self.driver(heard.id).to_string()),
+            heard: shown,
+            several: are_several(&present),
+            refused: channel.refused,
+        }
+    }
+
+    /// To be called when the clock was set anew: silences count from `now` on.
+    pub fn clock_set(&mut self, now: f64) {
+        for heard in self.channels.iter_mut().flat_map(|channel| &mut channel.heard) {
+            heard.since = now;
+            heard.last = now;
+            heard.last_number = heard.last_number.map(|_| now);
+        }
+    }
+}
+
+impl Channel {
+    fn hear(&mut self, id: DriverId, route: InputRoute, time: f64, value: f64, silent_after: f64) {
+        let number = value.is_finite().then_some(time);
+        if let Some(heard) = self.heard.iter_mut().find(|heard| heard.id == id) {
+            if time - heard.last >= silent_after {
+                heard.since = time;
+            }
+            heard.last = heard.last.max(time);
+            heard.last_number = number.or(heard.last_number);
+            return;
+        }
+        if self.heard.len() >= MOST_HEARD {
+            let (index, _) = (self.heard.iter().enumerate())
+                .min_by(|(_, a), (_, b)| a.last.total_cmp(&b.last))
+                .unwrap_or((0, &self.heard[0]));
+            self.heard.swap_remove(index);
+        }
+        self.heard.push(Heard {
+            id,
+            route,
+            since: time,
+            last: time,
+            last_number: number,
+        });
+    }
+
+    /// Another publisher that drives and is not silent. A process that offers an input on both its topics is one.
+    fn other_driver(&self, id: DriverId, route: InputRoute, now: f64, silent_after: f64) -> Option<DriverId> {
+        let driving = self.driving?;
+        let heard = self.heard.iter().find(|heard| heard.id == driving)?;
+        let silent = heard.last_number.is_none_or(|last| now - last >= silent_after);
+        (!silent && !is_one(heard, id, route)).then_some(driving)
+    }
+
+    fn present(&self, now: f64, silent_after: f64) -> Vec<Heard> {
+        let present = |heard: &&Heard| now - heard.last < silent_after;
+        self.heard.iter().filter(present).copied().collect()
+    }
+}
+
+/// Whether the publisher is that one, or the same process on the input's other topic.
+fn is_one(heard: &Heard, id: DriverId, route: InputRoute) -> bool {
+    heard.id == id || (heard.id.same_process(&id) && heard.route != route)
+}
+
+/// Whether two send at the same time: one that took over from another does not.
+fn are_several(present: &[Heard]) -> bool {
+    present.iter().enumerate().any(|(index, a)| {
+        let others = &present[index + 1..];
+        others
+            .iter()
+            .any(|b| !is_one(a, b.id, b.route) && a.last >= b.since && b.last >= a.since)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use InputKind::{RotarySpeed, WeightOnBit};
+    use InputRoute::{Plain, Stamped};
+
+    fn id(process: u8, writer: u8) -> DriverId {
+        let mut bytes = [0; 16];
+        (bytes[0], bytes[15]) = (process, writer);
+        DriverId(bytes)
+    }
+
+    fn drivers(policy: DriverPolicy, named: &[&str]) -> Drivers {
+        Drivers::new(Rule {
+            policy,
+            named: named.iter().map(ToString::to_string).collect(),
+            silent_after: [5.0; 2],
+        })
+    }
+
+    const A: u8 = 0xa;
+    const B: u8 = 0xb;
+
+    #[test]
+    fn the_newest_drives_and_two_at_once_are_told() {
+        let mut drivers = drivers(DriverPolicy::Newest, &[]);
+        drivers.describe(Driver {
+            id: id(A, 1),
+            node: Some("/rig_pc".into()),
+            host: Some("10.0.0.7".into()),
+        });
+        for second in 0..3 {
+            let now = f64::from(second);
+            drivers.offer(RotarySpeed, Plain, id(A, 1), now, 40.0).unwrap();
+            assert_eq!(drivers.summary(RotarySpeed, now).several, second > 0);
+            drivers.offer(RotarySpeed, Plain, id(B, 1), now + 0.5, 60.0).unwrap();
+        }
+        let summary = drivers.summary(RotarySpeed, 3.0);
+        assert!(summary.several);
+        assert_eq!(
+            summary.driving,
+            "unnamed node @ unknown host (0b0000000000000000000000.00000001)"
+        );
+        assert_eq!(
+            summary.heard[1],
+            "/rig_pc @ 10.0.0.7 (0a0000000000000000000000.00000001)"
+        );
+        assert_eq!(drivers.summary(WeightOnBit, 3.0), DriverSummary::default());
+        // The first of them goes; the other is alone when it has been silent for long enough.
+        for second in 3..9 {
+            drivers
+                .offer(RotarySpeed, Plain, id(B, 1), f64::from(second), 60.0)
+                .unwrap();
+        }
+        assert!(!drivers.summary(RotarySpeed, 8.0).several);
+    }
+
+    /// A rig whose program starts again has another id: that is one after the other, not two at once.
+    #[test]
+    fn a_restart_is_no_second_driver() {
+        let mut drivers = drivers(DriverPolicy::Newest, &[]);
+        drivers.offer(RotarySpeed, Plain, id(A, 1), 1.0, 40.0).unwrap();
+        drivers.offer(RotarySpeed, Plain, id(A, 1), 2.0, 40.0).unwrap();
+        drivers.offer(RotarySpeed, Plain, id(B, 1), 2.5, 40.0).unwrap();
+        drivers.offer(RotarySpeed, Plain, id(B, 1), 3.5, 40.0).unwrap();
+        let summary = drivers.summary(RotarySpeed, 3.6);
+        assert!(!summary.several);
+        assert_eq!(summary.heard.len(), 2);
+        drivers.offer(RotarySpeed, Plain, id(A, 1), 4.0, 40.0).unwrap();
+        assert!(drivers.summary(RotarySpeed, 4.0).several);
+    }
+
+    #[test]
+    fn the_first_drives_until_it_falls_silent() {
+        let mut drivers = drivers(DriverPolicy::First, &[]);
+        drivers.offer(RotarySpeed, Plain, id(A, 1), 0.0, 40.0).unwrap();
+        let refused = drivers.offer(RotarySpeed, Plain, id(B, 2), 1.0, 60.0).unwrap_err();
+        let said = refused.to_string();
+        assert!(
+            said.starts_with("rig/rotary_speed_rpm: 60 r/min of unnamed node @ unknown host (0b"),
+            "{said}"
+        );
+        assert!(
+            said.contains("(0a0000000000000000000000.00000001) drives until it has been silent for 5 s"),
+            "{said}"
+        );
+        drivers.offer(RotarySpeed, Plain, id(A, 1), 2.0, 41.0).unwrap();
+        // What is no number keeps nobody at the wheel.
+        drivers.offer(RotarySpeed, Plain, id(A, 1), 6.0, f64::NAN).unwrap();
+        assert!(drivers.offer(RotarySpeed, Plain, id(B, 2), 6.9, 60.0).is_err());
+        drivers.offer(RotarySpeed, Plain, id(B, 2), 7.0, 60.0).unwrap();
+        assert!(drivers.offer(RotarySpeed, Plain, id(A, 1), 7.1, 40.0).is_err());
+        let summary = drivers.summary(RotarySpeed, 7.1);
+        assert_eq!((summary.refused, summary.several), (3, true));
+        assert!(summary.driving.contains("(0b"), "{summary:?}");
+        // The other input has drivers of its own.
+        drivers.offer(WeightOnBit, Plain, id(A, 3), 7.1, 10.0).unwrap();
+    }
+
+    #[test]
+    fn named_ones_drive_by_node_or_by_id() {
+        let own = id(A, 1).to_string();
+        let mut drivers = drivers(DriverPolicy::Named, &["/rig_pc", &own]);
+        drivers.offer(RotarySpeed, Plain, id(A, 1), 0.0, 40.0).unwrap();
+        let said = drivers
+            .offer(RotarySpeed, Plain, id(B, 1), 0.0, 40.0)
+            .unwrap_err()
+            .to_string();
+        assert!(said.contains("inputs.driver.named does not list it"), "{said}");
+        drivers.describe(Driver {
+            id: id(B, 1),
+            node: Some("/rig_pc".into()),
+            host: None,
+        });
+        drivers.offer(RotarySpeed, Plain, id(B, 1), 0.1, 40.0).unwrap();
+    }
+
+    #[test]
+    fn one_process_on_both_topics_is_one_driver() {
+        let mut drivers = drivers(DriverPolicy::First, &[]);
+        for second in 0..3 {
+            drivers
+                .offer(RotarySpeed, Plain, id(A, 1), f64::from(second), 40.0)
+                .unwrap();
+            drivers
+                .offer(RotarySpeed, Stamped, id(A, 2), f64::from(second), 40.0)
+                .unwrap();
+        }
+        assert!(!drivers.summary(RotarySpeed, 2.0).several);
+        assert!(drivers.offer(RotarySpeed, Plain, id(A, 3), 2.0, 40.0).is_err());
+    }
+
+    #[test]
+    fn a_flood_of_publishers_is_bounded_and_a_name_cannot_act_on_a_terminal() {
+        let mut drivers = drivers(DriverPolicy::Newest, &[]);
+        for writer in 0..=255 {
+            let driver = id(B, writer);
+            drivers.describe(Driver {
+                id: driver,
+                node: Some("/\x1b[2J".into()),
+                host: None,
+            });
+            drivers
+                .offer(RotarySpeed, Plain, driver, f64::from(writer) * 1e-3, 40.0)
+                .unwrap();
+        }
+        let summary = drivers.summary(RotarySpeed, 0.3);
+        assert_eq!(summary.heard.len(), MOST_SHOWN + 1);
+        assert!(summary.driving.starts_with("/\\u{1b}[2J @"), "{summary:?}");
+        assert!(drivers.known.len() <= MOST_KNOWN && drivers.channels[0].heard.len() <= MOST_HEARD);
+    }
+
+    #[test]
+    fn a_clock_that_starts_over_keeps_who_drives() {
+        let mut drivers = drivers(DriverPolicy::First, &[]);
+        drivers.offer(RotarySpeed, Plain, id(A, 1), 1000.0, 40.0).unwrap();
+        drivers.clock_set(3.0);
+        assert!(drivers.offer(RotarySpeed, Plain, id(B, 1), 4.0, 40.0).is_err());
+        drivers.offer(RotarySpeed, Plain, id(B, 1), 8.0, 40.0).unwrap();
+    }
+}
