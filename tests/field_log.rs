@@ -323,6 +323,26 @@ fn weights_of_other_units_are_kilonewton() {
 }
 
 #[test]
+fn a_torque_is_reported_in_one_unit() {
+    for (unit, factor) in [("N.m", 1e-3), ("kN.m", 1.0), ("kft.lbf", 4.448_221_615_260_5 * 0.3048)] {
+        let mapping = format!(
+            "columns:\n  time: {{column: t}}\n  rotary_speed: {{column: rpm, unit: r/min}}\n  \
+             weight_on_bit: {{direct: {{column: wob, unit: kN}}}}\n  torque: {{column: trq, unit: {unit}}}\n"
+        );
+        let mapping = Mapping::from_text("torque.yaml", &mapping).unwrap();
+        let (_, report) = read_text(b"t,rpm,wob,trq\n0,40,3,2\n1,40,3,x\n2,40,3,4\n3,40,3,3\n", &mapping).unwrap();
+        let torque = report.torque.unwrap();
+        let (smallest, median, largest) = (torque.smallest_kn_m, torque.median_kn_m, torque.largest_kn_m);
+        for (found, given) in [(smallest, 2.0), (median, 3.0), (largest, 4.0)] {
+            // The exact definitions, rounded once or twice.
+            assert!((found / (given * factor) - 1.0).abs() < 1e-15, "{unit}: {found}");
+        }
+        assert_eq!((torque.samples, report.rows), (3, 4));
+        assert_eq!(places(&report, IssueKind::Unreadable), [(3, 3, 1)]);
+    }
+}
+
+#[test]
 fn a_frozen_value_is_reported_and_kept() {
     let mut text = String::from("t,rpm,wob\n");
     for second in 0..300 {

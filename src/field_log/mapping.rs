@@ -8,7 +8,7 @@ use super::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
 use flexdrill_config::reading;
-use flexdrill_core::units::{kgf_to_kn, klbf_to_kn, lbf_to_kn, n_to_kn, rad_per_s_to_rpm, tf_to_kn};
+use flexdrill_core::units::{kft_lbf_to_kn_m, kgf_to_kn, klbf_to_kn, lbf_to_kn, n_to_kn, rad_per_s_to_rpm, tf_to_kn};
 
 /// Which column of a log is what.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,6 +44,43 @@ pub struct Columns {
     pub rotary_speed: RotarySpeedColumn,
     /// `direct: {...}` or `hookload: {...}`. Required.
     pub weight_on_bit: WeightOnBitColumn,
+    /// Torque of the drive, for the report only: the model has its own. Default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub torque: Option<TorqueColumn>,
+}
+
+/// Torque of the drive.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TorqueColumn {
+    /// Name in the header.
+    pub column: String,
+    /// Required.
+    pub unit: TorqueUnit,
+}
+
+/// Units of torque.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TorqueUnit {
+    /// Newton metre.
+    #[serde(rename = "N.m")]
+    NewtonMetre,
+    /// Kilonewton metre.
+    #[serde(rename = "kN.m")]
+    KilonewtonMetre,
+    /// Thousand foot-pounds-force.
+    #[serde(rename = "kft.lbf")]
+    KilofootPound,
+}
+
+impl TorqueUnit {
+    pub(super) fn to_kn_m(self, value: f64) -> f64 {
+        match self {
+            Self::NewtonMetre => n_to_kn(value),
+            Self::KilonewtonMetre => value,
+            Self::KilofootPound => kft_lbf_to_kn_m(value),
+        }
+    }
 }
 
 /// Time.
@@ -238,6 +275,8 @@ const REQUIRED: &[&str] = &[
     "columns.rotary_speed",
     "columns.rotary_speed.column",
     "columns.rotary_speed.unit",
+    "columns.torque.column",
+    "columns.torque.unit",
     "columns.weight_on_bit",
     "columns.weight_on_bit.direct.column",
     "columns.weight_on_bit.direct.unit",

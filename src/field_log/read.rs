@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::hookload::weigh;
 use super::mapping::{Mapping, WeightOnBitColumn};
-use super::report::{Issues, Report, Summary};
+use super::report::{Issues, Report, Summary, TorqueSummary};
 use super::spikes::{report_frozen, take_out_spikes};
 use super::table::{Row, read_table};
 use super::{FieldLogError, InputSequence, Range, Tare, TimedInput};
@@ -118,6 +118,7 @@ impl About<'_> {
             left_out: (written as u64).saturating_sub(part.len() as u64),
             duration: end.time - begin.time,
             inputs: InputKind::ALL.map(|kind| Summary::of(&sequence, kind)),
+            torque: TorqueSummary::of(part.iter().filter_map(|row| row.torque)),
             max_gap: self.mapping.quality.max_gap,
             weight_from_hookload: matches!(self.mapping.columns.weight_on_bit, WeightOnBitColumn::Hookload(_)),
             speed_scale: self.mapping.columns.rotary_speed.scale,

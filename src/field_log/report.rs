@@ -127,6 +127,33 @@ pub struct Summary {
     pub largest: f64,
 }
 
+/// The drive's torque in a log. The model has its own; this is what it can be held against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TorqueSummary {
+    /// How many rows have it.
+    pub samples: u64,
+    /// Smallest (kN m).
+    pub smallest_kn_m: f64,
+    /// Median (kN m).
+    pub median_kn_m: f64,
+    /// Largest (kN m).
+    pub largest_kn_m: f64,
+}
+
+impl TorqueSummary {
+    /// None without samples.
+    pub(super) fn of(torques: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut torques: Vec<f64> = torques.collect();
+        torques.sort_by(f64::total_cmp);
+        Some(Self {
+            samples: torques.len() as u64,
+            smallest_kn_m: *torques.first()?,
+            median_kn_m: *torques.get(torques.len() / 2)?,
+            largest_kn_m: *torques.last()?,
+        })
+    }
+}
+
 impl Summary {
     pub(super) fn of(sequence: &InputSequence, kind: InputKind) -> Self {
         let of_kind = sequence.inputs.iter().filter(|input| input.kind == kind);
@@ -160,6 +187,8 @@ pub struct Report {
     pub duration: f64,
     /// Per input, in the order of [`InputKind::ALL`].
     pub inputs: [Summary; 2],
+    /// Torque of the drive, where the mapping names its column.
+    pub torque: Option<TorqueSummary>,
     /// A longer time between two rows is a gap (s).
     pub max_gap: f64,
     /// Whether weight on bit was formed from the hookload.
@@ -225,6 +254,13 @@ impl fmt::Display for Report {
                 input.largest,
                 input.kind.unit(),
                 input.median
+            )?;
+        }
+        if let Some(torque) = &self.torque {
+            writeln!(
+                f,
+                "  {:<14} {:>6} samples, {:.2} to {:.2} kN m, median {:.2}; not used, the model has its own",
+                "torque", torque.samples, torque.smallest_kn_m, torque.largest_kn_m, torque.median_kn_m
             )?;
         }
         for (kind, scale) in InputKind::ALL.into_iter().zip([self.speed_scale, self.weight_scale]) {

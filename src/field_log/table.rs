@@ -19,6 +19,8 @@ pub(super) struct Row {
     /// Whether the bit drills, and whether it is off bottom; `None` when the log does not say.
     pub(super) drilling: Option<bool>,
     pub(super) off_bottom: Option<bool>,
+    /// Of the drive (kN m).
+    pub(super) torque: Option<f64>,
 }
 
 /// Places of the columns in the header.
@@ -29,6 +31,7 @@ struct Places {
     weight: usize,
     drilling: Option<usize>,
     off_bottom: Option<usize>,
+    torque: Option<usize>,
 }
 
 /// The rows of a log.
@@ -185,7 +188,9 @@ impl Places {
                 )
             }
         };
+        let torque = (columns.torque.as_ref()).map(|torque| find(&torque.column, "columns.torque.column"));
         Ok(Self {
+            torque: torque.transpose()?,
             width: header.len(),
             time: find(&columns.time.column, "columns.time.column")?,
             speed: find(&columns.rotary_speed.column, "columns.rotary_speed.column")?,
@@ -237,7 +242,11 @@ impl Places {
             ),
         };
         let weight = value(self.weight, weight_column).map(|weight| weight_unit.to_kn(weight));
+        let torque = self.torque.zip(columns.torque.as_ref());
+        let torque =
+            torque.and_then(|(place, torque)| value(place, &torque.column).map(|value| torque.unit.to_kn_m(value)));
         Row {
+            torque,
             number,
             time,
             values: [speed, weight],

@@ -222,26 +222,27 @@ impl Drivers {
         value: f64,
     ) -> Result<(), NotDriving> {
         let silent_after = self.rule.silent_after[kind.index()];
-        let named = self.rule.policy == DriverPolicy::Named && !self.is_named(id);
+        let not_named = self.rule.policy == DriverPolicy::Named && !self.is_named(id);
         let channel = &mut self.channels[kind.index()];
         channel.hear(id, route, time, value, silent_after);
-        let driving = match self.rule.policy {
-            DriverPolicy::First => channel.other_driver(id, route, time, silent_after),
+        let present = match self.rule.policy {
+            DriverPolicy::First => channel.present_driver(time, silent_after),
             DriverPolicy::Newest | DriverPolicy::Named => None,
         };
-        if named || driving.is_some() {
+        let is_other = present.is_some_and(|present| !is_one(&present, id, route));
+        if not_named || is_other {
             channel.refused += 1;
             return Err(NotDriving {
                 kind,
                 route,
                 value,
                 sender: self.driver(id),
-                driving: driving.map(|driving| self.driver(driving)),
+                driving: present.map(|present| self.driver(present.id)),
                 silent_after,
             });
         }
         // What is no number does not drive anything.
-        if value.is_finite() {
+        if value.is_finite() && present.is_none() {
             channel.driving = Some(id);
         }
         Ok(())
@@ -314,12 +315,12 @@ impl Channel {
         });
     }
 
-    /// Another publisher that drives and is not silent. A process that offers an input on both its topics is one.
-    fn other_driver(&self, id: DriverId, route: InputRoute, now: f64, silent_after: f64) -> Option<DriverId> {
+    /// The publisher that drives, unless it is silent.
+    fn present_driver(&self, now: f64, silent_after: f64) -> Option<Heard> {
         let driving = self.driving?;
         let heard = self.heard.iter().find(|heard| heard.id == driving)?;
         let silent = heard.last_number.is_none_or(|last| now - last >= silent_after);
-        (!silent && !is_one(heard, id, route)).then_some(driving)
+        (!silent).then_some(*heard)
     }
 
     fn present(&self, now: f64, silent_after: f64) -> Vec<Heard> {
@@ -328,7 +329,8 @@ impl Channel {
     }
 }
 
-/// Whether the publisher is that one, or the same process on the input's other topic.
+/// Whether the publisher is that one, or the same process on the input's other topic: a process that offers an input on
+/// both is one.
 fn is_one(heard: &Heard, id: DriverId, route: InputRoute) -> bool {
     heard.id == id || (heard.id.same_process(&id) && heard.route != route)
 }

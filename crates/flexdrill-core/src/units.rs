@@ -52,9 +52,9 @@ pub fn tf_to_kn(tf: f64) -> f64 {
     tf * 9.806_65
 }
 
-/// Thousand foot-pounds-force to N m: 1 ft = 0.3048 m, exact by definition.
-pub fn kft_lbf_to_n_m(kft_lbf: f64) -> f64 {
-    kn_to_n(klbf_to_kn(kft_lbf)) * 0.3048
+/// Thousand foot-pounds-force to kN m: 1 ft = 0.3048 m, exact by definition.
+pub fn kft_lbf_to_kn_m(kft_lbf: f64) -> f64 {
+    klbf_to_kn(kft_lbf) * 0.3048
 }
 
 #[cfg(test)]
@@ -70,8 +70,8 @@ mod tests {
         assert!((lbf_to_kn(1000.0) - klbf_to_kn(1.0)).abs() < 1e-15);
         assert!((tf_to_kn(10.0) - kgf_to_kn(10_000.0)).abs() < 1e-13);
         assert_eq!(tf_to_kn(1.0), 9.806_65);
-        // 1 kft.lbf = 1355.818 N m (NIST SP 811, B.8), to its six digits.
-        assert!((kft_lbf_to_n_m(1.0) - 1355.82).abs() < 5e-3);
+        // 1 ft.lbf = 1.355818 N m (NIST SP 811, B.8), to its seven digits.
+        assert!((kft_lbf_to_kn_m(1.0) - 1.355_818).abs() < 5e-7);
     }
 
     #[test]
