@@ -324,7 +324,12 @@ fn weights_of_other_units_are_kilonewton() {
 
 #[test]
 fn a_torque_is_reported_in_one_unit() {
-    for (unit, factor) in [("N.m", 1e-3), ("kN.m", 1.0), ("kft.lbf", 4.448_221_615_260_5 * 0.3048)] {
+    for (unit, factor) in [
+        ("N.m", 1e-3),
+        ("kN.m", 1.0),
+        ("kft.lbf", 4.448_221_615_260_5 * 0.3048),
+        ("ft.lbf", 4.448_221_615_260_5e-3 * 0.3048),
+    ] {
         let mapping = format!(
             "columns:\n  time: {{column: t}}\n  rotary_speed: {{column: rpm, unit: r/min}}\n  \
              weight_on_bit: {{direct: {{column: wob, unit: kN}}}}\n  torque: {{column: trq, unit: {unit}}}\n"

@@ -68,6 +68,9 @@ pub enum TorqueUnit {
     /// Kilonewton metre.
     #[serde(rename = "kN.m")]
     KilonewtonMetre,
+    /// Foot-pound-force.
+    #[serde(rename = "ft.lbf")]
+    FootPound,
     /// Thousand foot-pounds-force.
     #[serde(rename = "kft.lbf")]
     KilofootPound,
@@ -78,6 +81,7 @@ impl TorqueUnit {
         match self {
             Self::NewtonMetre => n_to_kn(value),
             Self::KilonewtonMetre => value,
+            Self::FootPound => kft_lbf_to_kn_m(value / 1e3),
             Self::KilofootPound => kft_lbf_to_kn_m(value),
         }
     }

@@ -72,7 +72,8 @@ impl IssueKind {
     /// What was done about it.
     pub const fn treatment(self) -> &'static str {
         match self {
-            Self::Unreadable | Self::Missing | Self::Spike | Self::NoTare | Self::NegativeWeight => "value left out",
+            Self::Unreadable => "value left out, or the row where time or fields are wrong",
+            Self::Missing | Self::Spike | Self::NoTare | Self::NegativeWeight => "value left out",
             Self::TimeStandsStill | Self::TimeBackwards | Self::TimeJumps => "row left out",
             Self::TimeStartsAnew => "a new part begins",
             Self::Gap => "left as a gap",

@@ -220,7 +220,7 @@ impl Drivers {
         id: DriverId,
         time: f64,
         value: f64,
-    ) -> Result<(), NotDriving> {
+    ) -> Result<(), Box<NotDriving>> {
         let silent_after = self.rule.silent_after[kind.index()];
         let not_named = self.rule.policy == DriverPolicy::Named && !self.is_named(id);
         let channel = &mut self.channels[kind.index()];
@@ -232,14 +232,14 @@ impl Drivers {
         let is_other = present.is_some_and(|present| !is_one(&present, id, route));
         if not_named || is_other {
             channel.refused += 1;
-            return Err(NotDriving {
+            return Err(Box::new(NotDriving {
                 kind,
                 route,
                 value,
                 sender: self.driver(id),
                 driving: present.map(|present| self.driver(present.id)),
                 silent_after,
-            });
+            }));
         }
         // What is no number does not drive anything.
         if value.is_finite() && present.is_none() {

@@ -35,7 +35,7 @@ pub struct RigSample {
 #[derive(Debug, Clone, PartialEq)]
 pub enum SampleRefused {
     /// Its sender does not drive.
-    Driver(NotDriving),
+    Driver(Box<NotDriving>),
     /// It cannot be right.
     Value(Rejection),
 }

@@ -37,6 +37,7 @@ pub struct Settings {
 
 /// What the loop does between periods.
 #[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "a box would be freed on the solver's thread")]
 pub enum Command {
     /// All that parameters can change: a set of them acts as a whole or not at all.
     Settings(Settings),

@@ -130,13 +130,13 @@ impl RigInputs {
         self.targets.set(inputs, quality as u8);
     }
 
-    /// A number alone, from a publisher.
-    fn take_plain(&self, kind: InputKind, value: f64, id: DriverId) -> Vec<SampleRefused> {
+    /// Takes a number alone of a publisher. Why it was refused, if it was.
+    pub fn take_plain(&self, kind: InputKind, value: f64, id: DriverId) -> Vec<SampleRefused> {
         self.take([(kind, value, None)], id)
     }
 
-    /// A message with a stamp, from a publisher.
-    fn take_stamped(&self, message: &RigInputsMessage, id: DriverId) -> Vec<SampleRefused> {
+    /// Takes a message with a stamp of a publisher. Why its values were refused, of those that were.
+    pub fn take_stamped(&self, message: &RigInputsMessage, id: DriverId) -> Vec<SampleRefused> {
         let sent = Sent {
             source: message.source.clone(),
             suspect: stamped::is_suspect(message),
@@ -248,14 +248,14 @@ const MOST_ASKED: usize = 64;
 
 /// Takes the samples of one topic for as long as it is polled; `take` judges one and says what was refused, `kinds` are
 /// the inputs that it carries.
-async fn receive<M: 'static>(
+async fn receive<M>(
     door: Door,
     topic: &'static str,
     kinds: &'static [InputKind],
     subscription: Subscription<M>,
     take: impl Fn(&Door, M, DriverId) -> Vec<SampleRefused>,
 ) where
-    M: DeserializeOwned,
+    M: DeserializeOwned + 'static,
 {
     let mut samples = Box::pin(subscription.async_stream());
     let mut refused_lines = Throttles::new(LOG_INTERVAL);
