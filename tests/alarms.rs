@@ -483,3 +483,40 @@ fn two_drivers_call_with_who_they_are() {
     let list = publish(&mut book, 20).1.unwrap();
     assert!(!find(&list, "two_drivers").active);
 }
+
+/// The rig sends, but nothing that can be right: that is no silence, and the alarm says what is wrong.
+#[test]
+fn an_input_that_is_only_refused_is_stale_and_says_why() {
+    let config = config();
+    let mut conditioner = Conditioner::new(config.inputs.rules());
+    let mut book = AlarmBook::fresh(config, 0);
+    for tenth in 0..=200_i64 {
+        let now = tenth as f64 * 0.1;
+        conditioner.offer(InputKind::RotarySpeed, 500.0, now).unwrap_err();
+        let state = NodeState {
+            conditioner: &conditioner,
+            now,
+            drivers: Default::default(),
+            run_state: RunState::Running,
+            failure: None,
+            real_time_factor: Some(1.0),
+            recording: None,
+        };
+        book.observe_node(&state, tenth * SECOND / 10);
+        // Stale after max_age of 5 s, on its safe value after 10 s more; each calls after the alarm's delay of 2 s.
+        let expected = match tenth {
+            40 => Some((Alarm::LOW, "refused: above the maximum of 120 r/min")),
+            80 => Some((Alarm::MEDIUM, "No good sample on rig/rotary_speed_rpm for 8 s")),
+            200 => Some((Alarm::HIGH, "No good sample on rig/rotary_speed_rpm for 20 s")),
+            _ => None,
+        };
+        if let Some((priority, words)) = expected {
+            let list = publish(&mut book, tenth / 10).1.unwrap();
+            let alarm = find(&list, "rotary_speed_input");
+            assert_eq!(alarm.priority, priority, "at {now} s: {}", alarm.evidence);
+            assert!(alarm.evidence.contains(words), "{}", alarm.evidence);
+            assert!(alarm.evidence.contains("500 r/min refused"), "{}", alarm.evidence);
+            assert!(alarm.cause.contains("the limits are too narrow"), "{}", alarm.cause);
+        }
+    }
+}

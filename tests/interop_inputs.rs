@@ -156,6 +156,13 @@ fn parameters_set_before_the_first_tick_act_and_a_standing_clock_ends_a_run() {
     );
     let line = twin.wait_for("parameter whirl.hysteresis is 0.32");
     assert!(line.contains("asked for by service set_parameters, client "), "{line}");
+    // A name that would clear the terminal and forge a line of the log.
+    let evil =
+        json!({"parameters": [{"name": "\u{1b}[2Jx\nalarms are off", "value": {"type": 1, "bool_value": true}}]});
+    let answer = peer.call("/flexdrill/set_parameters", set, evil);
+    assert_eq!(answer["results"][0]["successful"], false);
+    twin.wait_for("there is no parameter '\\u{1b}[2Jx\\nalarms are off'");
+    assert!(!twin.said().contains('\u{1b}'), "{}", twin.said());
     peer.command(json!({
         "do": "publish", "topic": "/clock", "type": "rosgraph_msgs/msg/Clock",
         "value": {"clock": {"sec": 1000, "nanosec": 0}},

@@ -63,7 +63,8 @@ pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId,
 fn input(kind: InputKind, state: &NodeState<'_>) -> Finding {
     let (conditioner, topic) = (state.conditioner, kind.topic());
     let rule = conditioner.rule(kind);
-    let age = conditioner.age(kind, state.now);
+    // Where no sample was ever good, since the first that was refused.
+    let silence = conditioner.without_good(kind, state.now);
     let acts = format!(
         "{:.1} {} asked for instead",
         conditioner.target(kind, state.now),
@@ -85,19 +86,27 @@ fn input(kind: InputKind, state: &NodeState<'_>) -> Finding {
             "The sensor or what sends it is out of order, or the limits are too narrow.",
         ),
         InputState::Stale => {
-            let age = age.unwrap_or(f64::INFINITY);
+            let silence = silence.unwrap_or_default();
             // Then the model no longer holds what was, and what it says of the tool is not the tool's.
-            let safe = age >= rule.max_age + rule.hold_before_safe;
+            let safe = conditioner.is_brought_to_safe(kind, state.now);
+            let refused = conditioner.last_rejection(kind);
+            let (refused, cause) = match refused.filter(|refused| state.now - refused.time < rule.max_age) {
+                Some(refused) => (
+                    format!(" The newest: {refused}."),
+                    "The sensor or what sends it is out of order, or the limits are too narrow.",
+                ),
+                None => (String::new(), "The rig's software or the network has stopped."),
+            };
             (
                 if safe { Priority::High } else { Priority::Medium },
-                format!("No good sample on {topic} for {age:.0} s, {acts}."),
-                "The rig's software or the network has stopped.",
+                format!("No good sample on {topic} for {silence:.0} s, {acts}.{refused}"),
+                cause,
             )
         }
     };
     Finding {
         priority: Some(priority),
-        value: age.unwrap_or(f64::NAN),
+        value: silence.unwrap_or(f64::NAN),
         threshold: rule.max_age,
         unit: "s",
         evidence,

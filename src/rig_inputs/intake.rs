@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::announcer::{Announcement, Announcer};
-use super::drivers::{DriverId, Drivers, NotDriving, Rule};
+use super::driver::DriverId;
+use super::drivers::{Drivers, NotDriving, Rule};
 use flexdrill_config::InputsConfig;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Rejection, Stamp};
 

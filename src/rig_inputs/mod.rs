@@ -4,10 +4,12 @@
 //! [`Intake`] joins them: a sample goes in, and is taken by the conditioner or refused in words.
 
 mod announcer;
+mod driver;
 mod drivers;
 mod intake;
 pub mod stamped;
 
 pub use announcer::{Announcement, Announcer};
-pub use drivers::{Driver, DriverId, DriverSummary, Drivers, NotDriving, Rule};
+pub use driver::{Driver, DriverId};
+pub use drivers::{DriverSummary, Drivers, NotDriving, Rule};
 pub use intake::{Intake, RigSample, SampleRefused, Sent};

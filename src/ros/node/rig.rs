@@ -37,6 +37,9 @@ const LOG_INTERVAL: f64 = 2.0;
 /// may come after its first sample.
 const ASK_INTERVAL: f64 = 1.0;
 
+/// Characters of a message's source that are kept: the status carries them.
+const LONGEST_SOURCE: usize = 64;
+
 /// Time as the inputs' ages count it (s).
 pub type Now = Arc<dyn Fn() -> f64 + Send + Sync>;
 /// Present instant on the rig's clock (ns since 1970).
@@ -138,7 +141,7 @@ impl RigInputs {
     /// Takes a message with a stamp of a publisher. Why its values were refused, of those that were.
     pub fn take_stamped(&self, message: &RigInputsMessage, id: DriverId) -> Vec<SampleRefused> {
         let sent = Sent {
-            source: message.source.clone(),
+            source: message.source.chars().take(LONGEST_SOURCE).collect(),
             suspect: stamped::is_suspect(message),
         };
         let given = stamped::values(message, (self.rig_time)(), self.max_skew);
