@@ -25,6 +25,8 @@ pub enum AlarmId {
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
     WeightOnBitInput,
+    /// More than one publisher drives an input.
+    TwoDrivers,
     /// The model is slower than time.
     RealTime,
     /// A step failed.
@@ -37,7 +39,7 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All of them; where they are equally bad, the first goes first.
-    pub const ALL: [AlarmId; 12] = [
+    pub const ALL: [AlarmId; 13] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
@@ -46,6 +48,7 @@ impl AlarmId {
         AlarmId::ModelQuality,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
+        AlarmId::TwoDrivers,
         AlarmId::RealTime,
         AlarmId::Solver,
         AlarmId::Recording,
@@ -63,6 +66,7 @@ impl AlarmId {
             AlarmId::ModelQuality => "model_quality",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
+            AlarmId::TwoDrivers => "two_drivers",
             AlarmId::RealTime => "real_time",
             AlarmId::Solver => "solver",
             AlarmId::Recording => "recording",
@@ -81,6 +85,7 @@ impl AlarmId {
             AlarmId::ModelQuality => "model not to be relied on",
             AlarmId::RotarySpeedInput => "rotary speed not known",
             AlarmId::WeightOnBitInput => "weight on bit not known",
+            AlarmId::TwoDrivers => "two drivers",
             AlarmId::RealTime => "not in real time",
             AlarmId::Solver => "model stands still",
             AlarmId::Recording => "recording",
@@ -120,6 +125,7 @@ impl AlarmId {
             AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),
+            AlarmId::TwoDrivers => node(&alarms.two_drivers),
             AlarmId::RealTime => node(&alarms.real_time),
             AlarmId::Solver => node(&alarms.solver),
             AlarmId::Recording => node(&alarms.recording),

@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod numbers;
 mod paper;
 mod progress;
 mod recover;
@@ -19,6 +20,7 @@ use clap::{Parser, Subcommand};
 
 use crate::dds::side;
 use crate::ros::args;
+use crate::told::printable_lines;
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
 #[derive(Debug, Parser)]
@@ -83,7 +85,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!("error: {}", printable_lines(&format!("{error:#}")));
             if error.is::<WrongUse>() {
                 ExitCode::from(WRONG_USE)
             } else {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{WrongUse, signals};
+use super::{WrongUse, numbers, signals};
 use crate::alarms::state_file;
 use crate::dds::network::Network;
 use crate::messages::topics::{self, Cadence};
@@ -45,8 +45,8 @@ pub(super) struct RunArgs {
     /// How services are answered: auto (each client as it asks), enhanced (rmw_fastrtps) or cyclone (rmw_cyclonedds).
     #[arg(long, value_name = "MAPPING", default_value = "auto")]
     service_mapping: ServiceMapping,
-    /// End after so much model time (s).
-    #[arg(long, value_name = "SECONDS")]
+    /// End after so much model time (s), or when model time has stood still for so long, as without /clock.
+    #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
     /// Folder that keeps acknowledged and shelved alarms over a restart; default $XDG_STATE_HOME/flexdrill or
     /// ~/.local/state/flexdrill.
@@ -150,6 +150,11 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             format!("{} [{}, {unit}]", setup.topic_name(topic)?, topic.kind.ros_type),
         );
     }
+    let (topic, units) = (&topics::RIG_INPUTS, "both, with their time");
+    row(
+        "input",
+        format!("{} [{}, {units}]", setup.topic_name(topic)?, topic.kind.ros_type),
+    );
     let schedule = outputs::schedule(config);
     for topic in topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received) {
         let rate = match topic.cadence {

@@ -116,6 +116,31 @@ mod tests {
     }
 
     #[test]
+    fn inputs_say_who_sends_and_how_they_are() {
+        let status = TwinStatus {
+            input_several_drivers: vec![true, false],
+            input_suspect: vec![false, true],
+            input_publishers: vec!["/rig @ 10.0.0.7 (0a), /player @ 10.0.0.9 (0b)".into(), String::new()],
+            input_not_driving: vec![7, 0],
+            input_unreadable: vec![0, 3],
+            ..running()
+        };
+        let items = Diagnostics::default().judge("n", &status, &Evidence::default());
+        assert_eq!(level(&items, "inputs"), DiagnosticStatus::WARN);
+        let item = items.iter().find(|item| item.name.ends_with("inputs")).unwrap();
+        assert_eq!(
+            item.message,
+            "rotary_speed ok, SEVERAL PUBLISHERS AT ONCE, weight_on_bit ok, its source has doubts"
+        );
+        let said: Vec<&str> = item.values.iter().map(|value| value.value.as_str()).collect();
+        assert!(
+            said[1].starts_with("/rig @ 10.0.0.7 (0a), /player") && said[1].contains("7 samples of others"),
+            "{said:?}"
+        );
+        assert_eq!(said[3], "none; 0 samples of others refused, 3 unreadable");
+    }
+
+    #[test]
     fn levels_rise_at_once_and_fall_after_a_while() {
         let mut diagnostics = Diagnostics::default();
         let evidence = Evidence::default();

@@ -103,11 +103,30 @@ pub(super) fn inputs(status: &TwinStatus) -> Judgement {
         .map(|state| level_of(*state))
         .max()
         .unwrap_or(DiagnosticStatus::OK);
+    let several = status.input_several_drivers.contains(&true);
+    let suspect = status.input_suspect.contains(&true);
+    let level = if several || suspect {
+        level.max(DiagnosticStatus::WARN)
+    } else {
+        level
+    };
     let said: Vec<String> = status
         .input_name
         .iter()
         .zip(&status.input_state)
-        .map(|(name, state)| format!("{name} {}", words::input_state(*state)))
+        .enumerate()
+        .map(|(index, (name, state))| {
+            let flag = |flags: &[bool], words: &'static str| {
+                if flags.get(index) == Some(&true) { words } else { "" }
+            };
+            format!(
+                "{name} {}{}{}{}",
+                words::input_state(*state),
+                flag(&status.input_safe, ", brought to its safe value"),
+                flag(&status.input_suspect, ", its source has doubts"),
+                flag(&status.input_several_drivers, ", SEVERAL PUBLISHERS AT ONCE"),
+            )
+        })
         .collect();
     let mut values = Vec::new();
     for index in 0..status.input_name.len() {
@@ -131,6 +150,18 @@ pub(super) fn inputs(status: &TwinStatus) -> Judgement {
         values.push((
             key,
             format!("{shown}, age {:.2} s, {rejected} refused", get(&status.input_age)),
+        ));
+        let count = |counts: &[u64]| counts.get(index).copied().unwrap_or_default();
+        let publishers = status.input_publishers.get(index).map_or("", String::as_str);
+        let key = ["rotary_speed publishers", "weight_on_bit publishers"][index.min(1)];
+        values.push((
+            key,
+            format!(
+                "{}; {} samples of others refused, {} unreadable",
+                if publishers.is_empty() { "none" } else { publishers },
+                count(&status.input_not_driving),
+                count(&status.input_unreadable)
+            ),
         ));
     }
     Judgement {

@@ -8,6 +8,7 @@ use crate::dds::frames::Peer;
 use crate::dds::port::Health;
 use crate::messages::TwinStatus;
 use crate::messages::std_msgs::Header;
+use crate::rig_inputs::Intake;
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::dynamics::{EnergyAudit, StepFailure};
 use flexdrill_core::inputs::{Conditioner, InputKind};
@@ -59,6 +60,8 @@ pub struct Sources<'a> {
     pub gauges: &'a Gauges,
     /// Inputs.
     pub conditioner: &'a Conditioner,
+    /// Who sends them, and what could not be read.
+    pub intake: &'a Intake,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
     /// Time that the model is to keep up with (ns).
@@ -228,6 +231,19 @@ impl StatusKeeper {
                 .push(conditioner.last_good(kind).map_or(f64::NAN, |value| kind.to_si(value)));
             status.input_applied.push(self.applied[kind.index()]);
             status.input_rejected.push(conditioner.counts(kind).rejected_total());
+            let intake = sources.intake;
+            let drivers = intake.drivers.summary(kind, sources.now);
+            status.input_driver.push(drivers.driving);
+            status.input_publishers.push(drivers.heard.join(", "));
+            status.input_several_drivers.push(drivers.several);
+            status.input_not_driving.push(drivers.refused);
+            status.input_unreadable.push(intake.unreadable(kind));
+            status
+                .input_safe
+                .push(conditioner.is_brought_to_safe(kind, sources.now));
+            let sent = intake.sent(kind);
+            status.input_source.push(sent.source.clone());
+            status.input_suspect.push(sent.suspect);
         }
     }
 }

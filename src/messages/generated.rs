@@ -653,6 +653,46 @@ pub mod flexdrill {
         );
     }
 
+    /// Both inputs of the rig with the time at which they were measured, for rigs that have it; the topics rig/rotary_speed_rpm and
+    /// rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct RigInputs {
+        /// Stamp: when it was measured, on the rig's clock. The age of the input counts from here. Frame: of no meaning.
+        pub header: super::std_msgs::Header,
+        /// Speed of the top drive (r/min), NaN if not given.
+        pub rotary_speed_rpm: f64,
+        /// Weight on bit (kN), NaN if not given.
+        pub weight_on_bit_kn: f64,
+        /// GOOD, SUSPECT or BAD, of both values.
+        pub quality: u8,
+        /// Sensor or program that it comes from, for people; may be empty.
+        pub source: std::string::String,
+    }
+
+    impl RigInputs {
+        /// The values are right as far as the source knows.
+        pub const GOOD: u8 = 0;
+        /// The source has doubts; the values are taken, and the status says so.
+        pub const SUSPECT: u8 = 1;
+        /// The values are wrong or not measured; they are refused.
+        pub const BAD: u8 = 2;
+    }
+
+    impl Message for RigInputs {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "RigInputs";
+        const ROS_TYPE: &'static str = "flexdrill/msg/RigInputs";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::RigInputs_";
+        const RIHS01: &'static str = "RIHS01_2c72cf99edd4f28f8dc259cc4421f48494a0cb51aeae5c7a0580529132a032ac";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/RigInputs.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+    }
+
     /// What a run was made with, so that a recording stands alone.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct SessionInfo {
@@ -786,6 +826,22 @@ pub mod flexdrill {
         pub namesake: Vec<std::string::String>,
         /// What the system's clock was set by since the start (s). Stamps keep to the clock as it was at the start.
         pub clock_set_by: f64,
+        /// Per input: the publisher that drives it, as node @ host (id of its DDS writer); empty while nobody does.
+        pub input_driver: Vec<std::string::String>,
+        /// Per input: all publishers heard within its max_age, the one that drives first, separated by commas.
+        pub input_publishers: Vec<std::string::String>,
+        /// Per input: two or more publishers send it at once.
+        pub input_several_drivers: Vec<bool>,
+        /// Per input: samples refused because their publisher does not drive.
+        pub input_not_driving: Vec<u64>,
+        /// Per input: samples whose bytes were no message of the topic's type.
+        pub input_unreadable: Vec<u64>,
+        /// Per input: without a good sample for so long that the model is on its way to the safe value, or there.
+        pub input_safe: Vec<bool>,
+        /// Per input: source of the newest good sample as it says itself, empty if it says none.
+        pub input_source: Vec<std::string::String>,
+        /// Per input: the source has doubts about the newest good sample.
+        pub input_suspect: Vec<bool>,
     }
 
     impl TwinStatus {
@@ -827,7 +883,7 @@ pub mod flexdrill {
         const NAME: &'static str = "TwinStatus";
         const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
-        const RIHS01: &'static str = "RIHS01_637c111148eb4248f88852f141e1499b86b34ba0552391222ef15882453f201b";
+        const RIHS01: &'static str = "RIHS01_87ba09797954a0f5bbcfa3433bdbc5037fca7b2e5693a58d704cd5ae8e6e25c6";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -2260,6 +2316,7 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::BitState as super::Message>::INFO,
     <flexdrill::ContactForces as super::Message>::INFO,
     <flexdrill::JointDeflections as super::Message>::INFO,
+    <flexdrill::RigInputs as super::Message>::INFO,
     <flexdrill::SessionInfo as super::Message>::INFO,
     <flexdrill::TwinStatus as super::Message>::INFO,
     <flexdrill::WhirlState as super::Message>::INFO,

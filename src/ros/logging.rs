@@ -16,6 +16,7 @@ use super::args::RosArgs;
 use crate::dds::plan::{Offer, dds_type_name};
 use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
+use crate::told::printable;
 
 /// RustDDS warns of every datagram above 1500 bytes and of peers that go; ros2-client of every plain DDS client.
 const LIBRARIES: &str = "rustdds=error,ros2_client=error,mio=error";
@@ -45,7 +46,10 @@ pub fn start(arguments: &RosArgs) {
     let lines = fmt::layer()
         .with_writer(std::io::stderr)
         .with_ansi(std::io::stderr().is_terminal())
-        .with_target(false);
+        .with_target(false)
+        .fmt_fields(fmt::format::debug_fn(|writer, field, value| {
+            write!(writer, "{}", shown(field, value))
+        }));
     // A second subscriber is refused; the first one stays.
     let started = tracing_subscriber::registry()
         .with(filter)
@@ -130,12 +134,47 @@ struct Text(String);
 
 impl Visit for Text {
     fn record_debug(&mut self, field: &Field, value: &dyn std::fmt::Debug) {
-        let result = if field.name() == "message" {
-            write!(self.0, "{value:?}")
-        } else {
-            write!(self.0, " {}={value:?}", field.name())
-        };
-        // Writing to a string does not fail.
-        let _ = result;
+        self.0.push_str(&shown(field, value));
+    }
+}
+
+/// A field of a log line. It may hold what others have sent: it is shown on one line and acts on no terminal.
+fn shown(field: &Field, value: &dyn std::fmt::Debug) -> String {
+    let text = format!("{value:?}");
+    if field.name() == "message" {
+        printable(&text).into_owned()
+    } else {
+        format!(" {}={}", field.name(), printable(&text))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[derive(Default)]
+    struct Lines(Mutex<Vec<String>>);
+
+    impl<S: Subscriber> Layer<S> for &'static Lines {
+        fn on_event(&self, event: &Event<'_>, _context: Context<'_, S>) {
+            let mut text = Text::default();
+            event.record(&mut text);
+            self.0.lock().unwrap().push(text.0);
+        }
+    }
+
+    #[test]
+    fn what_others_sent_is_shown_and_not_run() {
+        let lines: &'static Lines = Box::leak(Box::default());
+        let operator = "ann\x1b[2J\nalarm shock is normal";
+        tracing::subscriber::with_default(tracing_subscriber::registry().with(lines), || {
+            tracing::info!(topic = %"a\rb", "asked for by {operator}");
+        });
+        let said = lines.0.lock().unwrap();
+        assert_eq!(
+            *said,
+            ["asked for by ann\\u{1b}[2J\\nalarm shock is normal topic=a\\rb"]
+        );
     }
 }

@@ -12,11 +12,22 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::dds::plan::Guid;
 use crate::dds::port::{PortBuilder, Request, Requests};
 use crate::messages::{MOST_PADDING, from_cdr_body, to_cdr_body};
 
 /// Bytes that rmw_cyclonedds puts before a request and expects before its reply: client id and sequence number.
 const CYCLONE_HEADER: usize = 16;
+tokio::task_local! {
+    /// Who asked for what is being answered.
+    static CLIENT: Guid;
+}
+
+/// The client whose request is being answered: the GUID of its DDS writer; none outside of a handler.
+pub fn client() -> Option<Guid> {
+    CLIENT.try_with(|client| *client).ok()
+}
+
 /// Which form of services is served.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ServiceMapping {
@@ -145,7 +156,7 @@ impl ServiceServer {
                     continue;
                 }
             };
-            let response = handler(request).await;
+            let response = CLIENT.scope(asked.client, async { handler(request).await }).await;
             self.reply(&asked, dialect, &response);
         }
     }

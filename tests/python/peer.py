@@ -83,12 +83,13 @@ class Peer:
                     found[topic].append([stamp.sec * 10**9 + stamp.nanosec, written, received])
         return {"received": found}
 
-    def publish(self, topic, type, value, kind="reliable", wait=5.0):
-        made = ros_types.make(type)
-        is_new = topic not in self.writers
+    def publish(self, topic, type, value, kind="reliable", wait=5.0, short=False):
+        made = ros_types.short(type) if short else ros_types.make(type)
+        key = (topic, "short") if short else topic
+        is_new = key not in self.writers
         if is_new:
-            self.writers[topic] = DataWriter(self.participant, Topic(self.participant, "rt" + topic, made), qos=qos(kind))
-        writer, deadline = self.writers[topic], time.monotonic() + wait
+            self.writers[key] = DataWriter(self.participant, Topic(self.participant, "rt" + topic, made), qos=qos(kind))
+        writer, deadline = self.writers[key], time.monotonic() + wait
         while not writer.get_matched_subscriptions() and time.monotonic() < deadline:
             time.sleep(0.01)
         if is_new:

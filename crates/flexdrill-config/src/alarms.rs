@@ -26,6 +26,8 @@ section! {
         rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
         /// `rig/weight_on_bit_kn` not received, refused or stale.
         weight_on_bit_input: NodeAlarm = NodeAlarm::default(), below;
+        /// More than one publisher drives an input.
+        two_drivers: NodeAlarm = NodeAlarm::default(), below;
         /// The model is slower than time.
         real_time: NodeAlarm = NodeAlarm::default(), below;
         /// A step failed.

@@ -79,7 +79,8 @@ impl<C: Clock> RealTimeLoop<C> {
     /// Runs until [`Gauges::stop`](crate::link::Gauges::stop) is set.
     pub fn run(mut self) {
         while self.clock.now() == 0 && !self.stopped() {
-            // A simulated clock has not ticked yet.
+            // A simulated clock has not ticked yet. What is asked for meanwhile must not fill the ring: the newest acts.
+            self.handle_commands();
             self.clock.wait_until(1);
         }
         self.start();
@@ -128,10 +129,12 @@ impl<C: Clock> RealTimeLoop<C> {
         while let Ok(command) = self.end.commands.pop() {
             self.commands_done += 1;
             match command {
-                Command::Live(live) => self.wanted.live = live,
-                Command::Slew(slew) => self.wanted.slew = slew,
-                Command::Whirl(whirl) => self.wanted.whirl = whirl,
-                Command::Schedule(schedule) => self.wanted.schedule = schedule,
+                Command::Settings(settings) => {
+                    self.wanted.live = settings.live;
+                    self.wanted.slew = settings.slew;
+                    self.wanted.whirl = settings.whirl;
+                    self.wanted.schedule = settings.schedule;
+                }
                 Command::Pause(paused) => self.paused = paused,
                 Command::Reset => self.reset_asked = true,
                 Command::Checkpoint(reply) => {

@@ -22,6 +22,7 @@ use crate::ros::service::{ServiceMapping, ServiceServer};
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
+use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::Snapshot;
 
 /// A request on its way to the publisher, which keeps the alarms.
@@ -118,10 +119,16 @@ impl AlarmDesk {
 /// Judges the alarms of the node itself. They follow the wall clock, so that they go on when the model does not.
 pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure>, real_time_factor: Option<f64>) {
     let conditioner = parts.conditioner.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let now = (parts.now)();
+    let drivers = {
+        let intake = parts.intake.lock().unwrap_or_else(PoisonError::into_inner);
+        InputKind::ALL.map(|kind| intake.drivers.summary(kind, now))
+    };
     let state = NodeState {
         conditioner: &conditioner,
         dds: parts.dds.health(),
-        now: (parts.now)(),
+        now,
+        drivers,
         run_state: parts.gauges.run_state(),
         failure,
         real_time_factor,

@@ -6,24 +6,26 @@
 
 pub mod alarms;
 pub mod control;
+mod ending;
 pub mod publish;
 pub mod publishers;
 pub mod rig;
 
 use std::future::Future;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{channel, sync_channel};
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use tokio::task::JoinSet;
 
 use self::alarms::AlarmDesk;
 use self::control::Control;
+use self::ending::{Ended, Ending};
 use self::publish::{Publisher, PublisherParts};
 use self::publishers::Publishers;
-use self::rig::{Now, RigInputs};
+use self::rig::{Now, RigInputs, RigTime};
 use super::args::{NodeIdentity, Remapping};
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
@@ -34,7 +36,7 @@ use crate::dds::port::PortBuilder;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Conditioner, InputKind};
+use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::{BuildError, Run, Simulation};
 use flexdrill_realtime::clock::{SimulatedClock, WallClock, rig_clock};
 use flexdrill_realtime::link::{Gauges, Targets, link};
@@ -71,7 +73,7 @@ pub struct NodeSetup {
     pub checkpoint: Option<PathBuf>,
     /// File that the alarms' state is kept in over a restart.
     pub alarm_state: Option<PathBuf>,
-    /// Model time after which it ends (s).
+    /// Model time after which it ends, or wall time for which model time may stand still (s).
     pub duration: Option<f64>,
 }
 
@@ -127,12 +129,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     let targets = Targets::new(settings.initial_inputs);
     let gauges = Arc::new(Gauges::default());
     let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
-    let conditioner = Arc::new(Mutex::new(Conditioner::new(config.inputs.rules())));
-    let rig_inputs = RigInputs {
-        conditioner: Arc::clone(&conditioner),
-        targets,
-        now: Arc::clone(&now),
-    };
+    let rig_inputs = RigInputs::new(&config.inputs, targets, Arc::clone(&now), Arc::clone(&rig_time));
 
     let (change_sender, changes) = channel();
     let control = Control::new(
@@ -143,13 +140,12 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         Arc::clone(&gauges),
     );
     let store = parameters::declare(&config, &setup.config_file, setup.use_sim_time);
-    let (checking, applying) = (Arc::clone(&control), Arc::clone(&control));
+    let acting = Arc::clone(&control);
     let parameters = Parameters::new(
         &mut port,
         setup.identity.full_name(),
         store,
-        Box::new(move |candidate| checking.check(candidate)),
-        Box::new(move |store, changed| applying.apply(store, changed)),
+        Box::new(move |candidate, changed| acting.act(candidate, changed)),
     );
 
     let mut tasks = JoinSet::new();
@@ -168,23 +164,35 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         tasks.spawn(task);
     }
     let (received_sender, received) = sync_channel(RECEIVED);
+    let mut plain = Vec::new();
     for (kind, topic) in [
         (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
         (InputKind::WeightOnBit, &topics::WEIGHT_ON_BIT_KN),
     ] {
         let samples = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
-        let record = recording.is_some().then(|| received_sender.clone());
-        tasks.spawn(rig::receive(rig_inputs.clone(), kind, samples, record));
+        plain.push((kind, samples));
     }
+    let topic = &topics::RIG_INPUTS;
+    let stamped = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
     if setup.use_sim_time {
         let name = setup.topic_name(&topics::CLOCK)?;
         let ticks = port.subscription(&name, topics::CLOCK.kind.dds_type, false);
         tasks.spawn(rig::follow_clock(rig_inputs.clone(), ticks, Arc::clone(&simulated)));
     }
-    tasks.spawn(rig::keep_targets(rig_inputs));
     let port = tokio::task::spawn_blocking(move || port.start())
         .await
         .map_err(|error| NodeError::Stopped(error.to_string()))??;
+    let door = || rig::Door {
+        rig: rig_inputs.clone(),
+        dds: port.monitor(),
+        record: recording.is_some().then(|| received_sender.clone()),
+    };
+    for (kind, samples) in plain {
+        tasks.spawn(rig::receive_plain(door(), kind, samples));
+    }
+    tasks.spawn(rig::receive_stamped(door(), stamped));
+    let (conditioner, intake) = (Arc::clone(&rig_inputs.conditioner), Arc::clone(&rig_inputs.intake));
+    tasks.spawn(rig::keep_targets(rig_inputs));
 
     let finish = Arc::new(AtomicBool::new(false));
     let publisher = Publisher::new(PublisherParts {
@@ -197,6 +205,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         gauges: Arc::clone(&gauges),
         alarms: AlarmDesk::new(Arc::clone(&config), setup.alarm_state.as_deref(), asked, rig_time()),
         conditioner,
+        intake,
         now,
         use_sim_time: setup.use_sim_time,
         rig_time,
@@ -305,10 +314,21 @@ async fn wait(
         let Some(duration) = duration else {
             return std::future::pending().await;
         };
-        while (gauges.step.load(Ordering::Relaxed) as f64) * time_step < duration {
+        let mut ending = Ending::new(duration, monotonic::now() as f64 * 1e-9);
+        let why = loop {
+            let model_time = gauges.step.load(Ordering::Relaxed) as f64 * time_step;
+            if let Some(why) = ending.look(model_time, monotonic::now() as f64 * 1e-9) {
+                break why;
+            }
             tokio::time::sleep(Duration::from_millis(20)).await;
+        };
+        match why {
+            Ended::ModelTime => tracing::info!("the configured duration of {duration} s has passed"),
+            Ended::StandsStill => tracing::warn!(
+                "model time has stood still for the configured duration of {duration} s: is /clock published, is the node \
+                 paused, has a step failed?"
+            ),
         }
-        tracing::info!("the configured duration of {duration} s has passed");
     };
     tokio::select! {
         () = shutdown => Ok(()),
@@ -345,7 +365,7 @@ fn time_of_inputs(simulated: Option<Arc<AtomicU64>>) -> Now {
     }
 }
 
-fn rig_time(simulated: Option<Arc<AtomicU64>>) -> Arc<dyn Fn() -> i64 + Send + Sync> {
+fn rig_time(simulated: Option<Arc<AtomicU64>>) -> RigTime {
     match simulated {
         Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as i64),
         None => Arc::new(|| rig_clock() as i64),

@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::alarms::{self, AlarmDesk};
 use super::control::Change;
 use super::publishers::Publishers;
-use super::rig::{Now, Received};
+use super::rig::{Now, Received, RigTime};
 use crate::bag::RecordingThread;
 use crate::dds::port::Monitor;
 use crate::health::diagnostics::{Diagnostics, Evidence};
@@ -20,6 +20,8 @@ use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
+use crate::rig_inputs::Intake;
+use crate::told::Throttles;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::twin::{Output, RunInputs};
@@ -30,6 +32,9 @@ use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
 const POLL: Duration = Duration::from_millis(1);
 /// How often the node's own alarms are judged (Hz): ten times within their shortest default delay.
 const NODE_ALARM_RATE: f64 = 5.0;
+
+/// Least time between two lines about failed steps of one cause (s).
+const FAILURE_INTERVAL: f64 = 1.0;
 
 /// What the publisher's thread is made of.
 pub struct PublisherParts {
@@ -51,12 +56,14 @@ pub struct PublisherParts {
     pub alarms: AlarmDesk,
     /// Inputs.
     pub conditioner: Arc<Mutex<Conditioner>>,
+    /// Who sends them. Where both are locked, this comes first.
+    pub intake: Arc<Mutex<Intake>>,
     /// Time as the conditioner counts it.
     pub now: Now,
     /// `/clock` paces the model.
     pub use_sim_time: bool,
     /// Present instant on the rig's clock (ns since 1970).
-    pub rig_time: Arc<dyn Fn() -> i64 + Send + Sync>,
+    pub rig_time: RigTime,
     /// DDS.
     pub dds: Monitor,
     /// Name of the node, for the diagnostics.
@@ -78,6 +85,9 @@ pub struct Publisher {
     next_alarms: u64,
     newest_status: TwinStatus,
     late: bool,
+    failure_lines: Throttles<&'static str>,
+    /// The last failure was logged.
+    failure_told: bool,
 }
 
 impl Publisher {
@@ -100,6 +110,8 @@ impl Publisher {
             next_alarms: now,
             newest_status: TwinStatus::default(),
             late: false,
+            failure_lines: Throttles::new(FAILURE_INTERVAL),
+            failure_told: false,
         })
     }
 
@@ -201,19 +213,27 @@ impl Publisher {
                 commands,
             } => self.applied(&inputs, ticks, commands),
             LoopEvent::Failed(failure, _) => {
-                tracing::error!(
-                    "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
-                    failure.time,
-                    failure
-                );
                 self.status.fail(failure);
                 self.evidence.failure = Some(failure);
-                self.send_status();
-                self.send_diagnostics();
+                // Inputs that change all the time try the step again all the time.
+                let clock = monotonic::now() as f64 * 1e-9;
+                let more = self.failure_lines.ending(failure.cause.name(), clock);
+                self.failure_told |= more.is_some();
+                if let Some(more) = more {
+                    tracing::error!(
+                        "a step failed at model time {:.4} s: {failure}; the outputs stand still until the inputs change or \
+                         ~/reset is called{more}",
+                        failure.time
+                    );
+                    self.send_status();
+                    self.send_diagnostics();
+                }
                 Ok(())
             }
             LoopEvent::Recovered => {
-                tracing::info!("the model moves again");
+                if std::mem::take(&mut self.failure_told) {
+                    tracing::info!("the model moves again");
+                }
                 self.evidence.failure = None;
                 Ok(())
             }
@@ -245,11 +265,17 @@ impl Publisher {
 
     fn record_received(&self, received: Received) {
         let Some(recording) = &self.parts.recording else { return };
-        let topic = match received.kind {
-            InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
-            InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
+        let (topic, cdr) = match received {
+            Received::Plain { kind, value } => {
+                let topic = match kind {
+                    InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
+                    InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
+                };
+                (topic, to_cdr(&Float64 { data: value }))
+            }
+            Received::Stamped(message) => (&topics::RIG_INPUTS, to_cdr(&message)),
         };
-        if let Ok(cdr) = to_cdr(&Float64 { data: received.value }) {
+        if let Ok(cdr) = cdr {
             recording.record(topic, (self.parts.rig_time)(), &cdr);
         }
     }
@@ -257,11 +283,13 @@ impl Publisher {
     fn send_status(&mut self) {
         let header = self.header();
         let parts = &self.parts;
+        let intake = parts.intake.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let conditioner = parts.conditioner.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let outputs: Vec<OutputCount<'_>> = parts.publishers.counts().collect();
         let sources = Sources {
             gauges: &parts.gauges,
             conditioner: &conditioner,
+            intake: &intake,
             now: (parts.now)(),
             pace_time: self.pace_time(),
             outputs: &outputs,

@@ -1,5 +1,6 @@
 //! The six parameter services of a ROS 2 node, with descriptors, and `/parameter_events`.
 
+use std::fmt;
 use std::future::Future;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -17,36 +18,55 @@ use super::store::ParameterStore;
 use crate::dds::plan::{Offer, dds_type_name};
 use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
-use crate::ros::service::{ServiceMapping, ServiceServer, at_once};
-use flexdrill_config::ConfigError;
+use crate::rig_inputs::DriverId;
+use crate::ros::args::value::show;
+use crate::ros::service::{self, ServiceMapping, ServiceServer, at_once};
 
 /// A server's work, to be run as a task.
 pub type Task = Pin<Box<dyn Future<Output = ()> + Send>>;
 
-/// Checks a set of values as a whole.
-pub type Check = dyn Fn(&ParameterStore) -> Result<(), ConfigError> + Send + Sync;
-/// Called with accepted values, in order.
-pub type Applied = dyn Fn(&mut ParameterStore, &[Parameter]) + Send + Sync;
+/// Lets a set of values act as a whole, or refuses it. It is given the store as it would become and what changed.
+pub type Act = dyn Fn(&mut ParameterStore, &[Parameter]) -> Result<(), Refusal> + Send + Sync;
+
+/// Who asks for a change: the service, and its client where the middleware tells.
+#[derive(Debug, Clone, Copy)]
+struct Origin {
+    service: &'static str,
+    client: Option<DriverId>,
+}
+
+impl Origin {
+    /// Of the request that is being answered.
+    fn of(service: &'static str) -> Self {
+        Self {
+            service,
+            client: service::client().map(DriverId),
+        }
+    }
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "service {}", self.service)?;
+        match self.client {
+            Some(client) => write!(f, ", client {client}"),
+            None => Ok(()),
+        }
+    }
+}
 
 /// Values, rules, and what follows from a change.
 pub struct Parameters {
     store: Mutex<ParameterStore>,
-    check: Box<Check>,
-    applied: Box<Applied>,
+    act: Box<Act>,
     events: TopicPublisher,
     node_name: String,
 }
 
 impl Parameters {
-    /// Takes over a store. `check` sees candidate values together, `applied` is called with each accepted change while
-    /// no other change can come between. `/parameter_events` carries all parameters now, and every change later.
-    pub fn new(
-        port: &mut PortBuilder,
-        node_name: String,
-        store: ParameterStore,
-        check: Box<Check>,
-        applied: Box<Applied>,
-    ) -> Arc<Self> {
+    /// Takes over a store. `act` is called with each set of values while no other change can come between.
+    /// `/parameter_events` carries all parameters now, and every change later.
+    pub fn new(port: &mut PortBuilder, node_name: String, store: ParameterStore, act: Box<Act>) -> Arc<Self> {
         let offer = Offer {
             reliable: true,
             latched: false,
@@ -61,8 +81,7 @@ impl Parameters {
         );
         let parameters = Self {
             store: Mutex::new(store),
-            check,
-            applied,
+            act,
             events,
             node_name,
         };
@@ -76,19 +95,19 @@ impl Parameters {
         read(&self.store.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Sets all of `changes` or none, lets them act, publishes the event.
-    ///
-    /// # Errors
-    /// Why the change is refused.
-    pub fn set(&self, changes: &[Parameter]) -> Result<(), Refusal> {
-        let changed = {
+    /// Sets all of `changes` or none, lets them act, publishes the event and logs who asked.
+    fn set(&self, changes: &[Parameter], origin: Origin) -> Result<(), Refusal> {
+        let (before, changed) = {
             let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
-            let changed = store.set_atomically(changes, |candidate| (self.check)(candidate))?;
-            (self.applied)(&mut store, &changed);
-            changed
+            let before: Vec<Option<ParameterValue>> = changes.iter().map(|c| store.get(&c.name).cloned()).collect();
+            (
+                before,
+                store.set_atomically(changes, |candidate, changed| (self.act)(candidate, changed))?,
+            )
         };
-        for Parameter { name, value } in &changed {
-            tracing::info!("parameter {name} is now {}", crate::ros::args::value::show(value));
+        for (Parameter { name, value }, before) in changed.iter().zip(before) {
+            let before = before.map_or_else(String::new, |before| format!(", was {}", show(&before)));
+            tracing::info!("parameter {name} is {}{before}: asked for by {origin}", show(value));
         }
         self.publish(Vec::new(), changed);
         Ok(())
@@ -107,11 +126,11 @@ impl Parameters {
         }
     }
 
-    fn answer_set(&self, changes: Vec<raw::Parameter>) -> raw::SetParametersResult {
+    fn answer_set(&self, changes: Vec<raw::Parameter>, origin: Origin) -> raw::SetParametersResult {
         let changes: Vec<Parameter> = changes.into_iter().map(Into::into).collect();
-        let result = self.set(&changes);
+        let result = self.set(&changes, origin);
         if let Err(reason) = &result {
-            tracing::warn!("a parameter change was refused: {reason}");
+            tracing::warn!("a parameter change was refused: {reason}; asked for by {origin}");
         }
         result.map_err(|refusal| refusal.to_string()).into()
     }
@@ -155,7 +174,7 @@ pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<P
                     results: request
                         .parameter
                         .into_iter()
-                        .map(|parameter| set.answer_set(vec![parameter]))
+                        .map(|parameter| set.answer_set(vec![parameter], Origin::of("set_parameters")))
                         .collect(),
                 }
             })),
@@ -163,7 +182,7 @@ pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<P
         Box::pin(
             server("set_parameters_atomically", "SetParametersAtomically").serve(at_once(
                 move |request: SetParametersRequest| SetParametersAtomicallyResponse {
-                    result: atomic.answer_set(request.parameter),
+                    result: atomic.answer_set(request.parameter, Origin::of("set_parameters_atomically")),
                 },
             )),
         ),

@@ -8,7 +8,6 @@ use ros2_client::{Parameter, ParameterValue};
 
 use super::refusal::Refusal;
 use crate::ros::args::value::show;
-use flexdrill_config::ConfigError;
 
 /// What is declared about a parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,15 +78,16 @@ impl ParameterStore {
             .collect()
     }
 
-    /// Sets all of `changes` or none. `check` sees the store as it would become. Returns what changed, in the
-    /// parameters' own types.
+    /// Sets all of `changes` or none. `act` sees the store as it would become and what changed, in the parameters' own
+    /// types; it lets them act as a whole or refuses them. Returns what changed.
     ///
     /// # Errors
-    /// When one of them is unknown, read-only or of the wrong type, or `check` refuses them together.
+    /// When one of them is unknown, read-only or of the wrong type, or `act` refuses them together; then nothing has
+    /// changed.
     pub fn set_atomically(
         &mut self,
         changes: &[Parameter],
-        check: impl FnOnce(&ParameterStore) -> Result<(), ConfigError>,
+        act: impl FnOnce(&mut ParameterStore, &[Parameter]) -> Result<(), Refusal>,
     ) -> Result<Vec<Parameter>, Refusal> {
         let mut candidate = self.clone();
         let mut accepted = Vec::with_capacity(changes.len());
@@ -99,7 +99,7 @@ impl ParameterStore {
                 value: entry.value.clone(),
             });
         }
-        check(&candidate)?;
+        act(&mut candidate, &accepted)?;
         *self = candidate;
         Ok(accepted)
     }
@@ -221,6 +221,7 @@ fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue
 #[cfg(test)]
 mod tests {
     use super::*;
+    use flexdrill_config::ConfigError;
 
     fn declare(name: &str, value: ParameterValue, range: Option<[f64; 2]>, read_only: bool) -> Declaration {
         Declaration {
@@ -255,19 +256,22 @@ mod tests {
             parameter("friction.inner", ParameterValue::Double(0.4)),
             parameter("friction.outer", ParameterValue::String("rough".into())),
         ];
-        let reason = store.set_atomically(&changes, |_| Ok(())).unwrap_err().to_string();
+        let reason = store.set_atomically(&changes, |_, _| Ok(())).unwrap_err().to_string();
         assert!(
             reason.contains("friction.outer") && reason.contains("rough"),
             "{reason}"
         );
         assert_eq!(store.number("friction.inner"), Some(0.2));
-        let refused = store.set_atomically(&changes[..1], |new| {
+        let refused = store.set_atomically(&changes[..1], |new, changed| {
             assert_eq!(new.number("friction.inner"), Some(0.4));
-            Err(ConfigError::UnknownKey { key: "friction".into() })
+            assert_eq!((changed.len(), changed[0].name.as_str()), (1, "friction.inner"));
+            new.set_range("friction.inner", [0.0, 0.5]);
+            Err(ConfigError::UnknownKey { key: "friction".into() }.into())
         });
         assert!(refused.is_err());
+        assert_eq!(store.describe("friction.inner").floating_point_range[0].to_value, 1.0);
         assert_eq!(store.number("friction.inner"), Some(0.2));
-        assert_eq!(store.set_atomically(&changes[..1], |_| Ok(())).unwrap().len(), 1);
+        assert_eq!(store.set_atomically(&changes[..1], |_, _| Ok(())).unwrap().len(), 1);
         assert_eq!(store.number("friction.inner"), Some(0.4));
     }
 
@@ -275,7 +279,7 @@ mod tests {
     fn refusals_say_why() {
         let mut store = store();
         let mut refuse = |name: &str, value| {
-            let refused = store.set_atomically(&[parameter(name, value)], |_| Ok(()));
+            let refused = store.set_atomically(&[parameter(name, value)], |_, _| Ok(()));
             refused.unwrap_err().to_string()
         };
         assert!(refuse("tool.links", ParameterValue::Integer(4)).contains("part of the mesh"));
@@ -289,7 +293,10 @@ mod tests {
     fn whole_numbers_are_taken_for_real_ones() {
         let mut store = store();
         store
-            .set_atomically(&[parameter("friction.inner", ParameterValue::Integer(1))], |_| Ok(()))
+            .set_atomically(
+                &[parameter("friction.inner", ParameterValue::Integer(1))],
+                |_, _| Ok(()),
+            )
             .unwrap();
         assert_eq!(store.get("friction.inner"), Some(&ParameterValue::Double(1.0)));
     }
