@@ -369,6 +369,8 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
                 failure: None,
                 real_time_factor: Some(1.0),
                 recording: Some(recording(tenth)),
+                dds: Health::default(),
+                drivers: Default::default(),
             };
             book.observe_node(&state, tenth * SECOND / 10);
         }
@@ -499,6 +501,7 @@ fn two_drivers_call_with_who_they_are() {
             failure: None,
             real_time_factor: Some(1.0),
             recording: None,
+            dds: Health::default(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
         if tenth == 90 {
@@ -544,6 +547,7 @@ fn an_input_that_is_only_refused_is_stale_and_says_why() {
             failure: None,
             real_time_factor: Some(1.0),
             recording: None,
+            dds: Health::default(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
         // Stale after max_age of 5 s, on its safe value after 10 s more; each calls after the alarm's delay of 2 s.

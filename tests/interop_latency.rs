@@ -16,10 +16,6 @@ const TOPICS: [(&str, &str); 2] = [
 ];
 const SECONDS: f64 = 10.0;
 
-/// The node computes a period of its solver when the period begins, and what it publishes bears the instant of the
-/// period's end (ns): stamps are ahead of the clock by up to this.
-const PERIOD: i64 = 5_000_000;
-
 /// "p50, p99, max" of durations in ns, as ms.
 fn percentiles(mut durations: Vec<i64>) -> String {
     durations.sort_unstable();
