@@ -8,8 +8,8 @@ set -euo pipefail
 # Longest time of all this (s).
 limit=${FLEXDRILL_TEST_LIMIT:-5400}
 
-say "step 1 of 4: packages (a C compiler for SQLite and Zstandard, ip and unshare for private networks, venv for Python)"
-need_packages build-essential iproute2 util-linux python3-venv
+say "step 1 of 4: packages (a C compiler for SQLite and Zstandard, ip, nft and unshare for private networks, ps, venv for Python)"
+need_packages build-essential iproute2 nftables procps util-linux python3-venv
 need_rust
 
 say "step 2 of 4: Python packages of other vendors in .venv, versions pinned in tests/python/requirements.txt"

@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 pub use network::Network;
 pub use peer::Peer;
 pub use program::Program;
+pub use skip::skipped;
 
 /// The repository.
 pub fn root() -> &'static Path {
