@@ -1,7 +1,7 @@
 //! A recording of ours again: its configuration, its applied inputs step by step, the same outputs to the bit.
 //!
-//! A bag that somebody else began while the twin ran (`ros2 bag record -a`) begins with the first applied inputs that it
-//! heard. The model's state at that step is in no message, so that its replay begins with a tool at rest.
+//! A bag that somebody else began while the twin ran (`ros2 bag record -a`) begins with the first applied inputs that
+//! it heard. The model's state at that step is in no message, so that its replay begins with a tool at rest.
 
 use std::path::Path;
 
