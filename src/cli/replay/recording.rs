@@ -8,7 +8,7 @@ use std::path::Path;
 use anyhow::Context as _;
 
 use super::player::Player;
-use crate::bag::{self, Bag, Gap, Gaps};
+use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
@@ -35,6 +35,8 @@ pub(super) struct Script {
     last_step: u64,
     /// Messages that the recording lost.
     gaps: Vec<Gap>,
+    /// Parts of it that cannot be read.
+    damaged: Vec<String>,
 }
 
 /// Whether a bag is a recording of the twin, by us or others: it says what the run was made with.
@@ -68,9 +70,17 @@ impl Script {
             })
             .collect();
         let (mut session, mut applied, mut gaps) = (None, Vec::new(), Gaps::default());
+        let mut damaged = Vec::new();
         let (mut status_step, mut newest_stamp) = (0, None);
         for message in bag.by_ref() {
-            let message = message?;
+            let message = match message {
+                // What is lost with it shows by the numbers of the messages around it.
+                Err(error @ BagError::Damaged { .. }) => {
+                    damaged.push(error.to_string());
+                    continue;
+                }
+                message => message?,
+            };
             gaps.observe(&message);
             match message.topic.ros_type.as_str() {
                 SessionInfo::ROS_TYPE => {
@@ -105,6 +115,7 @@ impl Script {
             names,
             last_step,
             gaps: gaps.found(),
+            damaged,
         })
     }
 
@@ -144,13 +155,17 @@ impl Script {
         for gap in &self.gaps {
             if gap.topic.ros_type == AppliedInputs::ROS_TYPE {
                 exactness.departures.push(format!(
-                    "the recording was interrupted, and what drove the model meanwhile is missing ({gap}): \
+                    "the recording has a gap, and what drove the model meanwhile is missing ({gap}): \
                      the replay goes on with the inputs before it"
                 ));
             } else {
-                exactness.notes.push(format!("the recording was interrupted ({gap})"));
+                exactness.notes.push(format!("the recording has a gap ({gap})"));
             }
         }
+        let damaged = self.damaged.iter();
+        exactness
+            .notes
+            .extend(damaged.map(|damage| format!("left out of the recording: {damage}")));
         if self.session.version != env!("CARGO_PKG_VERSION") {
             exactness.departures.push(format!(
                 "recorded with flexdrill {}, replayed with {}: outputs may differ",
