@@ -9,8 +9,10 @@
 //! - [`cli`]: the subcommands, a file or folder each.
 //! - [`ros`]: the only module that knows ros2-client. [`bag`]: the only one that knows MCAP. [`field_log`]: CSV rig
 //!   logs. [`health`]: what is said of the node's state.
+//! - [`rig_inputs`]: who sends the rig's inputs, when they were measured, and what is refused.
 //! - [`alarms`]: what the motion and the node's state mean for an operator.
 //! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
+//! - [`told`]: text of others that is shown and not run, and log lines that do not flood.
 //!
 //! Below them, as crates of their own: `flexdrill-paper`, `flexdrill-verify`, [`flexdrill_config`],
 //! [`flexdrill_realtime`] and [`flexdrill_core`], the mechanics. `docs/architecture.md` draws the house.
@@ -18,7 +20,10 @@
 pub mod alarms;
 pub mod bag;
 pub mod cli;
+pub mod dds;
 pub mod field_log;
 pub mod health;
 pub mod messages;
+pub mod rig_inputs;
 pub mod ros;
+pub mod told;

@@ -11,12 +11,14 @@ use std::process::Command;
 use std::sync::Arc;
 
 use flexdrill::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use flexdrill::dds::port::Health;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
     AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, from_cdr, topics,
 };
+use flexdrill::rig_inputs::{Driver, DriverId, Drivers, Rule};
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Conditioner, InputKind};
+use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute};
 use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
@@ -121,7 +123,7 @@ fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
     show(&mut book, 10, 1, &snapshot(&[stick_slip(), rolling()]));
     let (events, list) = publish(&mut book, 11);
     let list = list.unwrap();
-    assert_eq!(list.alarms.len(), 11, "all of them are listed");
+    assert_eq!(list.alarms.len(), 13, "all of them are listed");
     assert_eq!((list.sequence, list.unacknowledged, events.len()), (2, 2, 2));
     let worst = &list.alarms[0];
     assert_eq!((worst.id.as_str(), worst.priority), ("backward_whirl", Alarm::HIGH));
@@ -310,6 +312,7 @@ fn inputs_pace_and_recording_call_too() {
         let state = NodeState {
             conditioner: &conditioner,
             now: tenth as f64 * 0.1,
+            drivers: Default::default(),
             run_state: RunState::Running,
             failure: None,
             real_time_factor: Some(0.85),
@@ -318,6 +321,7 @@ fn inputs_pace_and_recording_call_too() {
                 notice: None,
                 drops: 3,
             }),
+            dds: Health::default(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
     }
@@ -365,6 +369,8 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
                 failure: None,
                 real_time_factor: Some(1.0),
                 recording: Some(recording(tenth)),
+                dds: Health::default(),
+                drivers: Default::default(),
             };
             book.observe_node(&state, tenth * SECOND / 10);
         }
@@ -461,5 +467,103 @@ fn a_replay_has_its_alarms_and_a_second_one_the_same_bytes() {
     assert_eq!(lists.last().unwrap().sequence, events.len() as u64);
     for part in ["alarms: ", "lateral shock", "per hour", "in flood", "within 60 s"] {
         assert!(said.contains(part), "'{part}' is not in\n{said}");
+    }
+}
+
+#[test]
+fn two_drivers_call_with_who_they_are() {
+    let config = config();
+    let mut conditioner = Conditioner::new(config.inputs.rules());
+    let mut drivers = Drivers::new(Rule::of(&config.inputs));
+    let mut book = AlarmBook::fresh(config, 0);
+    let ids = [1, 2].map(|byte| DriverId([byte; 16]));
+    drivers.describe(Driver {
+        id: ids[1],
+        node: Some("/log_player".to_owned()),
+        host: Some("10.0.0.9".to_owned()),
+    });
+    for tenth in 0..200_i64 {
+        let now = tenth as f64 * 0.1;
+        // Both send for 10 s, then the rig alone.
+        for id in ids.iter().take(if tenth < 100 { 2 } else { 1 }) {
+            drivers
+                .offer(InputKind::RotarySpeed, InputRoute::Plain, *id, now, 40.0)
+                .unwrap();
+        }
+        for kind in InputKind::ALL {
+            conditioner.offer(kind, 10.0, now).unwrap();
+        }
+        let state = NodeState {
+            conditioner: &conditioner,
+            now,
+            drivers: InputKind::ALL.map(|kind| drivers.summary(kind, now)),
+            run_state: RunState::Running,
+            failure: None,
+            real_time_factor: Some(1.0),
+            recording: None,
+            dds: Health::default(),
+        };
+        book.observe_node(&state, tenth * SECOND / 10);
+        if tenth == 90 {
+            let list = publish(&mut book, 9).1.unwrap();
+            let alarm = find(&list, "two_drivers");
+            assert_eq!(
+                (alarm.state, alarm.priority),
+                (Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::MEDIUM)
+            );
+            assert!(
+                alarm.evidence.contains("rotary_speed is sent by")
+                    && alarm.evidence.contains("/log_player @ 10.0.0.9 (0202")
+                    && alarm.evidence.contains("unnamed node @ unknown host (0101"),
+                "{}",
+                alarm.evidence
+            );
+            assert!(
+                alarm.what_to_do.contains("inputs.driver.policy"),
+                "{}",
+                alarm.what_to_do
+            );
+        }
+    }
+    // Silent for max_age (5 s), then gone for the alarm's own 5 s.
+    let list = publish(&mut book, 20).1.unwrap();
+    assert!(!find(&list, "two_drivers").active);
+}
+
+/// The rig sends, but nothing that can be right: that is no silence, and the alarm says what is wrong.
+#[test]
+fn an_input_that_is_only_refused_is_stale_and_says_why() {
+    let config = config();
+    let mut conditioner = Conditioner::new(config.inputs.rules());
+    let mut book = AlarmBook::fresh(config, 0);
+    for tenth in 0..=200_i64 {
+        let now = tenth as f64 * 0.1;
+        conditioner.offer(InputKind::RotarySpeed, 500.0, now).unwrap_err();
+        let state = NodeState {
+            conditioner: &conditioner,
+            now,
+            drivers: Default::default(),
+            run_state: RunState::Running,
+            failure: None,
+            real_time_factor: Some(1.0),
+            recording: None,
+            dds: Health::default(),
+        };
+        book.observe_node(&state, tenth * SECOND / 10);
+        // Stale after max_age of 5 s, on its safe value after 10 s more; each calls after the alarm's delay of 2 s.
+        let expected = match tenth {
+            40 => Some((Alarm::LOW, "refused: above the maximum of 120 r/min")),
+            80 => Some((Alarm::MEDIUM, "No good sample on rig/rotary_speed_rpm for 8 s")),
+            200 => Some((Alarm::HIGH, "No good sample on rig/rotary_speed_rpm for 20 s")),
+            _ => None,
+        };
+        if let Some((priority, words)) = expected {
+            let list = publish(&mut book, tenth / 10).1.unwrap();
+            let alarm = find(&list, "rotary_speed_input");
+            assert_eq!(alarm.priority, priority, "at {now} s: {}", alarm.evidence);
+            assert!(alarm.evidence.contains(words), "{}", alarm.evidence);
+            assert!(alarm.evidence.contains("500 r/min refused"), "{}", alarm.evidence);
+            assert!(alarm.cause.contains("the limits are too narrow"), "{}", alarm.cause);
+        }
     }
 }

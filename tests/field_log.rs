@@ -170,6 +170,183 @@ fn rows_are_numbered_as_an_editor_does() {
     }
 }
 
+/// Rows that are left out as a whole.
+fn left_out(report: &Report) -> u64 {
+    report
+        .issues
+        .iter()
+        .filter(|issue| match issue.kind {
+            IssueKind::Unreadable => issue.column.is_empty() || issue.column == "t",
+            IssueKind::TimeStandsStill | IssueKind::TimeBackwards | IssueKind::TimeJumps => true,
+            _ => false,
+        })
+        .map(|issue| issue.rows)
+        .sum()
+}
+
+#[test]
+fn unreadable_rows_at_both_ends_are_told() {
+    let text = b"t,rpm,wob\nlunch,1,1\n0;1;1\n0,40,1\n1,40,1\n2,40\nend of log,,\n";
+    let (_, report) = read_text(text, &direct_mapping()).unwrap();
+    let unreadable: Vec<(u64, u64)> = (report.issues.iter())
+        .map(|issue| (issue.first_row, issue.last_row))
+        .collect();
+    assert_eq!(unreadable, [(2, 2), (3, 3), (6, 6), (7, 7)]);
+    assert_eq!(
+        (report.first_row, report.last_row, report.rows, report.left_out),
+        (4, 5, 2, 4)
+    );
+    let table = report.to_string();
+    assert!(
+        table.contains("2 used, 4 LEFT OUT") && !table.contains("nothing wrong"),
+        "{table}"
+    );
+}
+
+#[test]
+fn a_stray_quote_costs_the_row_that_it_is_in() {
+    let log = xtask::demo_log::demo_log();
+    let rows = log.lines().count() as u64 - 1;
+    for row in [1, 80, rows - 1] {
+        let damaged: String = log
+            .lines()
+            .enumerate()
+            .map(|(index, line)| {
+                if index as u64 == row {
+                    format!("\"{line}\n")
+                } else {
+                    format!("{line}\n")
+                }
+            })
+            .collect();
+        let (_, report) = read_text(damaged.as_bytes(), &rig_mapping()).unwrap();
+        assert_eq!(report.rows + report.left_out, rows, "quote in row {}", row + 1);
+        assert!(
+            places(&report, IssueKind::Unreadable).contains(&(row + 1, row + 1, 1)),
+            "quote in row {}: {report}",
+            row + 1
+        );
+        // One more than without it: the demo log has a time that stands still.
+        assert_eq!(report.left_out, 2, "quote in row {}", row + 1);
+    }
+}
+
+/// An hour of 1 Hz over midnight.
+fn over_midnight(write: impl Fn(u32) -> String) -> String {
+    let rows = (84_600..88_200).map(|second| format!("{},40,1\n", write(second % 86_400)));
+    std::iter::once("t,rpm,wob\n".to_owned()).chain(rows).collect()
+}
+
+#[test]
+fn a_time_of_day_goes_on_over_midnight() {
+    let mapping = Mapping::from_text(
+        "clock.yaml",
+        "columns:
+  time: {column: t, format: time_of_day}
+  rotary_speed: {column: rpm, unit: r/min}
+  weight_on_bit: {direct: {column: wob, unit: kN}}
+",
+    )
+    .unwrap();
+    let clock = |second: u32| format!("{:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60);
+    for text in [over_midnight(clock), over_midnight(|second| second.to_string())] {
+        let (sequence, report) = read_text(text.as_bytes(), &mapping).unwrap();
+        assert_eq!((report.rows, report.left_out, report.duration), (3600, 0, 3599.0));
+        assert!(report.parts.is_empty());
+        assert!(places(&report, IssueKind::Gap).is_empty());
+        assert_eq!(sequence.inputs[2 * 1800].time, 1800.0);
+    }
+}
+
+#[test]
+fn a_time_that_starts_anew_begins_a_part_with_its_own_report() {
+    let text = over_midnight(|second| second.to_string()) + "soup\n";
+    let (sequence, report) = read_text(text.as_bytes(), &direct_mapping()).unwrap();
+    assert_eq!((report.rows, report.left_out), (3600, 1));
+    assert_eq!(places(&report, IssueKind::TimeStartsAnew), [(1802, 1802, 1)]);
+    let parts: Vec<_> = (report.parts.iter())
+        .map(|part| (part.first_row, part.last_row, part.rows, part.left_out, part.duration))
+        .collect();
+    assert_eq!(parts, [(2, 1801, 1800, 0, 1799.0), (1802, 3601, 1800, 1, 1799.0)]);
+    assert_eq!(places(&report.parts[1], IssueKind::Unreadable), [(3602, 3602, 1)]);
+    // Twice the longest time between rows: the inputs become stale, nothing is joined.
+    assert_eq!(sequence.duration, 1799.0 + 10.0 + 1799.0);
+    assert_eq!(sequence.inputs.len(), 7200);
+    let table = report.to_string();
+    assert!(
+        table.contains("ITS TIME STARTS ANEW, 2 parts") && table.contains("part 2"),
+        "{table}"
+    );
+    // One part alone.
+    let mut file = tempfile::NamedTempFile::new().unwrap();
+    file.write_all(text.as_bytes()).unwrap();
+    let range = Range {
+        from: Some(Position::Row(1802)),
+        to: None,
+    };
+    let (sequence, report) = read_range(file.path(), &direct_mapping(), &range).unwrap();
+    assert_eq!((report.rows, report.left_out, report.parts.len()), (1800, 1, 0));
+    assert_eq!((sequence.inputs[0].time, sequence.duration), (0.0, 1799.0));
+}
+
+#[test]
+fn a_single_time_far_ahead_does_not_cost_the_rows_behind_it() {
+    let mut text = String::from("t,rpm,wob\n");
+    for second in 0..100 {
+        text += &format!("{},40,1\n", if second == 50 { 999_999 } else { second });
+    }
+    let (sequence, report) = read_text(text.as_bytes(), &direct_mapping()).unwrap();
+    assert_eq!(places(&report, IssueKind::TimeJumps), [(52, 52, 1)]);
+    assert_eq!((report.rows, report.left_out, sequence.duration), (99, 1, 99.0));
+}
+
+#[test]
+fn weights_of_other_units_are_kilonewton() {
+    for (unit, kilonewton) in [
+        ("tf", 9.806_65),
+        ("kgf", 9.806_65e-3),
+        ("lbf", 4.448_221_615_260_5e-3),
+        ("klbf", 4.448_221_615_260_5),
+    ] {
+        let mapping = format!(
+            "columns:\n  time: {{column: t}}\n  rotary_speed: {{column: rpm, unit: r/min}}\n  \
+             weight_on_bit: {{direct: {{column: wob, unit: {unit}}}}}\n"
+        );
+        let mapping = Mapping::from_text("units.yaml", &mapping).unwrap();
+        let (sequence, _) = read_text(b"t,rpm,wob\n0,40,3\n", &mapping).unwrap();
+        let [(_, weight)] = values(&sequence, InputKind::WeightOnBit)[..] else {
+            panic!("{unit}");
+        };
+        // Both are the exact definitions, rounded once or twice.
+        assert!((weight / (3.0 * kilonewton) - 1.0).abs() < 1e-15, "{unit}: {weight}");
+    }
+}
+
+#[test]
+fn a_torque_is_reported_in_one_unit() {
+    for (unit, factor) in [
+        ("N.m", 1e-3),
+        ("kN.m", 1.0),
+        ("kft.lbf", 4.448_221_615_260_5 * 0.3048),
+        ("ft.lbf", 4.448_221_615_260_5e-3 * 0.3048),
+    ] {
+        let mapping = format!(
+            "columns:\n  time: {{column: t}}\n  rotary_speed: {{column: rpm, unit: r/min}}\n  \
+             weight_on_bit: {{direct: {{column: wob, unit: kN}}}}\n  torque: {{column: trq, unit: {unit}}}\n"
+        );
+        let mapping = Mapping::from_text("torque.yaml", &mapping).unwrap();
+        let (_, report) = read_text(b"t,rpm,wob,trq\n0,40,3,2\n1,40,3,x\n2,40,3,4\n3,40,3,3\n", &mapping).unwrap();
+        let torque = report.torque.unwrap();
+        let (smallest, median, largest) = (torque.smallest_kn_m, torque.median_kn_m, torque.largest_kn_m);
+        for (found, given) in [(smallest, 2.0), (median, 3.0), (largest, 4.0)] {
+            // The exact definitions, rounded once or twice.
+            assert!((found / (given * factor) - 1.0).abs() < 1e-15, "{unit}: {found}");
+        }
+        assert_eq!((torque.samples, report.rows), (3, 4));
+        assert_eq!(places(&report, IssueKind::Unreadable), [(3, 3, 1)]);
+    }
+}
+
 #[test]
 fn a_frozen_value_is_reported_and_kept() {
     let mut text = String::from("t,rpm,wob\n");
@@ -230,7 +407,9 @@ fn places_are_rows_or_seconds() {
     assert_eq!("row:6345".parse::<Position>().unwrap(), Position::Row(6345));
     assert_eq!("90".parse::<Position>().unwrap(), Position::Time(90.0));
     assert_eq!("90s".parse::<Position>().unwrap(), Position::Time(90.0));
-    for text in ["", "s", "-5", "-5s", "nans", "1e999s", "row 5", "row:-5"] {
+    for text in [
+        "", "s", "-5", "-5s", "nans", "1e999s", "1e-308", "inf", "1e11", "row 5", "row:-5",
+    ] {
         assert!(text.parse::<Position>().is_err(), "{text}");
     }
 }
@@ -322,6 +501,21 @@ proptest! {
             prop_assert!(sequence.inputs.iter().all(|input| input.value.is_finite() && input.time >= 0.0));
             prop_assert!(sequence.inputs.windows(2).all(|pair| pair[0].time <= pair[1].time));
             let _ = report.to_string();
+        }
+    }
+
+    /// Every row is used, or left out and told; the parts' reports tell of all of them too.
+    #[test]
+    fn every_row_is_accounted_for(rows in prop::collection::vec("([0-9]{1,3}|[0-9]{1,3}|x)(,[0-9\"]{1,2}){1,3}", 1..60)) {
+        let text = format!("t,rpm,wob\n{}\n", rows.join("\n"));
+        if let Ok((_, report)) = read_text(text.as_bytes(), &direct_mapping()) {
+            prop_assert_eq!(report.rows + report.left_out, rows.len() as u64);
+            prop_assert_eq!(left_out(&report), report.left_out);
+            if !report.parts.is_empty() {
+                let of_parts = |count: fn(&Report) -> u64| report.parts.iter().map(count).sum::<u64>();
+                prop_assert_eq!(of_parts(|part| part.rows), report.rows);
+                prop_assert_eq!(of_parts(|part| part.left_out), report.left_out);
+            }
         }
     }
 

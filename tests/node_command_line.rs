@@ -50,7 +50,35 @@ fn wrong_use_is_2_and_a_failure_is_1() {
     );
     let log = root().join("config/field_logs/demo.csv");
     refused(&["rig", log.to_str().unwrap(), "--rate", "0"], 2, &["--rate"]);
-    refused(&["rig", log.to_str().unwrap(), "--from", "soon"], 2, &["soon"]);
+    let log = log.to_str().unwrap();
+    let out = ["--out", "/tmp/never.mcap"];
+    for text in ["nan", "inf", "1e-308", "1e300"] {
+        refused(
+            &["run", "--duration", text],
+            2,
+            &["--duration", text, "0.001 to 10000000 s"],
+        );
+        refused(&["rig", log, "--rate", text], 2, &["--rate", text, "times real time"]);
+        refused(
+            &["rig", log, "--from", text],
+            2,
+            &["--from", text, "not a place in a log"],
+        );
+        refused(
+            &["replay", log, "--duration", text, out[0], out[1]],
+            2,
+            &["--duration", text],
+        );
+        refused(&["watch", "--interval", text], 2, &["--interval", text]);
+        refused(&["watch", "--duration", text], 2, &["--duration", text]);
+        refused(&["bench", "--rpm", text], 2, &["--rpm", text, "-5000 to 5000 r/min"]);
+        refused(&["bench", "--wob", text], 2, &["--wob", text, "0 to 2000 kN"]);
+        refused(&["bench", "--duration", text], 2, &["--duration", text]);
+        refused(&["bench", "--time-step", text], 2, &["--time-step", text]);
+        refused(&["paper", "--turns", text, out[0], out[1]], 2, &["--turns", text]);
+        refused(&["paper", "--rpm", text, out[0], out[1]], 2, &["--rpm", text]);
+    }
+    refused(&["rig", log, "--from", "soon"], 2, &["soon"]);
 }
 
 #[test]

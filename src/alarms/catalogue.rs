@@ -25,17 +25,21 @@ pub enum AlarmId {
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
     WeightOnBitInput,
+    /// More than one publisher drives an input.
+    TwoDrivers,
     /// The model is slower than time.
     RealTime,
     /// A step failed.
     Solver,
     /// The recording stopped or loses messages.
     Recording,
+    /// DDS had to be started again.
+    Network,
 }
 
 impl AlarmId {
     /// All of them; where they are equally bad, the first goes first.
-    pub const ALL: [AlarmId; 11] = [
+    pub const ALL: [AlarmId; 13] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
@@ -44,9 +48,11 @@ impl AlarmId {
         AlarmId::ModelQuality,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
+        AlarmId::TwoDrivers,
         AlarmId::RealTime,
         AlarmId::Solver,
         AlarmId::Recording,
+        AlarmId::Network,
     ];
 
     /// For programs: as in the configuration.
@@ -60,9 +66,11 @@ impl AlarmId {
             AlarmId::ModelQuality => "model_quality",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
+            AlarmId::TwoDrivers => "two_drivers",
             AlarmId::RealTime => "real_time",
             AlarmId::Solver => "solver",
             AlarmId::Recording => "recording",
+            AlarmId::Network => "network",
         }
     }
 
@@ -77,9 +85,11 @@ impl AlarmId {
             AlarmId::ModelQuality => "model not to be relied on",
             AlarmId::RotarySpeedInput => "rotary speed not known",
             AlarmId::WeightOnBitInput => "weight on bit not known",
+            AlarmId::TwoDrivers => "two drivers",
             AlarmId::RealTime => "not in real time",
             AlarmId::Solver => "model stands still",
             AlarmId::Recording => "recording",
+            AlarmId::Network => "network started again",
         }
     }
 
@@ -115,9 +125,11 @@ impl AlarmId {
             AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),
+            AlarmId::TwoDrivers => node(&alarms.two_drivers),
             AlarmId::RealTime => node(&alarms.real_time),
             AlarmId::Solver => node(&alarms.solver),
             AlarmId::Recording => node(&alarms.recording),
+            AlarmId::Network => node(&alarms.network),
         };
         Definition {
             id: self.id(),

@@ -2,6 +2,8 @@
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
+use crate::dds::port::Health;
+use crate::rig_inputs::DriverSummary;
 use flexdrill_alarms::{Priority, Setpoints};
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
@@ -22,6 +24,8 @@ pub struct NodeState<'a> {
     pub conditioner: &'a Conditioner,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
+    /// Who sends each input, by [`InputKind::index`].
+    pub drivers: [DriverSummary; 2],
     /// What the solver does.
     pub run_state: RunState,
     /// Why and where the last step failed, while the model stands still for it.
@@ -30,6 +34,8 @@ pub struct NodeState<'a> {
     pub real_time_factor: Option<f64>,
     /// The recording, if there is one.
     pub recording: Option<RecordingState>,
+    /// DDS.
+    pub dds: Health,
 }
 
 /// How the recording is.
@@ -53,24 +59,27 @@ pub(super) struct Memory {
 }
 
 /// What the node's state says of every alarm of the node.
-pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 5] {
+pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 7] {
     let [speed, weight] = InputKind::ALL.map(|kind| (AlarmId::of_input(kind), input(kind, state)));
     [
         speed,
         weight,
+        (AlarmId::TwoDrivers, two_drivers(&state.drivers)),
         (AlarmId::RealTime, real_time(state, memory)),
         (AlarmId::Solver, solver(state.failure)),
         (
             AlarmId::Recording,
             recording(state.recording.as_ref(), memory, state.now),
         ),
+        (AlarmId::Network, network(&state.dds)),
     ]
 }
 
 fn input(kind: InputKind, state: &NodeState<'_>) -> Finding {
     let (conditioner, topic) = (state.conditioner, kind.topic());
     let rule = conditioner.rule(kind);
-    let age = conditioner.age(kind, state.now);
+    // Where no sample was ever good, since the first that was refused.
+    let silence = conditioner.without_good(kind, state.now);
     let acts = format!(
         "{:.1} {} asked for instead",
         conditioner.target(kind, state.now),
@@ -92,25 +101,68 @@ fn input(kind: InputKind, state: &NodeState<'_>) -> Finding {
             "The sensor or what sends it is out of order, or the limits are too narrow.",
         ),
         InputState::Stale => {
-            let age = age.unwrap_or(f64::INFINITY);
+            let silence = silence.unwrap_or_default();
             // Then the model no longer holds what was, and what it says of the tool is not the tool's.
-            let safe = age >= rule.max_age + rule.hold_before_safe;
+            let safe = conditioner.is_brought_to_safe(kind, state.now);
+            let refused = conditioner.last_rejection(kind);
+            let (refused, cause) = match refused.filter(|refused| state.now - refused.time < rule.max_age) {
+                Some(refused) => (
+                    format!(" The newest: {refused}."),
+                    "The sensor or what sends it is out of order, or the limits are too narrow.",
+                ),
+                None => (String::new(), "The rig's software or the network has stopped."),
+            };
             (
                 if safe { Priority::High } else { Priority::Medium },
-                format!("No good sample on {topic} for {age:.0} s, {acts}."),
-                "The rig's software or the network has stopped.",
+                format!("No good sample on {topic} for {silence:.0} s, {acts}.{refused}"),
+                cause,
             )
         }
     };
     Finding {
         priority: Some(priority),
-        value: age.unwrap_or(f64::NAN),
+        value: silence.unwrap_or(f64::NAN),
         threshold: rule.max_age,
         unit: "s",
         evidence,
         cause: cause.to_owned(),
         consequence: "The model no longer follows the rig: its hazards may be missed.".to_owned(),
         what_to_do: format!("Look after what sends {topic}; go by the rig's own instruments until it is back."),
+        ..Finding::default()
+    }
+}
+
+fn two_drivers(drivers: &[DriverSummary; 2]) -> Finding {
+    let several = InputKind::ALL
+        .into_iter()
+        .zip(drivers)
+        .filter(|(_, drivers)| drivers.several);
+    let said: Vec<String> = several
+        .map(|(kind, drivers)| {
+            let driving = match drivers.driving.as_str() {
+                "" => "nobody drives".to_owned(),
+                driving => format!("{driving} drives"),
+            };
+            format!("{kind} is sent by {} at once, {driving}", drivers.heard.join(" and "))
+        })
+        .collect();
+    if said.is_empty() {
+        return Finding::default();
+    }
+    let most = drivers
+        .iter()
+        .map(|drivers| drivers.heard.len())
+        .max()
+        .unwrap_or_default();
+    Finding {
+        priority: Some(Priority::Medium),
+        value: most as f64,
+        threshold: 1.0,
+        unit: "publishers",
+        evidence: format!("{}.", said.join("; ")),
+        cause: "A second rig, a replayed log or a test publishes in the same domain and namespace.".to_owned(),
+        consequence: "The model may follow what the tool does not do: its hazards may be missed or made up.".to_owned(),
+        what_to_do: "Stop all but the rig's own, or set inputs.driver.policy to named with its node or id.".to_owned(),
         ..Finding::default()
     }
 }
@@ -161,6 +213,36 @@ fn solver(failure: Option<StepFailure>) -> Finding {
         cause: "The motion is too hard for the step at its smallest size.".to_owned(),
         consequence: "The outputs stand still: no hazard is seen.".to_owned(),
         what_to_do: "Change the inputs or call ~/reset; a smaller solver.time_step or softer contact helps.".to_owned(),
+        ..Finding::default()
+    }
+}
+
+/// Restarts of DDS within a minute from which on it is not a single event.
+const MANY_RESTARTS: usize = 3;
+
+fn network(dds: &Health) -> Finding {
+    let recent = dds.recent_restarts();
+    let Some(cause) = dds.cause().filter(|_| recent > 0) else {
+        return Finding::default();
+    };
+    let many = recent >= MANY_RESTARTS;
+    Finding {
+        priority: Some(if many { Priority::Medium } else { Priority::Low }),
+        value: recent as f64,
+        threshold: if many { MANY_RESTARTS as f64 } else { 1.0 },
+        unit: "1/min",
+        evidence: format!("DDS was started again {recent} times within a minute; the last time {cause}."),
+        cause: "A packet of another program, a stopped process, a clock that was set, or too little memory.".to_owned(),
+        consequence:
+            "Dashboards and the rig's values are cut off for up to 3 s each time; the model and its recording \
+                      go on."
+                .to_owned(),
+        what_to_do: if many {
+            "Look for a program that sends broken packets; ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST keeps others out."
+        } else {
+            "Nothing if it does not come again; the log tells more."
+        }
+        .to_owned(),
         ..Finding::default()
     }
 }

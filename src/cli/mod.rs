@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod numbers;
 mod paper;
 mod progress;
 mod recover;
@@ -17,7 +18,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::dds::side;
 use crate::ros::args;
+use crate::told::printable_lines;
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
 #[derive(Debug, Parser)]
@@ -55,6 +58,13 @@ const WRONG_USE: u8 = 2;
 
 /// Parses the command line, runs the subcommand, reports a failure on standard error.
 pub fn main() -> ExitCode {
+    // The node's own child, not a subcommand for people.
+    if std::env::args_os()
+        .nth(1)
+        .is_some_and(|first| first == side::SUBCOMMAND)
+    {
+        return side::main();
+    }
     let (arguments, ros_args) = args::split(std::env::args());
     let cli = Cli::parse_from(arguments);
     if let Err(error) = signals::outlive_file_size_limit() {
@@ -75,7 +85,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!("error: {}", printable_lines(&format!("{error:#}")));
             if error.is::<WrongUse>() {
                 ExitCode::from(WRONG_USE)
             } else {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 
+use super::numbers;
 use super::progress::Progress;
 use flexdrill_config::Config;
 use flexdrill_paper::hinge::Hinge;
@@ -24,16 +25,16 @@ pub struct PaperArgs {
     #[arg(long, default_value = "config/paper.yaml")]
     config: PathBuf,
     /// Rotary speed (r/min), instead of inputs.rotary_speed.initial_rpm (40 if that is 0).
-    #[arg(long)]
+    #[arg(long, value_parser = numbers::rpm)]
     rpm: Option<f64>,
     /// Weight on bit (kN), instead of inputs.weight_on_bit.initial_kn (10 if that is 0).
-    #[arg(long)]
+    #[arg(long, value_parser = numbers::kilonewton)]
     wob: Option<f64>,
     /// Turns recorded, after two at full speed; trials of a search have at most four, after one.
-    #[arg(long, default_value_t = 8.0)]
+    #[arg(long, default_value_t = 8.0, value_parser = numbers::turns)]
     turns: f64,
     /// Another model step than the configuration's (s).
-    #[arg(long)]
+    #[arg(long, value_parser = numbers::time_step)]
     time_step: Option<f64>,
     /// Values to change, as KEY=VALUE with the key's dotted path (may be given more than once).
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -58,19 +59,19 @@ struct PlanArgs {
     #[arg(long, default_value = "config/default.yaml", requires = "search")]
     full: PathBuf,
     /// Points of the Latin hypercube.
-    #[arg(long, default_value_t = 60, requires = "search")]
+    #[arg(long, default_value_t = 60, requires = "search", value_parser = numbers::count())]
     points: usize,
     /// Descents (evolution strategy) from the best trials that lie apart.
-    #[arg(long, default_value_t = 2, requires = "search")]
+    #[arg(long, default_value_t = 2, requires = "search", value_parser = numbers::count())]
     descents: usize,
     /// Generations of each descent.
-    #[arg(long, default_value_t = 12, requires = "search")]
+    #[arg(long, default_value_t = 12, requires = "search", value_parser = numbers::count())]
     generations: usize,
     /// Trials per generation.
-    #[arg(long, default_value_t = 12, requires = "search")]
+    #[arg(long, default_value_t = 12, requires = "search", value_parser = numbers::count())]
     per_generation: usize,
     /// Best trials repeated with the full record of eight turns.
-    #[arg(long, default_value_t = 3, requires = "search")]
+    #[arg(long, default_value_t = 3, requires = "search", value_parser = numbers::count())]
     finalists: usize,
     /// Seed of the plan.
     #[arg(long, default_value_t = 20_240_327, requires = "search")]

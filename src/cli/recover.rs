@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::bag;
+use crate::told::printable;
 
 /// Make a whole bag of one that was cut short or damaged.
 #[derive(Debug, clap::Args)]
@@ -38,13 +39,17 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
         eprintln!("{}: {} (byte {})", cut.path.display(), cut.reason, cut.offset);
     }
     for damage in &recovered.damaged {
-        eprintln!("left out: {damage}");
+        eprintln!("left out: {}", printable(&damage.to_string()));
     }
     for gap in &recovered.gaps {
         eprintln!("lost while it was recorded: {gap}");
     }
     for (topic, count) in recovered.topics.iter().zip(&recovered.recording.per_topic) {
-        println!("{count:>10}  {}  {}", topic.name, topic.ros_type);
+        println!(
+            "{count:>10}  {}  {}",
+            printable(&topic.name),
+            printable(&topic.ros_type)
+        );
     }
     println!(
         "{:>10}  messages in {}",

@@ -15,7 +15,7 @@ use clap::Args;
 use self::player::Player;
 use super::progress::Progress;
 use super::run::load_config;
-use super::{WrongUse, source};
+use super::{WrongUse, numbers, source};
 use crate::bag;
 use crate::messages::topics;
 
@@ -35,7 +35,7 @@ pub(super) struct ReplayArgs {
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
     /// At most so much model time (s).
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
     /// Also write the incidents (whirl, stick-slip, shock) as JSON.
     #[arg(long, value_name = "FILE.json")]

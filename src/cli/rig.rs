@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use super::source::{self, Sample};
-use super::{WrongUse, signals};
+use super::{WrongUse, numbers, signals};
+use crate::dds::network::Network;
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
-use crate::ros::network::Network;
 use crate::ros::rig_node::{RIG_NODE_NAME, RigNode};
 use flexdrill_core::inputs::InputKind;
 
@@ -26,7 +26,7 @@ pub(super) struct RigArgs {
     /// Field log (CSV) or bag (MCAP, SQLite or their folder).
     log: PathBuf,
     /// Speed: 2 plays twice as fast.
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, value_parser = numbers::rate)]
     rate: f64,
     /// Begin again at the end.
     #[arg(long = "loop")]
@@ -46,13 +46,6 @@ pub(super) struct RigArgs {
 pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
     logging::start(&ros_args);
-    if !(args.rate > 0.0 && args.rate.is_finite()) {
-        return Err(WrongUse::new(format!(
-            "--rate {}: use a number above 0, such as 2 for twice as fast",
-            args.rate
-        ))
-        .into());
-    }
     let samples = args.source.read(&args.log)?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
     let identity = ros_args
@@ -115,8 +108,11 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
         // Of all that is due by now the newest of each input counts.
         let mut batch: [Option<f64>; 2] = [None; 2];
         while let Some(sample) = samples.get(next).filter(|sample| at(sample) <= now) {
-            left_out += u64::from(batch[sample.kind.index()].replace(sample.value).is_some());
             next += 1;
+            // A number alone cannot say that it is bad.
+            if sample.stamp.is_none_or(|stamp| !stamp.bad) {
+                left_out += u64::from(batch[sample.kind.index()].replace(sample.value).is_some());
+            }
         }
         for kind in InputKind::ALL {
             if let Some(value) = batch[kind.index()] {

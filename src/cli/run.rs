@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{WrongUse, signals};
+use super::{WrongUse, numbers, signals};
 use crate::alarms::state_file;
+use crate::dds::network::Network;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
-use crate::ros::network::{Network, Reach};
 use crate::ros::node::{self, NodeSetup, RunSummary};
 use crate::ros::parameters;
 use crate::ros::service::ServiceMapping;
@@ -45,8 +45,8 @@ pub(super) struct RunArgs {
     /// How services are answered: auto (each client as it asks), enhanced (rmw_fastrtps) or cyclone (rmw_cyclonedds).
     #[arg(long, value_name = "MAPPING", default_value = "auto")]
     service_mapping: ServiceMapping,
-    /// End after so much model time (s).
-    #[arg(long, value_name = "SECONDS")]
+    /// End after so much model time (s), or when model time has stood still for so long, as without /clock.
+    #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
     /// Folder that keeps acknowledged and shelved alarms over a restart; default $XDG_STATE_HOME/flexdrill or
     /// ~/.local/state/flexdrill.
@@ -69,6 +69,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .map_err(WrongUse::new)?;
     let started = parameters::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+    let network = network.configured(&started.config.network);
     let state_dir = args
         .state_dir
         .clone()
@@ -138,11 +139,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             config.solver.time_step * 1e3
         ),
     );
-    let reach = match setup.network.reach {
-        Reach::Subnet => "all interfaces",
-        Reach::Localhost => "this machine only",
-    };
-    row("network", format!("domain {}, {reach}", setup.network.domain_id));
+    row("network", setup.network.describe());
     row("services", setup.mapping.describe().to_owned());
     if setup.use_sim_time {
         row("clock", format!("{} (use_sim_time)", setup.topic_name(&topics::CLOCK)?));
@@ -153,6 +150,11 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             format!("{} [{}, {unit}]", setup.topic_name(topic)?, topic.kind.ros_type),
         );
     }
+    let (topic, units) = (&topics::RIG_INPUTS, "both, with their time");
+    row(
+        "input",
+        format!("{} [{}, {units}]", setup.topic_name(topic)?, topic.kind.ros_type),
+    );
     let schedule = outputs::schedule(config);
     for topic in topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received) {
         let rate = match topic.cadence {

@@ -8,9 +8,10 @@ use clap::Args;
 use super::WrongUse;
 use crate::bag::{self, BagError};
 use crate::field_log::{self, Mapping, Position};
-use crate::messages::Message;
 use crate::messages::std_msgs::Float64;
-use flexdrill_core::inputs::InputKind;
+use crate::messages::{Message, RigInputs, topics};
+use crate::rig_inputs::stamped;
+use flexdrill_core::inputs::{InputKind, Stamp};
 
 /// A sample at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +22,8 @@ pub(super) struct Sample {
     pub(super) kind: InputKind,
     /// In the unit of the input's topic: r/min or kN.
     pub(super) value: f64,
+    /// What a sample of `rig/inputs` says of itself; the skew is the configuration's to allow.
+    pub(super) stamp: Option<Stamp>,
 }
 
 impl Sample {
@@ -120,6 +123,7 @@ impl SourceArgs {
             time: (input.time * 1e9).round() as i64,
             kind: input.kind,
             value: input.value,
+            stamp: None,
         });
         Ok(samples.collect())
     }
@@ -155,25 +159,48 @@ fn mapping_beside(log: &Path) -> anyhow::Result<PathBuf> {
 
 fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
     let mut bag = bag::open(path)?;
-    let names: Vec<String> = InputKind::ALL
-        .iter()
-        .map(|kind| bag.topic(kind.topic()).map(|topic| topic.name.clone()))
-        .collect::<Result<_, _>>()
-        .with_context(|| format!("{}: a rig's bag has both inputs", path.display()))?;
-    bag.select(|topic| topic.ros_type == Float64::ROS_TYPE && names.contains(&topic.name));
+    let plain = InputKind::ALL.map(|kind| bag.topic(kind.topic()).map(|topic| topic.name.clone()));
+    let stamped = bag.topic(topics::RIG_INPUTS.name).map(|topic| topic.name.clone());
+    let names: Vec<Option<String>> = match (plain, stamped) {
+        ([Ok(speed), Ok(weight)], stamped) => vec![Some(speed), Some(weight), stamped.ok()],
+        // Without the plain ones, the stamped one has both.
+        ([speed, weight], Ok(stamped)) => vec![speed.ok(), weight.ok(), Some(stamped)],
+        ([speed, weight], Err(_)) => {
+            let error = speed.and(weight).err().map(anyhow::Error::from);
+            let missing = error.unwrap_or_else(|| anyhow::anyhow!("no inputs"));
+            return Err(missing.context(format!("{}: a rig's bag has both inputs", path.display())));
+        }
+    };
+    let types = [Float64::ROS_TYPE, Float64::ROS_TYPE, RigInputs::ROS_TYPE];
+    let place = |name: &str, ros_type: &str| {
+        let named = |(known, wanted): (&Option<String>, &str)| known.as_deref() == Some(name) && wanted == ros_type;
+        names.iter().zip(types).position(named)
+    };
+    bag.select(|topic| place(&topic.name, &topic.ros_type).is_some());
     let mut samples = Vec::new();
     for message in bag.by_ref() {
         let message = message?;
-        let kind = if message.topic.name == names[0] {
-            InputKind::RotarySpeed
-        } else {
-            InputKind::WeightOnBit
+        let time = message.log_time;
+        let mut add = |kind, value, stamp| {
+            samples.push(Sample {
+                time,
+                kind,
+                value,
+                stamp,
+            });
         };
-        samples.push(Sample {
-            time: message.log_time,
-            kind,
-            value: message.decode::<Float64>()?.data,
-        });
+        match place(&message.topic.name, &message.topic.ros_type) {
+            Some(0) => add(InputKind::RotarySpeed, message.decode::<Float64>()?.data, None),
+            Some(1) => add(InputKind::WeightOnBit, message.decode::<Float64>()?.data, None),
+            _ => {
+                let given = stamped::values(&message.decode::<RigInputs>()?, time, 0.0);
+                for (kind, given) in InputKind::ALL.into_iter().zip(given) {
+                    if let Some((value, stamp)) = given {
+                        add(kind, value, Some(stamp));
+                    }
+                }
+            }
+        }
     }
     for cut in bag.cuts() {
         eprintln!(

@@ -15,8 +15,8 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, bail};
 use clap::Args;
 
-use super::signals;
-use crate::ros::network::Network;
+use super::{numbers, signals};
+use crate::dds::network::Network;
 use board::Board;
 use feed::Feed;
 
@@ -43,22 +43,11 @@ pub(super) struct WatchArgs {
     #[arg(long)]
     once: bool,
     /// Time between two blocks of --plain (s).
-    #[arg(long, default_value_t = 1.0, value_parser = seconds)]
+    #[arg(long, default_value_t = 1.0, value_parser = numbers::seconds)]
     interval: f64,
     /// End after this time (s); fails when no twin was heard.
-    #[arg(long, value_parser = seconds)]
+    #[arg(long, value_parser = numbers::seconds)]
     duration: Option<f64>,
-}
-
-#[derive(Debug, thiserror::Error)]
-#[error("use a number of seconds above 0")]
-struct NotSeconds;
-
-fn seconds(text: &str) -> Result<f64, NotSeconds> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value <= 1e7 => Ok(value),
-        _ => Err(NotSeconds),
-    }
 }
 
 /// # Errors

@@ -8,7 +8,7 @@ use super::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
 use flexdrill_config::reading;
-use flexdrill_core::units::{klbf_to_kn, n_to_kn, rad_per_s_to_rpm};
+use flexdrill_core::units::{kft_lbf_to_kn_m, kgf_to_kn, klbf_to_kn, lbf_to_kn, n_to_kn, rad_per_s_to_rpm, tf_to_kn};
 
 /// Which column of a log is what.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,6 +44,47 @@ pub struct Columns {
     pub rotary_speed: RotarySpeedColumn,
     /// `direct: {...}` or `hookload: {...}`. Required.
     pub weight_on_bit: WeightOnBitColumn,
+    /// Torque of the drive, for the report only: the model has its own. Default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub torque: Option<TorqueColumn>,
+}
+
+/// Torque of the drive.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TorqueColumn {
+    /// Name in the header.
+    pub column: String,
+    /// Required.
+    pub unit: TorqueUnit,
+}
+
+/// Units of torque.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TorqueUnit {
+    /// Newton metre.
+    #[serde(rename = "N.m")]
+    NewtonMetre,
+    /// Kilonewton metre.
+    #[serde(rename = "kN.m")]
+    KilonewtonMetre,
+    /// Foot-pound-force.
+    #[serde(rename = "ft.lbf")]
+    FootPound,
+    /// Thousand foot-pounds-force.
+    #[serde(rename = "kft.lbf")]
+    KilofootPound,
+}
+
+impl TorqueUnit {
+    pub(super) fn to_kn_m(self, value: f64) -> f64 {
+        match self {
+            Self::NewtonMetre => n_to_kn(value),
+            Self::KilonewtonMetre => value,
+            Self::FootPound => kft_lbf_to_kn_m(value / 1e3),
+            Self::KilofootPound => kft_lbf_to_kn_m(value),
+        }
+    }
 }
 
 /// Time.
@@ -52,7 +93,7 @@ pub struct Columns {
 pub struct TimeColumn {
     /// Name in the header.
     pub column: String,
-    /// `seconds`, `milliseconds` or `iso8601`. Default seconds.
+    /// `seconds`, `milliseconds`, `iso8601` or `time_of_day`. Default seconds.
     #[serde(default)]
     pub format: TimeFormat,
 }
@@ -109,6 +150,15 @@ pub enum WeightUnit {
     /// Ten newton times thousand.
     #[serde(rename = "kdaN")]
     Kilodecanewton,
+    /// Kilogram-force.
+    #[serde(rename = "kgf")]
+    KilogramForce,
+    /// Tonne-force: a thousand kilograms-force.
+    #[serde(rename = "tf")]
+    TonneForce,
+    /// Pound-force.
+    #[serde(rename = "lbf")]
+    PoundForce,
     /// Thousand pounds-force.
     #[serde(rename = "klbf")]
     Kilopound,
@@ -120,6 +170,9 @@ impl WeightUnit {
             Self::N => n_to_kn(value),
             Self::Kilonewton => value,
             Self::Kilodecanewton => value * 10.0,
+            Self::KilogramForce => kgf_to_kn(value),
+            Self::TonneForce => tf_to_kn(value),
+            Self::PoundForce => lbf_to_kn(value),
             Self::Kilopound => klbf_to_kn(value),
         }
     }
@@ -226,6 +279,8 @@ const REQUIRED: &[&str] = &[
     "columns.rotary_speed",
     "columns.rotary_speed.column",
     "columns.rotary_speed.unit",
+    "columns.torque.column",
+    "columns.torque.unit",
     "columns.weight_on_bit",
     "columns.weight_on_bit.direct.column",
     "columns.weight_on_bit.direct.unit",

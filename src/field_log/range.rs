@@ -23,7 +23,8 @@ impl FromStr for Position {
             return row.parse().map(Self::Row).map_err(|_| error());
         }
         let seconds: f64 = text.strip_suffix('s').unwrap_or(text).parse().map_err(|_| error())?;
-        if seconds.is_finite() && seconds >= 0.0 {
+        // Neither comparison holds of NaN; a time this near to 0 and not 0 is a slip of the pen.
+        if seconds == 0.0 || (1e-9..=1e10).contains(&seconds) {
             Ok(Self::Time(seconds))
         } else {
             Err(error())
@@ -52,6 +53,19 @@ pub struct Range {
 impl Range {
     /// The whole log.
     pub const ALL: Self = Self { from: None, to: None };
+
+    /// The row itself, or the nearest one that is not outside by its number.
+    pub(super) fn nearest_row(&self, row: u64) -> u64 {
+        let first = match self.from {
+            Some(Position::Row(first)) => first,
+            _ => 0,
+        };
+        let last = match self.to {
+            Some(Position::Row(last)) => last,
+            _ => u64::MAX,
+        };
+        row.min(last).max(first)
+    }
 
     pub(super) fn contains(&self, row: u64, time: f64) -> bool {
         let after = self.from.is_none_or(|from| match from {

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::hookload::weigh;
 use super::mapping::{Mapping, WeightOnBitColumn};
-use super::report::{Issues, Report, Summary};
+use super::report::{Issues, Report, Summary, TorqueSummary};
 use super::spikes::{report_frozen, take_out_spikes};
-use super::table::{Row, read_rows};
-use super::{FieldLogError, InputSequence, Range, TimedInput};
+use super::table::{Row, read_table};
+use super::{FieldLogError, InputSequence, Range, Tare, TimedInput};
 use flexdrill_core::inputs::InputKind;
 
 /// Reads a whole log.
@@ -18,11 +18,12 @@ pub fn read(path: impl AsRef<Path>, mapping: &Mapping) -> Result<(InputSequence,
     read_range(path, mapping, &Range::ALL)
 }
 
-/// Reads a part of a log. Rows before it still count for the hookload's tare; times begin at 0 with its first row; the
-/// report is of the part only.
+/// Reads a range of a log. Rows before it still count for the hookload's tare; times begin at 0 with its first row; the
+/// report is of the range only, with the rows at its ends that have no usable time. Where the time of the log starts
+/// anew, the parts follow each other with a gap between them.
 ///
 /// # Errors
-/// As [`read`], and when the part is empty.
+/// As [`read`], and when the range is empty.
 pub fn read_range(
     path: impl AsRef<Path>,
     mapping: &Mapping,
@@ -35,15 +36,15 @@ pub fn read_range(
         reason: reason.to_string(),
     })?;
     let mut issues = Issues::default();
-    let mut rows = read_rows(&name, &content, mapping, &mut issues)?;
-    let mut tares = clean_and_weigh(&mut rows, mapping, &mut issues);
+    let mut table = read_table(&name, &content, mapping, &mut issues)?;
+    let tares = clean_and_weigh(&mut table.rows, mapping, &mut issues);
 
+    let rows = &table.rows;
     let (first, last) = (rows[0], rows[rows.len() - 1]);
-    let part: Vec<Row> = rows
-        .into_iter()
-        .filter(|row| range.contains(row.number, row.time))
-        .collect();
-    let (Some(begin), Some(end)) = (part.first(), part.last()) else {
+    let within = |row: &Row| range.contains(row.number, row.time);
+    // Rows and their times rise together, so those of a range lie side by side.
+    let from = rows.iter().position(within);
+    let (Some(from), Some(to)) = (from, rows.iter().rposition(within)) else {
         return Err(FieldLogError::EmptyRange {
             file: name,
             from: range
@@ -55,32 +56,82 @@ pub fn read_range(
             length: last.time,
         });
     };
-    // Only tares that act within the part: from the last one before it on.
-    let acting = tares
-        .partition_point(|tare| tare.last_row < begin.number)
-        .saturating_sub(1);
-    tares.drain(..acting);
-    tares.retain(|tare| tare.last_row <= end.number);
-
-    let sequence = sequence(&part, mapping);
-    let report = Report {
-        file: name,
-        first_row: begin.number,
-        last_row: end.number,
-        rows: part.len() as u64,
-        duration: end.time - begin.time,
-        inputs: InputKind::ALL.map(|kind| Summary::of(&sequence, kind)),
-        weight_from_hookload: matches!(mapping.columns.weight_on_bit, WeightOnBitColumn::Hookload(_)),
-        speed_scale: mapping.columns.rotary_speed.scale,
-        weight_scale: mapping.weight_scale(),
-        tares,
-        issues: issues.between(begin.number, end.number),
+    let part = &rows[from..=to];
+    // Rows without a usable time belong to the part that they stand in or beside, so that none is in no report.
+    let before = from.checked_sub(1).map_or(0, |index| rows[index].number);
+    let after = rows.get(to + 1).map_or(u64::MAX, |row| row.number);
+    let span = [before + 1, after - 1].map(|row| range.nearest_row(row));
+    let about = About {
+        file: &name,
+        mapping,
+        tares: &tares,
+        issues: &issues,
+        written: &table.written,
     };
-    Ok((sequence, report))
+    let mut report = about.report(part, span);
+    let begins: Vec<usize> = table
+        .parts
+        .iter()
+        .filter_map(|number| part.iter().position(|row| row.number == *number))
+        .filter(|index| *index > 0)
+        .collect();
+    if !begins.is_empty() {
+        let ends = begins.iter().copied().chain([part.len()]);
+        let mut begin = 0;
+        for end in ends {
+            let first = if begin == 0 { span[0] } else { part[begin].number };
+            let last = part.get(end).map_or(span[1], |row| row.number - 1);
+            report.parts.push(about.report(&part[begin..end], [first, last]));
+            begin = end;
+        }
+    }
+    Ok((sequence(part, mapping), report))
+}
+
+/// What reports are made from.
+struct About<'a> {
+    file: &'a str,
+    mapping: &'a Mapping,
+    tares: &'a [Tare],
+    issues: &'a Issues,
+    /// Rows of the file.
+    written: &'a [u64],
+}
+
+impl About<'_> {
+    /// The report of rows that are used, at least one, and of those from row to row that are not.
+    fn report(&self, part: &[Row], [from, to]: [u64; 2]) -> Report {
+        let (begin, end) = (part[0], part[part.len() - 1]);
+        // Only tares that act within the part: from the last one before it on.
+        let acting = self
+            .tares
+            .partition_point(|tare| tare.last_row < begin.number)
+            .saturating_sub(1);
+        let tares = self.tares[acting..].iter().filter(|tare| tare.last_row <= end.number);
+        let written = self.written.partition_point(|row| *row <= to) - self.written.partition_point(|row| *row < from);
+        let sequence = sequence(part, self.mapping);
+        Report {
+            file: self.file.to_owned(),
+            first_row: begin.number,
+            last_row: end.number,
+            rows: part.len() as u64,
+            left_out: (written as u64).saturating_sub(part.len() as u64),
+            duration: end.time - begin.time,
+            inputs: InputKind::ALL.map(|kind| Summary::of(&sequence, kind)),
+            torque: TorqueSummary::of(part.iter().filter_map(|row| row.torque)),
+            max_gap: self.mapping.quality.max_gap,
+            weight_from_hookload: matches!(self.mapping.columns.weight_on_bit, WeightOnBitColumn::Hookload(_)),
+            speed_scale: self.mapping.columns.rotary_speed.scale,
+            weight_scale: self.mapping.weight_scale(),
+            tares: tares.copied().collect(),
+            issues: self.issues.between(from, to),
+            parts: Vec::new(),
+        }
+    }
 }
 
 /// Takes out what cannot be and turns hookloads into weights.
-fn clean_and_weigh(rows: &mut [Row], mapping: &Mapping, issues: &mut Issues) -> Vec<super::Tare> {
+fn clean_and_weigh(rows: &mut [Row], mapping: &Mapping, issues: &mut Issues) -> Vec<Tare> {
     let (columns, quality) = (&mapping.columns, &mapping.quality);
     let weight_column = match &columns.weight_on_bit {
         WeightOnBitColumn::Direct(direct) => &direct.column,

@@ -14,8 +14,12 @@ pub enum IssueKind {
     Missing,
     /// The same time as the row before.
     TimeStandsStill,
-    /// Before the time of the row before.
+    /// Before the time of the row before, in a few rows.
     TimeBackwards,
+    /// Far after the time of the row before and of the row behind, in one row.
+    TimeJumps,
+    /// The time goes back and runs on from there.
+    TimeStartsAnew,
     /// A long time since the row before.
     Gap,
     /// A single sample far from both its neighbours.
@@ -32,11 +36,13 @@ pub enum IssueKind {
 
 impl IssueKind {
     /// All, in the order of the table.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Unreadable,
         Self::Missing,
         Self::TimeStandsStill,
         Self::TimeBackwards,
+        Self::TimeJumps,
+        Self::TimeStartsAnew,
         Self::Gap,
         Self::Spike,
         Self::Frozen,
@@ -52,6 +58,8 @@ impl IssueKind {
             Self::Missing => "missing value",
             Self::TimeStandsStill => "time stands still",
             Self::TimeBackwards => "time goes backwards",
+            Self::TimeJumps => "time jumps",
+            Self::TimeStartsAnew => "time starts anew",
             Self::Gap => "gap",
             Self::Spike => "spike",
             Self::Frozen => "frozen value",
@@ -64,8 +72,10 @@ impl IssueKind {
     /// What was done about it.
     pub const fn treatment(self) -> &'static str {
         match self {
-            Self::Unreadable | Self::Missing | Self::Spike | Self::NoTare | Self::NegativeWeight => "value left out",
-            Self::TimeStandsStill | Self::TimeBackwards => "row left out",
+            Self::Unreadable => "value left out, or the row where time or fields are wrong",
+            Self::Missing | Self::Spike | Self::NoTare | Self::NegativeWeight => "value left out",
+            Self::TimeStandsStill | Self::TimeBackwards | Self::TimeJumps => "row left out",
+            Self::TimeStartsAnew => "a new part begins",
             Self::Gap => "left as a gap",
             Self::Frozen => "kept",
             Self::TareNoise => "set to 0",
@@ -118,6 +128,33 @@ pub struct Summary {
     pub largest: f64,
 }
 
+/// The drive's torque in a log. The model has its own; this is what it can be held against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TorqueSummary {
+    /// How many rows have it.
+    pub samples: u64,
+    /// Smallest (kN m).
+    pub smallest_kn_m: f64,
+    /// Median (kN m).
+    pub median_kn_m: f64,
+    /// Largest (kN m).
+    pub largest_kn_m: f64,
+}
+
+impl TorqueSummary {
+    /// None without samples.
+    pub(super) fn of(torques: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut torques: Vec<f64> = torques.collect();
+        torques.sort_by(f64::total_cmp);
+        Some(Self {
+            samples: torques.len() as u64,
+            smallest_kn_m: *torques.first()?,
+            median_kn_m: *torques.get(torques.len() / 2)?,
+            largest_kn_m: *torques.last()?,
+        })
+    }
+}
+
 impl Summary {
     pub(super) fn of(sequence: &InputSequence, kind: InputKind) -> Self {
         let of_kind = sequence.inputs.iter().filter(|input| input.kind == kind);
@@ -134,21 +171,27 @@ impl Summary {
     }
 }
 
-/// What was found in a log. `Display` prints it as a table.
+/// What was found in a log. `Display` prints it as a table. Every row is either used or left out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// Name of the log.
     pub file: String,
     /// First row that was used, as an editor numbers it.
     pub first_row: u64,
-    /// Last row.
+    /// Last row that was used.
     pub last_row: u64,
     /// Rows with a usable time.
     pub rows: u64,
+    /// Rows without a usable time; each is in an issue.
+    pub left_out: u64,
     /// Duration (s).
     pub duration: f64,
     /// Per input, in the order of [`InputKind::ALL`].
     pub inputs: [Summary; 2],
+    /// Torque of the drive, where the mapping names its column.
+    pub torque: Option<TorqueSummary>,
+    /// A longer time between two rows is a gap (s).
+    pub max_gap: f64,
     /// Whether weight on bit was formed from the hookload.
     pub weight_from_hookload: bool,
     /// Factor on the log's speed.
@@ -159,6 +202,8 @@ pub struct Report {
     pub tares: Vec<Tare>,
     /// Everything found, in order of rows.
     pub issues: Vec<Issue>,
+    /// Where the time of the log starts anew, a report of each part; else empty.
+    pub parts: Vec<Report>,
 }
 
 impl Report {
@@ -177,11 +222,29 @@ const PRINTED: usize = 8;
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
+        write!(
             f,
-            "{}: rows {} to {} as an editor numbers them (the header is row 1), {} used, {:.1} s",
-            self.file, self.first_row, self.last_row, self.rows, self.duration
+            "{}: rows {} to {} as an editor numbers them (the header is row 1), {} used",
+            self.file, self.first_row, self.last_row, self.rows
         )?;
+        if self.left_out > 0 {
+            write!(f, ", {} LEFT OUT", self.left_out)?;
+        }
+        writeln!(f, ", {:.1} s", self.duration)?;
+        if !self.parts.is_empty() {
+            writeln!(
+                f,
+                "  NOTE: ITS TIME STARTS ANEW, {} parts; how long it was between them is not in the log. Each begins \
+                 {:.1} s after the last row of the one before; --from row:N --to row:M takes one alone",
+                self.parts.len(),
+                super::parts::SEAM_IN_GAPS * self.max_gap
+            )?;
+            return self
+                .parts
+                .iter()
+                .enumerate()
+                .try_for_each(|(index, part)| write!(f, "part {}\n{part}", index + 1));
+        }
         for input in &self.inputs {
             writeln!(
                 f,
@@ -192,6 +255,13 @@ impl fmt::Display for Report {
                 input.largest,
                 input.kind.unit(),
                 input.median
+            )?;
+        }
+        if let Some(torque) = &self.torque {
+            writeln!(
+                f,
+                "  {:<14} {:>6} samples, {:.2} to {:.2} kN m, median {:.2}; not used, the model has its own",
+                "torque", torque.samples, torque.smallest_kn_m, torque.largest_kn_m, torque.median_kn_m
             )?;
         }
         for (kind, scale) in InputKind::ALL.into_iter().zip([self.speed_scale, self.weight_scale]) {
@@ -281,7 +351,8 @@ impl Issues {
     pub(super) fn add(&mut self, kind: IssueKind, column: &str, row: u64, detail: impl FnOnce() -> String) {
         // Kinds and columns take turns within a row, so that the one to continue may lie a little back.
         let before = self.list.iter_mut().rev().take(16).find(|issue| {
-            issue.kind == kind && issue.column == column && issue.last_row + 1 == row && kind != IssueKind::Gap
+            let alone = matches!(kind, IssueKind::Gap | IssueKind::TimeStartsAnew);
+            issue.kind == kind && issue.column == column && issue.last_row + 1 == row && !alone
         });
         match before {
             Some(issue) => {
@@ -312,17 +383,17 @@ impl Issues {
     }
 
     /// Those that touch a range of rows, cut to it, in order of rows.
-    pub(super) fn between(mut self, first: u64, last: u64) -> Vec<Issue> {
-        self.list
-            .retain(|issue| issue.last_row >= first && issue.first_row <= last);
-        for issue in &mut self.list {
+    pub(super) fn between(&self, first: u64, last: u64) -> Vec<Issue> {
+        let touching = |issue: &&Issue| issue.last_row >= first && issue.first_row <= last;
+        let mut list: Vec<Issue> = self.list.iter().filter(touching).cloned().collect();
+        for issue in &mut list {
             let (from, to) = (issue.first_row.max(first), issue.last_row.min(last));
             if (from, to) != (issue.first_row, issue.last_row) {
                 issue.rows = issue.rows.min(to - from + 1);
                 (issue.first_row, issue.last_row) = (from, to);
             }
         }
-        self.list.sort_by_key(|issue| (issue.first_row, issue.last_row));
-        self.list
+        list.sort_by_key(|issue| (issue.first_row, issue.last_row));
+        list
     }
 }

@@ -1,6 +1,7 @@
 //! The rows of the CSV file, as numbers.
 
 use super::mapping::{Mapping, WeightOnBitColumn};
+use super::parts::{Clock, Timed, order};
 use super::report::{IssueKind, Issues};
 use super::{Condition, FieldLogError};
 #[cfg(doc)]
@@ -18,6 +19,8 @@ pub(super) struct Row {
     /// Whether the bit drills, and whether it is off bottom; `None` when the log does not say.
     pub(super) drilling: Option<bool>,
     pub(super) off_bottom: Option<bool>,
+    /// Of the drive (kN m).
+    pub(super) torque: Option<f64>,
 }
 
 /// Places of the columns in the header.
@@ -28,102 +31,127 @@ struct Places {
     weight: usize,
     drilling: Option<usize>,
     off_bottom: Option<usize>,
+    torque: Option<usize>,
 }
 
-/// Reads all rows; what is wrong with single ones goes to `issues`.
-pub(super) fn read_rows(
+/// The rows of a log.
+pub(super) struct Table {
+    /// At least one, in the order of time.
+    pub(super) rows: Vec<Row>,
+    /// First rows of the parts between which the time starts anew.
+    pub(super) parts: Vec<u64>,
+    /// Every row of the file with anything in it, as an editor numbers them.
+    pub(super) written: Vec<u64>,
+}
+
+/// Reads all rows; what is wrong with single ones goes to `issues`. Each line is read by itself, so that a stray quote
+/// costs the row that it is in.
+pub(super) fn read_table(
     file: &str,
     content: &[u8],
     mapping: &Mapping,
     issues: &mut Issues,
-) -> Result<Vec<Row>, FieldLogError> {
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(u8::try_from(mapping.separator).unwrap_or(b','))
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_reader(content);
-    let read_error = |error: csv::Error| FieldLogError::Read {
-        path: file.into(),
-        reason: error.to_string(),
-    };
-    let header = reader.byte_headers().map_err(read_error)?.clone();
+) -> Result<Table, FieldLogError> {
+    let mut reader = LineReader::new(mapping);
+    let mut lines = lines(content);
+    let header = lines
+        .next()
+        .map_or_else(csv::ByteRecord::new, |(_, line)| reader.read(line));
     let places = Places::find(file, &header, mapping)?;
-    let mut rows: Vec<Row> = Vec::new();
-    let mut start = None;
-    let mut record = csv::ByteRecord::new();
-    let mut editor = EditorRows::new(content);
-    while reader.read_byte_record(&mut record).map_err(read_error)? {
-        let number = editor.row_at(record.position().map_or(0, csv::Position::byte));
+    let time_column = &mapping.columns.time;
+    let mut readable: Vec<(Timed, &[u8])> = Vec::new();
+    let mut written = Vec::new();
+    for (number, line) in lines {
+        written.push(number);
+        let record = reader.read(line);
         if record.len() != places.width {
             let found = format!("{} fields instead of {}", record.len(), places.width);
             issues.add(IssueKind::Unreadable, "", number, || found);
             continue;
         }
-        let Some(time) = text(&record, places.time).and_then(|text| mapping.columns.time.format.parse(text)) else {
-            issues.add(IssueKind::Unreadable, &mapping.columns.time.column, number, || {
+        let Some(time) = text(&record, places.time).and_then(|text| time_column.format.parse(text)) else {
+            issues.add(IssueKind::Unreadable, &time_column.column, number, || {
                 format!("{:?} is not a time", text(&record, places.time).unwrap_or("not text"))
             });
             continue;
         };
-        let time = time - *start.get_or_insert(time);
-        if let Some(last) = rows.last().map(|row| row.time) {
-            if time <= last {
-                let kind = if time < last {
-                    IssueKind::TimeBackwards
-                } else {
-                    IssueKind::TimeStandsStill
-                };
-                issues.add(kind, &mapping.columns.time.column, number, || {
-                    format!("by {:.2} s", last - time)
-                });
-                continue;
-            }
-            if time - last > mapping.quality.max_gap {
-                issues.add(IssueKind::Gap, "", number, || {
-                    format!("{:.1} s since the row before", time - last)
-                });
-            }
-        }
-        rows.push(places.row(&record, number, time, mapping, issues));
+        readable.push((Timed { number, time }, line));
+    }
+    let clock = Clock {
+        format: time_column.format,
+        column: &time_column.column,
+        max_gap: mapping.quality.max_gap,
+    };
+    let mut timed: Vec<Timed> = readable.iter().map(|(timed, _)| *timed).collect();
+    let parts = order(&mut timed, &clock, issues);
+    let mut rows = Vec::with_capacity(timed.len());
+    let mut of_file = readable.iter();
+    for Timed { number, time } in timed {
+        let Some((_, line)) = of_file.find(|(row, _)| row.number == number) else {
+            continue;
+        };
+        rows.push(places.row(&reader.read(line), number, time, mapping, issues));
     }
     if rows.is_empty() {
         return Err(FieldLogError::NoRows {
             file: file.to_string(),
-            column: mapping.columns.time.column.clone(),
-            format: mapping.columns.time.format.name(),
+            column: time_column.column.clone(),
+            format: time_column.format.name(),
         });
     }
-    Ok(rows)
+    Ok(Table { rows, parts, written })
 }
 
-/// Numbers rows as an editor does. The reader's own line numbers are one too small with CR LF line ends.
-struct EditorRows<'a> {
-    content: &'a [u8],
-    /// Counted up to here.
-    at: usize,
-    row: u64,
-}
-
-impl<'a> EditorRows<'a> {
-    fn new(content: &'a [u8]) -> Self {
-        Self { content, at: 0, row: 1 }
-    }
-
-    /// Row of the first text at or after a byte that is not before the last one asked for.
-    fn row_at(&mut self, byte: u64) -> u64 {
-        let byte = usize::try_from(byte).unwrap_or(usize::MAX);
-        while let Some(&here) = self.content.get(self.at) {
-            let line_end = here == b'\n' || here == b'\r';
-            if self.at >= byte && !line_end {
-                break;
-            }
-            let second_of_crlf = here == b'\n' && self.at > 0 && self.content[self.at - 1] == b'\r';
-            self.row += u64::from(line_end && !second_of_crlf);
-            self.at += 1;
+/// Lines with anything in them, as an editor numbers them; they end with CR, LF or both.
+fn lines(content: &[u8]) -> impl Iterator<Item = (u64, &[u8])> {
+    let content = content.strip_prefix(b"\xef\xbb\xbf").unwrap_or(content);
+    let mut rest = content;
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
         }
-        self.row
+        number += 1;
+        let end = rest
+            .iter()
+            .position(|byte| matches!(byte, b'\n' | b'\r'))
+            .unwrap_or(rest.len());
+        let line = &rest[..end];
+        let ending = if rest[end..].starts_with(b"\r\n") { 2 } else { 1 };
+        rest = rest.get(end + ending..).unwrap_or_default();
+        Some((number, line))
+    })
+    .filter(|(_, line)| !line.trim_ascii().is_empty())
+}
+
+/// Reads single lines.
+struct LineReader {
+    builder: csv::ReaderBuilder,
+}
+
+impl LineReader {
+    fn new(mapping: &Mapping) -> Self {
+        let mut builder = csv::ReaderBuilder::new();
+        builder
+            .delimiter(u8::try_from(mapping.separator).unwrap_or(b','))
+            .has_headers(false)
+            .flexible(true)
+            .trim(csv::Trim::All)
+            .buffer_capacity(LINE);
+        Self { builder }
+    }
+
+    /// The fields of a line.
+    fn read(&mut self, line: &[u8]) -> csv::ByteRecord {
+        let mut record = csv::ByteRecord::new();
+        // Reading from memory does not fail; a line that it did would have no fields and be reported for it.
+        let _ = self.builder.from_reader(line).read_byte_record(&mut record);
+        record
     }
 }
+
+/// Longest line that is read at once (bytes).
+const LINE: usize = 1024;
 
 fn text(record: &csv::ByteRecord, place: usize) -> Option<&str> {
     record.get(place).and_then(|bytes| std::str::from_utf8(bytes).ok())
@@ -160,7 +188,9 @@ impl Places {
                 )
             }
         };
+        let torque = (columns.torque.as_ref()).map(|torque| find(&torque.column, "columns.torque.column"));
         Ok(Self {
+            torque: torque.transpose()?,
             width: header.len(),
             time: find(&columns.time.column, "columns.time.column")?,
             speed: find(&columns.rotary_speed.column, "columns.rotary_speed.column")?,
@@ -212,7 +242,11 @@ impl Places {
             ),
         };
         let weight = value(self.weight, weight_column).map(|weight| weight_unit.to_kn(weight));
+        let torque = self.torque.zip(columns.torque.as_ref());
+        let torque =
+            torque.and_then(|(place, torque)| value(place, &torque.column).map(|value| torque.unit.to_kn_m(value)));
         Row {
+            torque,
             number,
             time,
             values: [speed, weight],

@@ -13,7 +13,12 @@ pub enum TimeFormat {
     Milliseconds,
     /// `2024-05-01T12:30:05.25Z`; also with a blank for the T, with or without the Z or an offset such as +02:00.
     Iso8601,
+    /// `23:59:58.5`, `23:59`, or a number of seconds since midnight. At midnight it begins anew, and goes on.
+    TimeOfDay,
 }
+
+/// A day (s).
+pub(super) const DAY: f64 = 86_400.0;
 
 impl TimeFormat {
     /// For people.
@@ -22,6 +27,7 @@ impl TimeFormat {
             Self::Seconds => "seconds",
             Self::Milliseconds => "milliseconds",
             Self::Iso8601 => "iso8601",
+            Self::TimeOfDay => "time_of_day",
         }
     }
 
@@ -31,6 +37,7 @@ impl TimeFormat {
             Self::Seconds => text.parse::<f64>().ok()?,
             Self::Milliseconds => text.parse::<f64>().ok()? * 1e-3,
             Self::Iso8601 => iso8601(text)?,
+            Self::TimeOfDay => time_of_day(text)?,
         };
         seconds.is_finite().then_some(seconds)
     }
@@ -47,6 +54,11 @@ fn iso8601(text: &str) -> Option<f64> {
         return None;
     }
     let (clock, offset) = split_offset(time)?;
+    Some((days_since_1970(year, month, day) * 86_400 - offset) as f64 + clock_time(clock)?)
+}
+
+/// Hours, minutes and, where they are given, seconds (s).
+fn clock_time(clock: &str) -> Option<f64> {
     let mut parts = clock.split(':');
     let hour = whole(parts.next()?, 2).filter(|hour| *hour < 24)?;
     let minute = whole(parts.next()?, 2).filter(|minute| *minute < 60)?;
@@ -55,7 +67,17 @@ fn iso8601(text: &str) -> Option<f64> {
         return None;
     }
     let second = second_text.parse::<f64>().ok().filter(|second| *second < 61.0)?;
-    Some((days_since_1970(year, month, day) * 86_400 + hour * 3600 + minute * 60 - offset) as f64 + second)
+    Some((hour * 3600 + minute * 60) as f64 + second)
+}
+
+/// Seconds since midnight.
+fn time_of_day(text: &str) -> Option<f64> {
+    if text.contains(':') {
+        return clock_time(text);
+    }
+    let seconds = text.parse::<f64>().ok()?;
+    // A leap second makes a day one longer.
+    (0.0..=DAY).contains(&seconds).then_some(seconds)
 }
 
 /// The clock and the offset from UTC (s).
@@ -121,6 +143,12 @@ mod tests {
         ] {
             assert_eq!(TimeFormat::Iso8601.parse(text), None, "{text}");
         }
+        for text in ["24:00:00", "12", "12:61", "12:30:0x", "-1", "86401", "nan", "12:30:00Z"] {
+            let parsed = TimeFormat::TimeOfDay.parse(text);
+            assert_eq!(parsed, (text == "12").then_some(12.0), "{text}");
+        }
+        assert_eq!(TimeFormat::TimeOfDay.parse("23:59:58.5"), Some(DAY - 1.5));
+        assert_eq!(TimeFormat::TimeOfDay.parse("86399.25"), Some(DAY - 0.75));
         assert_eq!(TimeFormat::Seconds.parse("nan"), None);
         assert_eq!(TimeFormat::Milliseconds.parse("1500"), Some(1.5));
     }

@@ -1,7 +1,7 @@
 //! `/diagnostics`: items judged from the status, the newest snapshot and the alarms, with hysteresis.
 
 use super::alarms::alarms;
-use super::items::{inputs, pacing, recording, solver};
+use super::items::{inputs, network, pacing, recording, solver};
 use super::motion::MotionEvidence;
 use crate::messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
 use crate::messages::{AlarmList, TwinStatus};
@@ -34,7 +34,7 @@ impl Hysteresis {
 /// Keeps what the next judgement needs.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
-    levels: [Hysteresis; 8],
+    levels: [Hysteresis; 9],
     previous: Option<TwinStatus>,
 }
 
@@ -61,6 +61,7 @@ impl Diagnostics {
             evidence.motion.stick_slip(),
             evidence.motion.shock(),
             recording(status, &previous),
+            network(status, &previous),
             alarms(&evidence.alarms),
         ];
         judgements
@@ -105,12 +106,38 @@ mod tests {
             input_received: vec![1.0; 2],
             input_applied: vec![1.0; 2],
             input_rejected: vec![0; 2],
+            dds_up: true,
             ..TwinStatus::default()
         }
     }
 
     fn level(items: &[DiagnosticStatus], name: &str) -> u8 {
         items.iter().find(|item| item.name.ends_with(name)).unwrap().level
+    }
+
+    #[test]
+    fn inputs_say_who_sends_and_how_they_are() {
+        let status = TwinStatus {
+            input_several_drivers: vec![true, false],
+            input_suspect: vec![false, true],
+            input_publishers: vec!["/rig @ 10.0.0.7 (0a), /player @ 10.0.0.9 (0b)".into(), String::new()],
+            input_not_driving: vec![7, 0],
+            input_unreadable: vec![0, 3],
+            ..running()
+        };
+        let items = Diagnostics::default().judge("n", &status, &Evidence::default());
+        assert_eq!(level(&items, "inputs"), DiagnosticStatus::WARN);
+        let item = items.iter().find(|item| item.name.ends_with("inputs")).unwrap();
+        assert_eq!(
+            item.message,
+            "rotary_speed ok, SEVERAL PUBLISHERS AT ONCE, weight_on_bit ok, its source has doubts"
+        );
+        let said: Vec<&str> = item.values.iter().map(|value| value.value.as_str()).collect();
+        assert!(
+            said[1].starts_with("/rig @ 10.0.0.7 (0a), /player") && said[1].contains("7 samples of others"),
+            "{said:?}"
+        );
+        assert_eq!(said[3], "none; 0 samples of others refused, 3 unreadable");
     }
 
     #[test]

@@ -103,11 +103,30 @@ pub(super) fn inputs(status: &TwinStatus) -> Judgement {
         .map(|state| level_of(*state))
         .max()
         .unwrap_or(DiagnosticStatus::OK);
+    let several = status.input_several_drivers.contains(&true);
+    let suspect = status.input_suspect.contains(&true);
+    let level = if several || suspect {
+        level.max(DiagnosticStatus::WARN)
+    } else {
+        level
+    };
     let said: Vec<String> = status
         .input_name
         .iter()
         .zip(&status.input_state)
-        .map(|(name, state)| format!("{name} {}", words::input_state(*state)))
+        .enumerate()
+        .map(|(index, (name, state))| {
+            let flag = |flags: &[bool], words: &'static str| {
+                if flags.get(index) == Some(&true) { words } else { "" }
+            };
+            format!(
+                "{name} {}{}{}{}",
+                words::input_state(*state),
+                flag(&status.input_safe, ", brought to its safe value"),
+                flag(&status.input_suspect, ", its source has doubts"),
+                flag(&status.input_several_drivers, ", SEVERAL PUBLISHERS AT ONCE"),
+            )
+        })
         .collect();
     let mut values = Vec::new();
     for index in 0..status.input_name.len() {
@@ -131,6 +150,18 @@ pub(super) fn inputs(status: &TwinStatus) -> Judgement {
         values.push((
             key,
             format!("{shown}, age {:.2} s, {rejected} refused", get(&status.input_age)),
+        ));
+        let count = |counts: &[u64]| counts.get(index).copied().unwrap_or_default();
+        let publishers = status.input_publishers.get(index).map_or("", String::as_str);
+        let key = ["rotary_speed publishers", "weight_on_bit publishers"][index.min(1)];
+        values.push((
+            key,
+            format!(
+                "{}; {} samples of others refused, {} unreadable",
+                if publishers.is_empty() { "none" } else { publishers },
+                count(&status.input_not_driving),
+                count(&status.input_unreadable)
+            ),
         ));
     }
     Judgement {
@@ -165,6 +196,47 @@ pub(super) fn recording(status: &TwinStatus, previous: &TwinStatus) -> Judgement
         values: vec![
             ("messages", status.recording_messages.to_string()),
             ("drops", status.recording_drops.to_string()),
+        ],
+    }
+}
+
+pub(super) fn network(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
+    let restarts = status.dds_restarts.saturating_sub(previous.dds_restarts);
+    let (level, message) = if !status.dds_up {
+        (
+            DiagnosticStatus::ERROR,
+            format!("DDS is being started again: {}", status.dds_restart_cause),
+        )
+    } else if restarts > 0 {
+        (
+            DiagnosticStatus::WARN,
+            format!("DDS was started again: {}", status.dds_restart_cause),
+        )
+    } else if let Some(other) = status.namesake.first() {
+        (
+            DiagnosticStatus::WARN,
+            format!("another node has the name of this one: {other}; start one of them with another --namespace"),
+        )
+    } else if !status.dds_stalled_reader.is_empty() {
+        (DiagnosticStatus::WARN, status.dds_stalled_reader.clone())
+    } else if status.clock_set_by != 0.0 {
+        (
+            DiagnosticStatus::WARN,
+            format!(
+                "the system's clock was set by {:+.1} s; stamps keep to the clock at the start until the node is started again",
+                status.clock_set_by
+            ),
+        )
+    } else {
+        (DiagnosticStatus::OK, "up".to_owned())
+    };
+    Judgement {
+        name: "network",
+        level,
+        message,
+        values: vec![
+            ("dds_restarts", status.dds_restarts.to_string()),
+            ("clock_set_by (s)", format!("{:.1}", status.clock_set_by)),
         ],
     }
 }

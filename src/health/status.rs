@@ -4,8 +4,11 @@ use std::sync::atomic::Ordering;
 
 use super::step_times::StepTimes;
 use crate::bag::RecordingThread;
+use crate::dds::frames::Peer;
+use crate::dds::port::Health;
 use crate::messages::TwinStatus;
 use crate::messages::std_msgs::Header;
+use crate::rig_inputs::Intake;
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::dynamics::{EnergyAudit, StepFailure};
 use flexdrill_core::inputs::{Conditioner, InputKind};
@@ -57,14 +60,20 @@ pub struct Sources<'a> {
     pub gauges: &'a Gauges,
     /// Inputs.
     pub conditioner: &'a Conditioner,
+    /// Who sends them, and what could not be read.
+    pub intake: &'a Intake,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
-    /// Present time of the monotonic clock (ns).
-    pub wall: u64,
+    /// Time that the model is to keep up with (ns).
+    pub pace_time: u64,
     /// Every output topic.
     pub outputs: &'a [OutputCount<'a>],
     /// The recording, if there is one.
     pub recording: Option<&'a RecordingThread>,
+    /// DDS.
+    pub dds: &'a Health,
+    /// Other nodes with the name of this one.
+    pub namesakes: &'a [Peer],
 }
 
 impl StatusKeeper {
@@ -122,13 +131,14 @@ impl StatusKeeper {
     }
 
     /// Notes the progress of the model, for the real-time factor.
-    pub fn note(&mut self, wall: u64, gauges: &Gauges) {
-        self.factor.note(wall, self.model_time_gained(gauges));
+    pub fn note(&mut self, pace_time: u64, gauges: &Gauges) {
+        self.factor.note(pace_time, self.model_time_gained(gauges));
     }
 
-    /// Model time gained per second of wall time, over the last second; none before a second has passed.
-    pub fn real_time_factor(&self, wall: u64, gauges: &Gauges) -> Option<f64> {
-        self.factor.factor(wall, self.model_time_gained(gauges))
+    /// Model time gained per second of the time that it is to keep up with, over the last second; none before a second has
+    /// passed.
+    pub fn real_time_factor(&self, pace_time: u64, gauges: &Gauges) -> Option<f64> {
+        self.factor.factor(pace_time, self.model_time_gained(gauges))
     }
 
     fn model_time_gained(&self, gauges: &Gauges) -> f64 {
@@ -159,7 +169,7 @@ impl StatusKeeper {
             model_time: step_count as f64 * self.time_step,
             step_count,
             time_step: self.time_step,
-            real_time_factor: self.factor.factor(sources.wall, gained).unwrap_or(0.0),
+            real_time_factor: self.factor.factor(sources.pace_time, gained).unwrap_or(0.0),
             lateness: gauges.lateness.load(Ordering::Relaxed) as f64 * 1e-9,
             deadline_misses: gauges.deadline_misses.load(Ordering::Relaxed),
             steps_skipped: gauges.steps_skipped.load(Ordering::Relaxed),
@@ -191,6 +201,7 @@ impl StatusKeeper {
         self.fill_phases(&mut status, gauges);
         self.fill_inputs(&mut status, sources);
         fill_outputs(&mut status, sources);
+        fill_network(&mut status, sources);
         status
     }
 
@@ -220,8 +231,31 @@ impl StatusKeeper {
                 .push(conditioner.last_good(kind).map_or(f64::NAN, |value| kind.to_si(value)));
             status.input_applied.push(self.applied[kind.index()]);
             status.input_rejected.push(conditioner.counts(kind).rejected_total());
+            let intake = sources.intake;
+            let drivers = intake.drivers.summary(kind, sources.now);
+            status.input_driver.push(drivers.driving);
+            status.input_publishers.push(drivers.heard.join(", "));
+            status.input_several_drivers.push(drivers.several);
+            status.input_not_driving.push(drivers.refused);
+            status.input_unreadable.push(intake.unreadable(kind));
+            status
+                .input_safe
+                .push(conditioner.is_brought_to_safe(kind, sources.now));
+            let sent = intake.sent(kind);
+            status.input_source.push(sent.source.clone());
+            status.input_suspect.push(sent.suspect);
         }
     }
+}
+
+fn fill_network(status: &mut TwinStatus, sources: &Sources<'_>) {
+    let dds = sources.dds;
+    status.dds_up = dds.is_up;
+    status.dds_restarts = dds.restarts;
+    status.dds_restart_cause = dds.cause().unwrap_or_default().to_owned();
+    status.dds_stalled_reader = dds.stalled_reader().unwrap_or_default().to_owned();
+    status.namesake = sources.namesakes.iter().map(ToString::to_string).collect();
+    status.clock_set_by = dds.clock_set_by;
 }
 
 fn fill_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {

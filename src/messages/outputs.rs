@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 
 use super::builtin_interfaces::Time;
 use super::fill::{self, ShapeStyle};
+use super::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
 use super::sensor_msgs::JointState;
 use super::std_msgs::Header;
+use super::tf2_msgs::TFMessage;
 use super::topics::{self, TopicInfo};
 use super::visualization_msgs::MarkerArray;
 use super::{
@@ -52,6 +54,7 @@ pub struct Outputs {
     timeline: Timeline,
     style: ShapeStyle,
     header: Header,
+    parent_frame: String,
     bytes: Vec<u8>,
     joint_deflections: JointDeflections,
     joint_states: JointState,
@@ -97,6 +100,7 @@ impl Outputs {
                 frame_id: config.outputs.frame_id.clone(),
                 ..Header::default()
             },
+            parent_frame: config.outputs.parent_frame.clone(),
             bytes: Vec::new(),
             joint_deflections: JointDeflections::default(),
             joint_states: JointState::default(),
@@ -282,7 +286,7 @@ impl Outputs {
         })
     }
 
-    /// Sends what the run is made with.
+    /// Sends what the run is made with, and where its frame lies.
     ///
     /// # Errors
     /// As [`Outputs::frame`].
@@ -304,6 +308,37 @@ impl Outputs {
         to_cdr_into(&message, &mut self.bytes)?;
         send(Encoded {
             topic: &topics::SESSION,
+            stamp: self.timeline.at(0),
+            cdr: &self.bytes,
+        })?;
+        self.place(send)
+    }
+
+    /// Sends where the frame of all headers lies: in the parent turned by half a turn about X, so that Z points up.
+    fn place<E: From<CdrError>>(&mut self, mut send: impl FnMut(Encoded<'_>) -> Result<(), E>) -> Result<(), E> {
+        if self.parent_frame.is_empty() {
+            return Ok(());
+        }
+        let mut header = self.header_at(0);
+        let child_frame_id = std::mem::replace(&mut header.frame_id, self.parent_frame.clone());
+        let message = TFMessage {
+            transforms: vec![TransformStamped {
+                header,
+                child_frame_id,
+                transform: Transform {
+                    translation: Vector3::default(),
+                    rotation: Quaternion {
+                        x: 1.0,
+                        y: 0.0,
+                        z: 0.0,
+                        w: 0.0,
+                    },
+                },
+            }],
+        };
+        to_cdr_into(&message, &mut self.bytes)?;
+        send(Encoded {
+            topic: &topics::TF_STATIC,
             stamp: self.timeline.at(0),
             cdr: &self.bytes,
         })

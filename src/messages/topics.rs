@@ -1,9 +1,9 @@
 //! All topics: name, type, rate and quality of service. The node and the bags share this table.
 
 use super::{
-    Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, SessionInfo,
-    TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs,
-    visualization_msgs,
+    Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, RigInputs,
+    SessionInfo, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs,
+    tf2_msgs, visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -89,6 +89,8 @@ pub const WEIGHT_ON_BIT_KN: TopicInfo = TopicInfo::new(
     Cadence::Received,
     BEST_EFFORT,
 );
+/// Input: both values with stamp, quality and source.
+pub const RIG_INPUTS: TopicInfo = TopicInfo::new("rig/inputs", RigInputs::INFO, Cadence::Received, BEST_EFFORT);
 /// Input: the rig's clock, with `use_sim_time` only.
 pub const CLOCK: TopicInfo = TopicInfo::new("/clock", rosgraph_msgs::Clock::INFO, Cadence::Received, BEST_EFFORT);
 /// Output: per joint.
@@ -157,10 +159,14 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
     reliable(10),
 );
 
+/// Output: where the frame of all headers lies, in ROS's own place.
+pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
+
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 17] = [
+pub const ALL: [TopicInfo; 19] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
+    RIG_INPUTS,
     CLOCK,
     JOINT_DEFLECTIONS,
     CONTACT_FORCES,
@@ -176,4 +182,5 @@ pub const ALL: [TopicInfo; 17] = [
     SESSION,
     JOINT_STATES,
     DIAGNOSTICS,
+    TF_STATIC,
 ];

@@ -22,8 +22,10 @@ CLIENT = 0x1122334455667788
 
 
 def qos(kind, depth=50):
-    """`reliable`, `best_effort`, `latched` (reliable and transient local)."""
+    """`reliable`, `best_effort`, `latched` (reliable and transient local), `hoarding` (reliable, has room for five only)."""
     policies = [Policy.History.KeepLast(depth)]
+    if kind == "hoarding":
+        policies = [Policy.History.KeepAll, Policy.ResourceLimits(5, 1, 5)]
     if kind == "best_effort":
         policies.append(Policy.Reliability.BestEffort)
     else:
@@ -44,7 +46,7 @@ class Peer:
 
     def subscribe(self, topic, type, kind="reliable", depth=50):
         self.readers[topic] = self.reader("rt" + topic, ros_types.make(type), kind, depth)
-        return {}
+        return {"id": self.readers[topic].get_guid().hex}
 
     def take(self, topic, seconds=0.0, count=1):
         """Messages until there are `count` or time is up."""
@@ -81,12 +83,13 @@ class Peer:
                     found[topic].append([stamp.sec * 10**9 + stamp.nanosec, written, received])
         return {"received": found}
 
-    def publish(self, topic, type, value, kind="reliable", wait=5.0):
-        made = ros_types.make(type)
-        is_new = topic not in self.writers
+    def publish(self, topic, type, value, kind="reliable", wait=5.0, short=False):
+        made = ros_types.short(type) if short else ros_types.make(type)
+        key = (topic, "short") if short else topic
+        is_new = key not in self.writers
         if is_new:
-            self.writers[topic] = DataWriter(self.participant, Topic(self.participant, "rt" + topic, made), qos=qos(kind))
-        writer, deadline = self.writers[topic], time.monotonic() + wait
+            self.writers[key] = DataWriter(self.participant, Topic(self.participant, "rt" + topic, made), qos=qos(kind))
+        writer, deadline = self.writers[key], time.monotonic() + wait
         while not writer.get_matched_subscriptions() and time.monotonic() < deadline:
             time.sleep(0.01)
         if is_new:

@@ -95,6 +95,15 @@ def make(ros_type):
     return made
 
 
+def short(ros_type):
+    """A type of the same name on the wire that is one byte long: what a program of another version may send."""
+    key = ("short", ros_type)
+    if key not in _made:
+        package, kind, name = ros_type.split("/")
+        _made[key] = _finish(f"{package}::{kind}::dds_::{name}_", f"{name}Short", [("byte", types.uint8, 0)])
+    return _made[key]
+
+
 def with_cyclone_header(ros_type):
     """The same with the 16 bytes that rmw_cyclonedds puts before a request or reply."""
     key = ("header", ros_type)

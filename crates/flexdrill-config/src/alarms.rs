@@ -26,12 +26,16 @@ section! {
         rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
         /// `rig/weight_on_bit_kn` not received, refused or stale.
         weight_on_bit_input: NodeAlarm = NodeAlarm::default(), below;
+        /// More than one publisher drives an input.
+        two_drivers: NodeAlarm = NodeAlarm::default(), below;
         /// The model is slower than time.
         real_time: NodeAlarm = NodeAlarm::default(), below;
         /// A step failed.
         solver: NodeAlarm = NodeAlarm::default(), below;
         /// The recording stopped or loses messages.
         recording: NodeAlarm = NodeAlarm::default(), below;
+        /// DDS had to be started again.
+        network: NodeAlarm = NodeAlarm { on_delay: 0.0, ..NodeAlarm::default() }, below;
         /// Limits that the operator is told to keep.
         advice: AdviceTable = AdviceTable::default();
     }

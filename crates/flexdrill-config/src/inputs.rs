@@ -1,16 +1,57 @@
 //! `inputs`: what the rig may ask for and what happens when it falls silent.
 
+use serde::{Deserialize, Serialize};
+
+use super::checker::Checker;
+use super::hard_limits::HardLimits;
 use super::section::section;
 use flexdrill_core::inputs::{InputRule, InputRules};
 
 section! {
     /// Both inputs.
-    #[derive(Copy)]
     pub struct InputsConfig(this) {
         /// Of the top drive.
         rotary_speed: RotarySpeed = RotarySpeed::default(), below;
         /// Weight on bit.
         weight_on_bit: WeightOnBit = WeightOnBit::default(), below;
+        /// Which publisher drives an input when there are several.
+        driver: DriverRule = DriverRule::default();
+        /// Samples with a stamp.
+        stamp: StampRule = StampRule::default(), below;
+        /// What no parameter goes beyond while the twin runs.
+        hard_limits: HardLimits = HardLimits::default(), below;
+    }
+}
+
+/// `inputs.driver`: which publisher drives an input when there are several.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DriverRule {
+    /// `newest`, `first` or `named`. Default newest.
+    pub policy: DriverPolicy,
+    /// With `named`: absolute names of nodes or ids of publishers as `twin/status` shows them. Default none.
+    pub named: Vec<String>,
+}
+
+/// Who drives.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DriverPolicy {
+    /// Every publisher; the newest sample acts.
+    #[default]
+    Newest,
+    /// The one that came first, until it has been silent for the input's `max_age`.
+    First,
+    /// Only those that `named` lists.
+    Named,
+}
+
+section! {
+    /// `inputs.stamp`: samples of `rig/inputs`, which say when they were measured.
+    #[derive(Copy)]
+    pub struct StampRule(this) {
+        /// How far ahead of the node's clock a stamp may be (s).
+        max_skew: f64 = 0.5, within(0.0, 60.0), "s", "further ahead, the machines' clocks are not set";
     }
 }
 
@@ -69,6 +110,27 @@ section! {
 }
 
 impl InputsConfig {
+    pub(super) fn check(&self, c: &mut Checker) {
+        self.check_numbers(c);
+        let named = self.driver.named.len();
+        c.require(
+            self.driver.policy != DriverPolicy::Named || named > 0,
+            "driver.named",
+            "[]",
+            "",
+            "a list of nodes or ids when driver.policy is named",
+            "otherwise nobody may drive",
+        );
+        c.require(
+            self.driver.policy == DriverPolicy::Named || named == 0,
+            "driver.named",
+            format!("{named} names"),
+            "",
+            "left out unless driver.policy is named",
+            "a list that nobody looks at misleads",
+        );
+    }
+
     /// For the input conditioning.
     pub fn rules(&self) -> InputRules {
         let (speed, weight) = (&self.rotary_speed, &self.weight_on_bit);

@@ -15,9 +15,11 @@ mod contact;
 mod derived;
 mod environment;
 mod error;
+mod hard_limits;
 mod inputs;
 pub mod lines;
 mod loads;
+mod network;
 mod outputs;
 mod pipe;
 mod place;
@@ -47,8 +49,10 @@ pub use contact::{Contact, Layer};
 pub use derived::Unknowns;
 pub use environment::Environment;
 pub use error::{ConfigError, Problem};
-pub use inputs::{InputsConfig, RotarySpeed, WeightOnBit};
+pub use hard_limits::{HardBounds, HardLimits};
+pub use inputs::{DriverPolicy, DriverRule, InputsConfig, RotarySpeed, StampRule, WeightOnBit};
 pub use loads::{History, Load, Mass};
+pub use network::{Network, Reach};
 pub use outputs::{Outputs, Rates};
 pub use pipe::{Guide, Piece, Pipe};
 pub use place::At;
@@ -124,6 +128,9 @@ pub struct Schema {
     /// What the rig sends.
     #[serde(default)]
     pub inputs: InputsConfig,
+    /// How far DDS reaches.
+    #[serde(default)]
+    pub network: Network,
     /// Analysis and warnings.
     #[serde(default)]
     pub whirl: Whirl,
@@ -392,7 +399,7 @@ impl Schema {
         });
         c.below("initial", |c| self.initial.check(c, self.start));
         c.below("solver", |c| self.solver.check(c));
-        c.below("inputs", |c| self.inputs.check_numbers(c));
+        c.below("inputs", |c| self.inputs.check(c));
         c.below("whirl", |c| self.whirl.check(c, &mesh));
         c.below("stick_slip", |c| self.stick_slip.check(c));
         c.below("shock", |c| self.shock.check(c));

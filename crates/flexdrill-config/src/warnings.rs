@@ -1,6 +1,6 @@
 //! What is allowed but probably not meant.
 
-use super::Config;
+use super::{Config, HardBounds};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 /// Steps that a collision of pipe and guide must last at least: the default tool's lasts 1.5 and is right, at 0.99 its
@@ -42,6 +42,7 @@ impl Config {
                 self.whirl.sample_rate, self.solver.time_step
             ));
         }
+        warnings.extend(HardBounds::overridden(self));
         warnings
     }
 

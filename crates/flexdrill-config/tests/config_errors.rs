@@ -1,6 +1,6 @@
 //! A wrong configuration is refused with file, line, key, value, bound and unit.
 
-use flexdrill_config::{Config, ConfigError, TimeScheme};
+use flexdrill_config::{Config, ConfigError, HardBounds, TimeScheme};
 use flexdrill_core::dynamics::Scheme;
 use proptest::prelude::*;
 
@@ -211,4 +211,95 @@ proptest! {
             prop_assert_eq!(config.hash(), again.hash());
         }
     }
+}
+
+#[test]
+fn live_parameters_stop_at_the_hard_limits() {
+    let config = Config::from_text("rig.yaml", GOOD).unwrap();
+    let bounds = HardBounds::of(&config);
+    let refused = |key: &str, value: f64| {
+        let changed = config.with_value(key, value).unwrap();
+        match bounds.check(&changed) {
+            Ok(()) => panic!("{key} = {value} was accepted"),
+            Err(error) => error.to_string(),
+        }
+    };
+    assert_eq!(
+        refused("inputs.rotary_speed.max_rpm", 301.0),
+        "parameter: inputs.rotary_speed.max_rpm = 301 r/min: must be at most 300 r/min (the hard limit \
+         inputs.hard_limits.max_rpm, which holds while the twin runs; start it again with another configuration)"
+    );
+    // One of each kind: limit, safe value, slew, ramp, tare, ages, publishing rate.
+    for (key, within, beyond) in [
+        ("inputs.rotary_speed.min_rpm", 10.0, -1.0),
+        ("inputs.rotary_speed.slew_rpm_per_s", 200.0, 200.1),
+        ("inputs.rotary_speed.safe_ramp_rpm_per_s", 0.5, 0.4),
+        ("inputs.rotary_speed.safe_ramp_rpm_per_s", 200.0, 1e5),
+        ("inputs.weight_on_bit.max_kn", 200.0, 200.1),
+        ("inputs.weight_on_bit.tare_error_kn", 5.0, 5.1),
+        ("inputs.weight_on_bit.max_age", 60.0, 61.0),
+        ("inputs.rotary_speed.hold_before_safe", 600.0, 601.0),
+        ("outputs.rates.contact_forces", 200.0, 201.0),
+    ] {
+        assert!(refused(key, beyond).contains(key));
+        let changed = config.with_value("inputs.rotary_speed.initial_rpm", 20.0).unwrap();
+        let changed = changed.with_value("inputs.rotary_speed.safe_rpm", 20.0).unwrap();
+        assert!(
+            bounds.check(&changed.with_value(key, within).unwrap()).is_ok(),
+            "{key} = {within}"
+        );
+    }
+    let both = [
+        ("inputs.rotary_speed.max_rpm", 250.0),
+        ("inputs.rotary_speed.safe_rpm", 130.0),
+    ];
+    let changed = config.with_values("parameter", both).unwrap();
+    let error = bounds.check(&changed).unwrap_err().to_string();
+    assert!(error.contains("safe_rpm = 130 r/min: must be at most 120"), "{error}");
+    assert_eq!(
+        bounds.cut("inputs.rotary_speed.max_rpm", [-5000.0, 5000.0]),
+        [-5000.0, 300.0]
+    );
+    assert_eq!(bounds.cut("whirl.hysteresis", [0.0, 1.0]), [0.0, 1.0]);
+}
+
+/// Otherwise a configuration that has run so far would be refused, or could not be set back to itself.
+#[test]
+fn what_the_configuration_itself_asks_for_is_within_its_hard_limits() {
+    let text = format!("{GOOD}inputs: {{rotary_speed: {{max_rpm: 400}}, hard_limits: {{rate: 1}}}}\n");
+    let config = Config::from_text("rig.yaml", &text).unwrap();
+    let bounds = HardBounds::of(&config);
+    bounds.check(&config).unwrap();
+    let higher = config.with_value("inputs.rotary_speed.max_rpm", 401.0).unwrap();
+    assert!(
+        bounds
+            .check(&higher)
+            .unwrap_err()
+            .to_string()
+            .contains("at most 400 r/min")
+    );
+    let warnings = config.warnings().join("\n");
+    assert!(
+        warnings.contains("inputs.rotary_speed.max_rpm 400 r/min is beyond inputs.hard_limits.max_rpm 300 r/min"),
+        "{warnings}"
+    );
+}
+
+#[test]
+fn named_drivers_need_names() {
+    let error = error_of(&format!("{GOOD}inputs: {{driver: {{policy: named}}}}\n"));
+    assert!(
+        error.contains("inputs.driver.named = []")
+            && error.contains("must be a list of nodes or ids when driver.policy is named"),
+        "{error}"
+    );
+    let error = error_of(&format!("{GOOD}inputs: {{driver: {{named: [/rig]}}}}\n"));
+    assert!(error.contains("left out unless driver.policy is named"), "{error}");
+    assert!(
+        Config::from_text(
+            "rig.yaml",
+            &format!("{GOOD}inputs: {{driver: {{policy: named, named: [/rig]}}}}\n")
+        )
+        .is_ok()
+    );
 }

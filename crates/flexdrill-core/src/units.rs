@@ -37,6 +37,26 @@ pub fn klbf_to_kn(klbf: f64) -> f64 {
     klbf * 4.448_221_615_260_5
 }
 
+/// Pounds-force to kN, exact by definition.
+pub fn lbf_to_kn(lbf: f64) -> f64 {
+    klbf_to_kn(lbf / 1e3)
+}
+
+/// Kilograms-force to kN: 9.80665 m/s2, exact by definition.
+pub fn kgf_to_kn(kgf: f64) -> f64 {
+    kgf * 9.806_65 / 1e3
+}
+
+/// Tonnes-force to kN: a thousand kilograms-force.
+pub fn tf_to_kn(tf: f64) -> f64 {
+    tf * 9.806_65
+}
+
+/// Thousand foot-pounds-force to kN m: 1 ft = 0.3048 m, exact by definition.
+pub fn kft_lbf_to_kn_m(kft_lbf: f64) -> f64 {
+    klbf_to_kn(kft_lbf) * 0.3048
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,6 +67,11 @@ mod tests {
         assert_eq!(kn_to_n(10.0), 1e4);
         assert!((deg_to_rad(180.0) - PI).abs() <= f64::EPSILON * PI);
         assert!((klbf_to_kn(100.0) - 444.822).abs() < 1e-3);
+        assert!((lbf_to_kn(1000.0) - klbf_to_kn(1.0)).abs() < 1e-15);
+        assert!((tf_to_kn(10.0) - kgf_to_kn(10_000.0)).abs() < 1e-13);
+        assert_eq!(tf_to_kn(1.0), 9.806_65);
+        // 1 ft.lbf = 1.355818 N m (NIST SP 811, B.8), to its seven digits.
+        assert!((kft_lbf_to_kn_m(1.0) - 1.355_818).abs() < 5e-7);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Input conditioning: what it refuses, how states age, and that its targets are always within the limits.
 
-use flexdrill_core::inputs::{Conditioner, InputKind, InputRule, InputState, RejectionReason};
+use flexdrill_core::inputs::{Conditioner, InputKind, InputRule, InputState, RejectionReason, Stamp};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use proptest::prelude::*;
 
@@ -78,7 +78,7 @@ fn each_reason_is_told_and_counted() {
         let sentence = conditioner.offer(WeightOnBit, value, time).unwrap_err().to_string();
         assert!(sentence.contains(words), "{sentence}");
     }
-    assert_eq!(conditioner.counts(WeightOnBit).rejected, [2, 1, 0, 1, 1]);
+    assert_eq!(conditioner.counts(WeightOnBit).rejected, [2, 1, 0, 1, 1, 0, 0, 0]);
     assert_eq!(conditioner.counts(WeightOnBit).rejected_total(), 5);
     assert_eq!(conditioner.counts(WeightOnBit).accepted, 1);
     assert_eq!(conditioner.last_good(WeightOnBit), Some(5.0));
@@ -103,11 +103,102 @@ fn states_follow_age_and_refusals() {
     assert_eq!(conditioner.state(RotarySpeed, 102.4), InputState::Ok);
     assert_eq!(conditioner.state(RotarySpeed, 102.5), InputState::Slow);
     assert_eq!(conditioner.state(RotarySpeed, 105.0), InputState::Stale);
-    conditioner.offer(RotarySpeed, 500.0, 106.0).unwrap_err();
-    assert_eq!(conditioner.state(RotarySpeed, 106.0), InputState::Rejected);
-    assert_eq!(conditioner.state(RotarySpeed, 111.0), InputState::Stale);
+    conditioner.offer(RotarySpeed, 500.0, 103.0).unwrap_err();
+    assert_eq!(conditioner.state(RotarySpeed, 103.0), InputState::Rejected);
+    assert_eq!(conditioner.state(RotarySpeed, 105.0), InputState::Stale);
     conditioner.offer(RotarySpeed, 41.0, 112.0).unwrap();
     assert_eq!(conditioner.state(RotarySpeed, 112.0), InputState::Ok);
+}
+
+/// Values that keep coming and are all refused are as old as the last good one.
+#[test]
+fn refused_values_for_longer_than_max_age_are_stale_and_lead_to_the_safe_value() {
+    let mut conditioner = conditioner();
+    conditioner.offer(RotarySpeed, 40.0, 100.0).unwrap();
+    for tenth in 1..=250 {
+        let now = 100.0 + f64::from(tenth) / 10.0;
+        conditioner.offer(RotarySpeed, 500.0, now).unwrap_err();
+        let expected = if now - 100.0 < 5.0 {
+            InputState::Rejected
+        } else {
+            InputState::Stale
+        };
+        assert_eq!(conditioner.state(RotarySpeed, now), expected, "at {now} s");
+        assert_eq!(
+            conditioner.is_brought_to_safe(RotarySpeed, now),
+            now > 115.0,
+            "at {now} s"
+        );
+    }
+    // 40 r/min, held to 115 s, then 5 r/min per s.
+    assert_eq!(conditioner.target(RotarySpeed, 114.0), 40.0);
+    assert_eq!(conditioner.target(RotarySpeed, 117.0), 30.0);
+    assert_eq!(conditioner.target(RotarySpeed, 125.0), 0.0);
+    conditioner.offer(RotarySpeed, 41.0, 125.1).unwrap();
+    assert_eq!(conditioner.state(RotarySpeed, 125.1), InputState::Ok);
+    assert!(!conditioner.is_brought_to_safe(RotarySpeed, 125.1));
+}
+
+/// Without a good sample ever, too: then the start value is what is held.
+#[test]
+fn an_input_that_was_never_good_becomes_stale() {
+    let mut rules = [*conditioner().rule(RotarySpeed); 2];
+    rules[0].initial = 20.0;
+    let mut conditioner = Conditioner::new(rules);
+    conditioner.offer(RotarySpeed, f64::NAN, 10.0).unwrap_err();
+    conditioner.offer(RotarySpeed, -7.0, 14.0).unwrap_err();
+    assert_eq!(conditioner.state(RotarySpeed, 14.9), InputState::Rejected);
+    assert_eq!(conditioner.state(RotarySpeed, 15.0), InputState::Stale);
+    assert_eq!(conditioner.target(RotarySpeed, 25.0), 20.0);
+    assert_eq!(conditioner.target(RotarySpeed, 27.0), 10.0);
+    // A simulated clock that starts over begins the time anew.
+    conditioner.clock_set(3.0);
+    assert_eq!(conditioner.state(RotarySpeed, 7.9), InputState::Rejected);
+    assert_eq!(conditioner.state(RotarySpeed, 8.0), InputState::Stale);
+}
+
+#[test]
+fn a_stamped_sample_is_as_old_as_its_stamp_says() {
+    let mut conditioner = conditioner();
+    let stamp = |age: f64| Stamp {
+        age,
+        bad: false,
+        max_skew: 0.5,
+    };
+    conditioner
+        .offer_stamped(RotarySpeed, 40.0, 100.0, &stamp(2.0))
+        .unwrap();
+    assert_eq!(conditioner.age(RotarySpeed, 100.0), Some(2.0));
+    assert_eq!(conditioner.state(RotarySpeed, 100.5), InputState::Slow);
+    // A clock a little ahead is no news from the future.
+    conditioner
+        .offer_stamped(RotarySpeed, 41.0, 101.0, &stamp(-0.5))
+        .unwrap();
+    assert_eq!(conditioner.age(RotarySpeed, 101.0), Some(0.0));
+    let mut refuse = |value: f64, stamp: Stamp| {
+        let refused = conditioner.offer_stamped(RotarySpeed, value, 102.0, &stamp);
+        refused.unwrap_err().to_string()
+    };
+    let said = refuse(42.0, stamp(-0.6));
+    assert!(
+        said.starts_with(
+            "rig/inputs: rotary_speed 42 r/min refused: its stamp is 0.600 s ahead of the clock, at most 0.5 s"
+        ),
+        "{said}"
+    );
+    let said = refuse(42.0, stamp(5.0));
+    assert!(said.contains("its stamp is 5.000 s old, stale from 5 s on"), "{said}");
+    let bad = Stamp {
+        bad: true,
+        ..stamp(0.1)
+    };
+    assert!(refuse(42.0, bad).contains("its source calls it BAD"));
+    assert!(refuse(42.0, stamp(f64::NAN)).contains("not a finite number"));
+    assert!(refuse(500.0, stamp(0.1)).contains("above the maximum of 120 r/min"));
+    // The stamps' order counts, not that of arrival.
+    assert!(refuse(42.0, stamp(1.5)).contains("before that of the last good sample"));
+    assert_eq!(conditioner.last_good(RotarySpeed), Some(41.0));
+    assert_eq!(conditioner.counts(RotarySpeed).rejected, [1, 0, 0, 1, 1, 1, 1, 1]);
 }
 
 /// A log of 1 Hz with steps of up to 2 s and 0.3 s of jitter on the network is never called slow.

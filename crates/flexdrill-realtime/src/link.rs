@@ -22,17 +22,25 @@ const COMMANDS: usize = 256;
 /// Room for step times.
 const STEP_TIMES: usize = 1 << 16;
 
+/// What parameters change in a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Coefficients.
+    pub live: LiveParameters,
+    /// Slew limits: rotary speed (rad/s2), weight on bit (N/s).
+    pub slew: [f64; 2],
+    /// Thresholds of the whirl analysis.
+    pub whirl: WhirlSettings,
+    /// Publishing rates.
+    pub schedule: Schedule,
+}
+
 /// What the loop does between periods.
 #[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "a box would be freed on the solver's thread")]
 pub enum Command {
-    /// New coefficients.
-    Live(LiveParameters),
-    /// New slew limits: rotary speed (rad/s2), weight on bit (N/s).
-    Slew([f64; 2]),
-    /// New thresholds of the whirl analysis.
-    Whirl(WhirlSettings),
-    /// New publishing rates.
-    Schedule(Schedule),
+    /// All that parameters can change: a set of them acts as a whole or not at all.
+    Settings(Settings),
     /// Stand still, or go on.
     Pause(bool),
     /// Back to the state after the start.

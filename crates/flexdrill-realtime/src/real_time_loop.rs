@@ -79,7 +79,8 @@ impl<C: Clock> RealTimeLoop<C> {
     /// Runs until [`Gauges::stop`](crate::link::Gauges::stop) is set.
     pub fn run(mut self) {
         while self.clock.now() == 0 && !self.stopped() {
-            // A simulated clock has not ticked yet.
+            // A simulated clock has not ticked yet. What is asked for meanwhile must not fill the ring: the newest acts.
+            self.handle_commands();
             self.clock.wait_until(1);
         }
         self.start();
@@ -97,7 +98,10 @@ impl<C: Clock> RealTimeLoop<C> {
 
     fn start(&mut self) {
         self.pacer.restart(self.clock.now());
-        self.end.gauges.start.store(self.clock.rig_time(), Ordering::Release);
+        // The steps of a period are taken at its begin. Their stamps are within the period before, so that none is ahead of
+        // the clock when it is published.
+        let start = self.clock.rig_time().saturating_sub(self.period).max(1);
+        self.end.gauges.start.store(start, Ordering::Release);
     }
 
     /// One period and what follows from how long it took.
@@ -112,7 +116,8 @@ impl<C: Clock> RealTimeLoop<C> {
                 self.end.gauges.steps_late.fetch_add(steps, Ordering::Relaxed);
             }
         }
-        self.end.gauges.lateness.store(paced.lateness, Ordering::Relaxed);
+        let lateness = paced.lateness.saturating_sub(self.clock.jump());
+        self.end.gauges.lateness.store(lateness, Ordering::Relaxed);
         self.update_gauges();
     }
 
@@ -124,10 +129,12 @@ impl<C: Clock> RealTimeLoop<C> {
         while let Ok(command) = self.end.commands.pop() {
             self.commands_done += 1;
             match command {
-                Command::Live(live) => self.wanted.live = live,
-                Command::Slew(slew) => self.wanted.slew = slew,
-                Command::Whirl(whirl) => self.wanted.whirl = whirl,
-                Command::Schedule(schedule) => self.wanted.schedule = schedule,
+                Command::Settings(settings) => {
+                    self.wanted.live = settings.live;
+                    self.wanted.slew = settings.slew;
+                    self.wanted.whirl = settings.whirl;
+                    self.wanted.schedule = settings.schedule;
+                }
                 Command::Pause(paused) => self.paused = paused,
                 Command::Reset => self.reset_asked = true,
                 Command::Checkpoint(reply) => {
@@ -175,7 +182,7 @@ impl<C: Clock> RealTimeLoop<C> {
                         self.push(LoopEvent::Recovered);
                     }
                     self.publish_if_due();
-                    if self.clock.now() > end {
+                    if self.clock.now() > end.saturating_add(self.clock.jump()) {
                         self.end.gauges.deadline_misses.fetch_add(1, Ordering::Relaxed);
                     }
                 }

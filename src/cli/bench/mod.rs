@@ -18,7 +18,7 @@ use clap::{Args, ValueEnum};
 
 use self::document::Table;
 use self::measure::{Load, Measured, percentiles};
-use super::WrongUse;
+use super::{WrongUse, numbers};
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
@@ -39,16 +39,16 @@ pub struct BenchArgs {
     write: Option<PathBuf>,
     /// Model time after the static start (s) [default: 20; 60 real-time, 10 scaling, 3600 memory,
     /// 30 step-error and quality].
-    #[arg(long)]
+    #[arg(long, value_parser = numbers::seconds)]
     duration: Option<f64>,
     /// Rotary speed (r/min).
-    #[arg(long, default_value_t = 40.0)]
+    #[arg(long, default_value_t = 40.0, value_parser = numbers::rpm)]
     rpm: f64,
     /// Weight on bit (kN), on from the start; real-time, step-error and quality have their own.
-    #[arg(long, default_value_t = 10.0)]
+    #[arg(long, default_value_t = 10.0, value_parser = numbers::kilonewton)]
     wob: f64,
     /// Another model step than the configuration's (s).
-    #[arg(long)]
+    #[arg(long, value_parser = numbers::time_step)]
     time_step: Option<f64>,
     /// Values to change, as KEY=VALUE with the key's dotted path (may be given more than once).
     #[arg(long = "set", value_name = "KEY=VALUE")]

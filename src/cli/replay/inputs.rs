@@ -7,7 +7,7 @@ use crate::cli::progress::Progress;
 use crate::cli::source::Sample;
 use crate::messages::topics::TopicInfo;
 use flexdrill_config::Config;
-use flexdrill_core::inputs::Conditioner;
+use flexdrill_core::inputs::{Conditioner, Stamp};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_realtime::INPUT_PERIOD;
 
@@ -30,6 +30,7 @@ pub(super) fn replay(
     let steps = (span / time_step).round() as u64;
     let per_period = ((INPUT_PERIOD / time_step).round() as u64).max(1);
     let mut conditioner = Conditioner::new(config.inputs.rules());
+    let max_skew = config.inputs.stamp.max_skew;
     let mut player = Player::new(config, first.time, out, |topic: &TopicInfo| {
         if topic.name.starts_with('/') {
             topic.name.to_owned()
@@ -46,7 +47,11 @@ pub(super) fn replay(
         let due = |sample: &&Sample| sample.since(first) <= now;
         while let Some(sample) = waiting.next_if(due) {
             let at = sample.since(first);
-            if let Err(rejection) = conditioner.offer(sample.kind, sample.value, at) {
+            let taken = match sample.stamp {
+                None => conditioner.offer(sample.kind, sample.value, at),
+                Some(stamp) => conditioner.offer_stamped(sample.kind, sample.value, at, &Stamp { max_skew, ..stamp }),
+            };
+            if let Err(rejection) = taken {
                 refused += 1;
                 if refused <= 10 {
                     eprintln!("at {at:.2} s: {rejection}");

@@ -13,6 +13,7 @@ use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{AppliedInputs, JointDeflections, Message, SessionInfo, TwinStatus};
+use crate::told::printable;
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 
@@ -191,7 +192,7 @@ impl Script {
         let total = self.total() as f64 * time_step;
         println!(
             "recording of configuration {}, {} messages of inputs, {total} s",
-            short(&self.session.config_hash),
+            printable(short(&self.session.config_hash)),
             self.applied.len(),
         );
         let mut base = Base::of(&self.session, self.applied.first());

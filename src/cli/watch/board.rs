@@ -1,10 +1,12 @@
 //! What the dashboard knows: the newest message of each topic, a short history of the bit, and held force peaks.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use super::profile::HeldPeaks;
 use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+use crate::told::printable;
 use flexdrill_core::units::rad_per_s_to_rpm;
 
 /// A heart that has not beaten for this long is lost: ten beats at the default 5 Hz.
@@ -66,7 +68,25 @@ impl Board {
         }
     }
 
-    pub(super) fn update_status(&mut self, status: TwinStatus, now: Instant) {
+    pub(super) fn update_status(&mut self, mut status: TwinStatus, now: Instant) {
+        for text in [
+            &mut status.model_quality_cause,
+            &mut status.last_rejection_cause,
+            &mut status.recording_path,
+            &mut status.version,
+            &mut status.config_hash,
+        ] {
+            show(text);
+        }
+        let lists = [
+            &mut status.input_name,
+            &mut status.input_driver,
+            &mut status.input_publishers,
+            &mut status.input_source,
+            &mut status.output_topic,
+            &mut status.phase_name,
+        ];
+        lists.into_iter().flatten().for_each(show);
         // A heartbeat that counts anew is another run: what is known of the last one no longer holds.
         if self
             .status
@@ -117,7 +137,8 @@ impl Board {
     }
 
     /// A latched topic may bring old samples too: the one with the highest sequence holds.
-    pub(super) fn update_warning(&mut self, warning: WhirlWarning) {
+    pub(super) fn update_warning(&mut self, mut warning: WhirlWarning) {
+        show(&mut warning.message);
         if self
             .warning
             .as_ref()
@@ -128,7 +149,20 @@ impl Board {
     }
 
     /// As with warnings; of lists with the same sequence the newest holds.
-    pub(super) fn update_alarms(&mut self, alarms: AlarmList) {
+    pub(super) fn update_alarms(&mut self, mut alarms: AlarmList) {
+        for alarm in &mut alarms.alarms {
+            for text in [
+                &mut alarm.id,
+                &mut alarm.name,
+                &mut alarm.unit,
+                &mut alarm.evidence,
+                &mut alarm.cause,
+                &mut alarm.consequence,
+                &mut alarm.what_to_do,
+            ] {
+                show(text);
+            }
+        }
         let newer = |last: &AlarmList| {
             (alarms.sequence, alarms.header.stamp.to_nanoseconds())
                 >= (last.sequence, last.header.stamp.to_nanoseconds())
@@ -212,6 +246,13 @@ impl Board {
     }
 }
 
+/// Whoever publishes on the topic may have written the text: it must not act on the terminal.
+fn show(text: &mut String) {
+    if let Cow::Owned(shown) = printable(text) {
+        *text = shown;
+    }
+}
+
 fn stamp(header: &crate::messages::std_msgs::Header) -> f64 {
     header.stamp.to_nanoseconds() as f64 * 1e-9
 }
@@ -258,6 +299,45 @@ mod tests {
         board.update_status(status(1), late);
         assert_eq!(board.heartbeat(late), Heartbeat::Beating);
         assert!(board.warning().is_none());
+    }
+
+    #[test]
+    fn texts_of_others_do_not_act_on_the_terminal() {
+        let now = Instant::now();
+        let mut board = Board::new(now);
+        let evil = "\x1b[2J\u{202e}\nalarms     none";
+        board.update_status(
+            TwinStatus {
+                model_quality_cause: evil.into(),
+                input_publishers: vec![evil.into()],
+                ..status(1)
+            },
+            now,
+        );
+        board.update_warning(WhirlWarning {
+            message: evil.into(),
+            ..WhirlWarning::default()
+        });
+        board.update_alarms(AlarmList {
+            alarms: vec![crate::messages::Alarm {
+                name: evil.into(),
+                what_to_do: evil.into(),
+                ..Default::default()
+            }],
+            ..AlarmList::default()
+        });
+        let alarm = &board.alarms().unwrap().alarms[0];
+        let status = board.status().unwrap();
+        let texts = [
+            &status.model_quality_cause,
+            &status.input_publishers[0],
+            &board.warning().unwrap().message,
+            &alarm.name,
+            &alarm.what_to_do,
+        ];
+        for text in texts {
+            assert_eq!(text, "\\u{1b}[2J\\u{202e}\\nalarms     none");
+        }
     }
 
     #[test]

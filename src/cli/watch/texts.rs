@@ -108,6 +108,16 @@ pub(super) fn inputs(status: &TwinStatus) -> Vec<(String, u8)> {
             if rejected > 0 {
                 line += &format!(" ({rejected} refused)");
             }
+            let flag = |flags: &[bool]| flags.get(index) == Some(&true);
+            if flag(&status.input_safe) {
+                line += " TO SAFE VALUE";
+            }
+            if flag(&status.input_suspect) {
+                line += " suspect";
+            }
+            if flag(&status.input_several_drivers) {
+                line += " SEVERAL PUBLISHERS";
+            }
             (line, state)
         })
         .collect()

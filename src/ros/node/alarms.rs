@@ -4,13 +4,12 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, PoisonError};
 
-use ros2_client::Node;
-use rustdds::DomainParticipant;
 use tokio::sync::oneshot;
 
 use super::publish::{self, PublisherParts};
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use crate::dds::port::PortBuilder;
 use crate::messages::outputs::Encoded;
 use crate::messages::std_msgs::Header;
 use crate::messages::{
@@ -23,6 +22,7 @@ use crate::ros::service::{ServiceMapping, ServiceServer};
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
+use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::Snapshot;
 
 /// A request on its way to the publisher, which keeps the alarms.
@@ -119,9 +119,16 @@ impl AlarmDesk {
 /// Judges the alarms of the node itself. They follow the wall clock, so that they go on when the model does not.
 pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure>, real_time_factor: Option<f64>) {
     let conditioner = parts.conditioner.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let now = (parts.now)();
+    let drivers = {
+        let intake = parts.intake.lock().unwrap_or_else(PoisonError::into_inner);
+        InputKind::ALL.map(|kind| intake.drivers.summary(kind, now))
+    };
     let state = NodeState {
         conditioner: &conditioner,
-        now: (parts.now)(),
+        dds: parts.dds.health(),
+        now,
+        drivers,
         run_state: parts.gauges.run_state(),
         failure,
         real_time_factor,
@@ -183,17 +190,16 @@ fn log(event: &AlarmEvent) {
 /// Creates `~/acknowledge_alarm`, `~/shelve_alarm` and `~/unshelve_alarm`; `name` makes a private name absolute.
 ///
 /// # Errors
-/// When a service cannot be created.
+/// When a remapped name is wrong.
 pub fn serve(
-    node: &mut Node,
-    participant: &DomainParticipant,
+    port: &mut PortBuilder,
     mapping: ServiceMapping,
     desk: &Sender<Asked>,
     name: impl Fn(&str) -> Result<String, crate::ros::args::ArgsError>,
 ) -> Result<Vec<Task>, NodeError> {
     let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
         let kind = format!("flexdrill/srv/{kind}");
-        ServiceServer::new(node, participant, &name(private)?, &kind, mapping)
+        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
     };
     let ask = |desk: &Sender<Asked>, request| ask(desk.clone(), request);
     let (acknowledge, shelve, unshelve) = (desk.clone(), desk.clone(), desk.clone());

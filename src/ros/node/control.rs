@@ -6,18 +6,18 @@ use std::sync::mpsc::{Sender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use ros2_client::{Node, Parameter, ParameterValue};
-use rustdds::DomainParticipant;
+use ros2_client::{Parameter, ParameterValue};
 
 use super::rig::RigInputs;
+use crate::dds::port::PortBuilder;
 use crate::messages::outputs::{self, ParameterChange};
 use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use crate::ros::NodeError;
-use crate::ros::parameters::{ParameterStore, Task, reconfigured, refresh_ranges};
+use crate::ros::parameters::{ParameterStore, Refusal, Task, reconfigured, refresh_ranges};
 use crate::ros::service::{ServiceMapping, ServiceServer, at_once, shared};
-use flexdrill_config::{Config, ConfigError};
+use flexdrill_config::{Config, HardBounds};
 use flexdrill_core::twin::CheckpointError;
-use flexdrill_realtime::link::{Command, Gauges, RunState};
+use flexdrill_realtime::link::{Command, Gauges, RunState, Settings};
 
 /// Longest wait for the solver to hand out its state.
 const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
@@ -73,6 +73,18 @@ pub struct Control {
     changes: Sender<Change>,
     rig_inputs: RigInputs,
     gauges: Arc<Gauges>,
+    hard_bounds: HardBounds,
+}
+
+/// What of a configuration acts while the solver runs.
+fn settings(config: &Config) -> Settings {
+    let simulation = config.simulation();
+    Settings {
+        live: config.live(),
+        slew: [simulation.rotary_speed_slew, simulation.weight_on_bit_slew],
+        whirl: config.whirl_settings(),
+        schedule: outputs::schedule(config),
+    }
 }
 
 impl Control {
@@ -85,6 +97,7 @@ impl Control {
         gauges: Arc<Gauges>,
     ) -> Arc<Self> {
         Arc::new(Self {
+            hard_bounds: HardBounds::of(&config),
             commands: Mutex::new(Commands { sender, sent: 0 }),
             config: Mutex::new(config),
             changes,
@@ -97,65 +110,59 @@ impl Control {
         Arc::clone(&self.config.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Sends commands that belong together. Gives the number of the last one.
-    fn send(&self, list: impl IntoIterator<Item = Command>) -> Result<u64, ControlError> {
-        let mut commands = self.commands.lock().unwrap_or_else(PoisonError::into_inner);
-        for command in list {
-            commands.sender.push(command).map_err(|_| ControlError::Busy)?;
-            commands.sent += 1;
-        }
-        Ok(commands.sent)
+    /// Sends a command. Its number.
+    fn send(&self, command: Command) -> Result<u64, ControlError> {
+        self.send_with(command, |_| ())
     }
 
-    /// Whether parameters may take these values together.
+    /// The same; `then` is called with its number, before the solver can carry it out, and only when there is room.
+    fn send_with(&self, command: Command, then: impl FnOnce(u64)) -> Result<u64, ControlError> {
+        let mut commands = self.commands.lock().unwrap_or_else(PoisonError::into_inner);
+        // Nobody else sends: what has room now has room below.
+        if commands.sender.is_full() {
+            return Err(ControlError::Busy);
+        }
+        let number = commands.sent + 1;
+        then(number);
+        commands.sender.push(command).map_err(|_| ControlError::Busy)?;
+        commands.sent = number;
+        Ok(number)
+    }
+
+    /// Lets changed parameters act together, as one command, or refuses them and changes nothing. `candidate` is the
+    /// store with them.
     ///
     /// # Errors
-    /// When the configuration does not make sense with them.
-    pub fn check(&self, candidate: &ParameterStore) -> Result<(), ConfigError> {
-        reconfigured(&self.config(), &candidate.all()).map(drop)
-    }
-
-    /// Lets accepted values act.
-    pub fn apply(&self, store: &mut ParameterStore, changed: &[Parameter]) {
-        let Ok(config) = reconfigured(&self.config(), changed) else {
-            return;
-        };
+    /// When the configuration does not make sense with them, they go beyond a hard limit, or the solver takes nothing.
+    pub fn act(&self, candidate: &mut ParameterStore, changed: &[Parameter]) -> Result<(), Refusal> {
+        let config = reconfigured(&self.config(), changed)?;
+        self.hard_bounds.check(&config)?;
         let config = Arc::new(config);
+        let values = changed
+            .iter()
+            .filter_map(|parameter| Some((parameter.name.clone(), number(&parameter.value)?)))
+            .collect();
+        let tell = |command| {
+            let config = Arc::clone(&config);
+            // The publisher has ended: so will the node.
+            let _ = self.changes.send(Change {
+                command,
+                values,
+                config,
+            });
+        };
+        self.send_with(Command::Settings(settings(&config)), tell)
+            .map_err(|why| Refusal::NotPassedOn { why: why.to_string() })?;
         *self.config.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&config);
-        refresh_ranges(store, &config);
-        self.rig_inputs
-            .conditioner
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .set_rules(config.inputs.rules());
-        let simulation = config.simulation();
-        let sent = self.send([
-            Command::Live(config.live()),
-            Command::Slew([simulation.rotary_speed_slew, simulation.weight_on_bit_slew]),
-            Command::Whirl(config.whirl_settings()),
-            Command::Schedule(outputs::schedule(&config)),
-        ]);
-        match sent {
-            Ok(command) => {
-                let values = changed
-                    .iter()
-                    .filter_map(|parameter| Some((parameter.name.clone(), number(&parameter.value)?)))
-                    .collect();
-                // The publisher has ended: so will the node.
-                let _ = self.changes.send(Change {
-                    command,
-                    values,
-                    config,
-                });
-            }
-            Err(why) => tracing::error!("parameters were accepted but could not be passed on: {why}"),
-        }
+        refresh_ranges(candidate, &config, &self.hard_bounds);
+        self.rig_inputs.set_rules(&config.inputs);
+        Ok(())
     }
 
     fn reset(&self) -> TriggerResponse {
         tracing::info!("reset: the model goes back to its state after the start");
         answer(
-            self.send([Command::Reset])
+            self.send(Command::Reset)
                 .map(|_| "the model goes back to its state after the start".to_owned()),
         )
     }
@@ -163,7 +170,7 @@ impl Control {
     fn pause(&self, pause: bool) -> SetBoolResponse {
         tracing::info!("{}", if pause { "paused" } else { "resumed" });
         let sent = self
-            .send([Command::Pause(pause)])
+            .send(Command::Pause(pause))
             .map(|_| if pause { "paused" } else { "running" }.to_owned());
         let TriggerResponse { success, message } = answer(sent);
         SetBoolResponse { success, message }
@@ -175,7 +182,7 @@ impl Control {
         }
         let saved = tokio::task::spawn_blocking(move || {
             let (sender, receiver) = sync_channel(1);
-            self.send([Command::Checkpoint(sender)])?;
+            self.send(Command::Checkpoint(sender))?;
             let bytes = receiver
                 .recv_timeout(CHECKPOINT_WAIT)
                 .map_err(|_| ControlError::NoAnswer)??;
@@ -220,22 +227,16 @@ fn answer(result: Result<String, ControlError>) -> TriggerResponse {
 /// Creates `~/reset`, `~/pause` and `~/save_checkpoint`; `name` makes a private name absolute.
 ///
 /// # Errors
-/// When a service cannot be created.
+/// When a remapped name is wrong.
 pub fn serve(
-    node: &mut Node,
-    participant: &DomainParticipant,
+    port: &mut PortBuilder,
     mapping: ServiceMapping,
     control: &Arc<Control>,
     name: impl Fn(&str) -> Result<String, crate::ros::args::ArgsError>,
 ) -> Result<Vec<Task>, NodeError> {
     let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
-        ServiceServer::new(
-            node,
-            participant,
-            &name(private)?,
-            &format!("std_srvs/srv/{kind}"),
-            mapping,
-        )
+        let kind = format!("std_srvs/srv/{kind}");
+        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
     };
     let (reset, pause) = (Arc::clone(control), Arc::clone(control));
     Ok(vec![
@@ -249,4 +250,91 @@ pub fn serve(
             })),
         ),
     ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ros::parameters::declare;
+    use flexdrill_realtime::link::{LoopEnd, PublisherEnd, Targets, link};
+    use std::sync::mpsc::{Receiver, channel};
+
+    struct Bench {
+        control: Arc<Control>,
+        store: ParameterStore,
+        changes: Receiver<Change>,
+        _solver: (LoopEnd, PublisherEnd),
+    }
+
+    /// A control whose solver takes nothing: it is still being built.
+    fn bench() -> Bench {
+        let text = include_str!("../../../config/default.yaml");
+        let config = Arc::new(Config::from_text("default.yaml", text).unwrap());
+        let gauges = Arc::new(Gauges::default());
+        let targets = Targets::new(config.simulation().initial_inputs);
+        let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
+        let (sender, changes) = channel();
+        let rig_inputs = RigInputs::new(&config.inputs, targets, Arc::new(|| 0.0), Arc::new(|| 0));
+        Bench {
+            store: declare(&config, "default.yaml", false),
+            control: Control::new(commands, config, sender, rig_inputs, gauges),
+            changes,
+            _solver: (loop_end, publisher_end),
+        }
+    }
+
+    fn set(bench: &mut Bench, key: &str, value: f64) -> Result<Vec<Parameter>, Refusal> {
+        let parameter = Parameter {
+            name: key.into(),
+            value: ParameterValue::Double(value),
+        };
+        let control = Arc::clone(&bench.control);
+        bench
+            .store
+            .set_atomically(&[parameter], |store, changed| control.act(store, changed))
+    }
+
+    /// "Successful" means that it acts: what the ring has no room for is refused, and nowhere changed.
+    #[test]
+    fn what_cannot_be_passed_on_is_refused_and_changes_nothing() {
+        let mut bench = bench();
+        let key = "contact.inner.friction_axial";
+        let friction = |number: u32| 0.2 + 1e-4 * f64::from(number);
+        let mut accepted = 0;
+        let refusal = loop {
+            match set(&mut bench, key, friction(accepted + 1)) {
+                Ok(_) => accepted += 1,
+                Err(refusal) => break refusal.to_string(),
+            }
+        };
+        // One command per set.
+        assert!(accepted >= 120, "{accepted}");
+        assert!(
+            refusal.contains("cannot be passed on") && refusal.contains("nothing was changed"),
+            "{refusal}"
+        );
+        assert_eq!(bench.store.number(key), Some(friction(accepted)));
+        assert_eq!(bench.control.config().contact.inner.friction_axial, friction(accepted));
+        let told: Vec<Change> = bench.changes.try_iter().collect();
+        assert_eq!(told.len(), accepted as usize);
+        for (number, change) in (1..).zip(&told) {
+            assert_eq!(change.command, number);
+            assert_eq!(change.values, [(key.to_owned(), friction(number as u32))]);
+        }
+    }
+
+    #[test]
+    fn hard_limits_hold_for_whoever_asks() {
+        let mut bench = bench();
+        let key = "inputs.rotary_speed.max_rpm";
+        let refusal = set(&mut bench, key, 1000.0).unwrap_err().to_string();
+        assert!(refusal.contains("inputs.hard_limits.max_rpm"), "{refusal}");
+        // In steps, too.
+        set(&mut bench, key, 300.0).unwrap();
+        let refusal = set(&mut bench, key, 300.5).unwrap_err().to_string();
+        assert!(refusal.contains("at most 300 r/min"), "{refusal}");
+        assert_eq!(bench.store.number(key), Some(300.0));
+        assert_eq!(bench.store.describe(key).floating_point_range[0].to_value, 300.0);
+        assert_eq!(bench.changes.try_iter().count(), 1);
+    }
 }

@@ -6,37 +6,39 @@
 
 pub mod alarms;
 pub mod control;
+mod ending;
 pub mod publish;
 pub mod publishers;
 pub mod rig;
 
 use std::future::Future;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{channel, sync_channel};
-use std::sync::{Arc, Mutex};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::Duration;
 
-use ros2_client::{Context, NodeName, NodeOptions};
 use tokio::task::JoinSet;
 
 use self::alarms::AlarmDesk;
 use self::control::Control;
+use self::ending::{Ended, Ending};
 use self::publish::{Publisher, PublisherParts};
 use self::publishers::Publishers;
-use self::rig::{Now, RigInputs};
+use self::rig::{Now, RigInputs, RigTime};
 use super::args::{NodeIdentity, Remapping};
-use super::network::Network;
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
-use super::{DEFAULT_NODE_NAME, NodeError, logging};
+use super::{DEFAULT_NODE_NAME, NodeError, loggers, logging};
 use crate::bag::{Recording, RecordingThread};
+use crate::dds::network::Network;
+use crate::dds::port::PortBuilder;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Conditioner, InputKind};
+use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::{BuildError, Run, Simulation};
-use flexdrill_realtime::clock::{SimulatedClock, WallClock};
+use flexdrill_realtime::clock::{SimulatedClock, WallClock, rig_clock};
 use flexdrill_realtime::link::{Gauges, Targets, link};
 use flexdrill_realtime::monotonic;
 use flexdrill_realtime::{INPUT_PERIOD, RealTimeLoop};
@@ -71,7 +73,7 @@ pub struct NodeSetup {
     pub checkpoint: Option<PathBuf>,
     /// File that the alarms' state is kept in over a restart.
     pub alarm_state: Option<PathBuf>,
-    /// Model time after which it ends (s).
+    /// Model time after which it ends, or wall time for which model time may stand still (s).
     pub duration: Option<f64>,
 }
 
@@ -99,30 +101,18 @@ impl NodeSetup {
 /// # Errors
 /// When DDS, the model or the recording cannot be started, or the recording could not be finished.
 pub async fn run(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result<RunSummary, NodeError> {
-    let context = setup.network.start()?;
-    let result = run_in(&context, setup, shutdown).await;
+    let result = run_until(setup, shutdown).await;
     logging::disconnect();
-    drop(context);
     result
 }
 
-async fn run_in(
-    context: &Context,
-    setup: NodeSetup,
-    shutdown: impl Future<Output = ()>,
-) -> Result<RunSummary, NodeError> {
-    let participant = context.domain_participant();
-    let name = NodeName::new(&setup.identity.namespace, &setup.identity.name)
-        .map_err(|error| NodeError::Stopped(error.to_string()))?;
-    let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
-    let mut node = context
-        .new_node(name, options)
-        .map_err(|error| NodeError::Stopped(error.to_string()))?;
+async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result<RunSummary, NodeError> {
+    let mut port = PortBuilder::new(&setup.network, &setup.identity.namespace, &setup.identity.name);
     if setup.rosout {
-        logging::connect(&mut node, &participant)?;
+        logging::connect(&mut port, &setup.identity.full_name());
     }
     let config = Arc::new(setup.config.clone());
-    let publishers = Publishers::new(&mut node, &participant, &config, &setup.identity, &setup.remapping)?;
+    let publishers = Publishers::new(&mut port, &config, &setup.identity, &setup.remapping)?;
     let recording = match &setup.record {
         Some(path) => {
             // Names were checked when the publishers were made.
@@ -139,12 +129,7 @@ async fn run_in(
     let targets = Targets::new(settings.initial_inputs);
     let gauges = Arc::new(Gauges::default());
     let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
-    let conditioner = Arc::new(Mutex::new(Conditioner::new(config.inputs.rules())));
-    let rig_inputs = RigInputs {
-        conditioner: Arc::clone(&conditioner),
-        targets,
-        now: Arc::clone(&now),
-    };
+    let rig_inputs = RigInputs::new(&config.inputs, targets, Arc::clone(&now), Arc::clone(&rig_time));
 
     let (change_sender, changes) = channel();
     let control = Control::new(
@@ -155,49 +140,58 @@ async fn run_in(
         Arc::clone(&gauges),
     );
     let store = parameters::declare(&config, &setup.config_file, setup.use_sim_time);
-    let (checking, applying) = (Arc::clone(&control), Arc::clone(&control));
+    let acting = Arc::clone(&control);
     let parameters = Parameters::new(
-        &mut node,
-        &participant,
+        &mut port,
+        setup.identity.full_name(),
         store,
-        Box::new(move |candidate| checking.check(candidate)),
-        Box::new(move |store, changed| applying.apply(store, changed)),
-    )?;
+        Box::new(move |candidate, changed| acting.act(candidate, changed)),
+    );
 
     let mut tasks = JoinSet::new();
-    for task in parameters::serve(&mut node, &participant, setup.mapping, &parameters)? {
+    for task in parameters::serve(&mut port, setup.mapping, &parameters) {
+        tasks.spawn(task);
+    }
+    for task in loggers::serve(&mut port, setup.mapping, &setup.identity.full_name()) {
         tasks.spawn(task);
     }
     let service_name = |name: &str| setup.remapping.service(&setup.identity, DEFAULT_NODE_NAME, name);
-    for task in control::serve(&mut node, &participant, setup.mapping, &control, service_name)? {
+    for task in control::serve(&mut port, setup.mapping, &control, service_name)? {
         tasks.spawn(task);
     }
     let (asked_sender, asked) = channel();
-    for task in alarms::serve(&mut node, &participant, setup.mapping, &asked_sender, service_name)? {
+    for task in alarms::serve(&mut port, setup.mapping, &asked_sender, service_name)? {
         tasks.spawn(task);
     }
     let (received_sender, received) = sync_channel(RECEIVED);
+    let mut plain = Vec::new();
     for (kind, topic) in [
         (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
         (InputKind::WeightOnBit, &topics::WEIGHT_ON_BIT_KN),
     ] {
-        let subscription = rig::subscribe(&mut node, &participant, &setup.topic_name(topic)?, topic)?;
-        let record = recording.is_some().then(|| received_sender.clone());
-        tasks.spawn(rig::receive(rig_inputs.clone(), kind, subscription, record));
+        let samples = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
+        plain.push((kind, samples));
     }
+    let topic = &topics::RIG_INPUTS;
+    let stamped = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
     if setup.use_sim_time {
-        let subscription = rig::subscribe(
-            &mut node,
-            &participant,
-            &setup.topic_name(&topics::CLOCK)?,
-            &topics::CLOCK,
-        )?;
-        tasks.spawn(rig::follow_clock(
-            rig_inputs.clone(),
-            subscription,
-            Arc::clone(&simulated),
-        ));
+        let name = setup.topic_name(&topics::CLOCK)?;
+        let ticks = port.subscription(&name, topics::CLOCK.kind.dds_type, false);
+        tasks.spawn(rig::follow_clock(rig_inputs.clone(), ticks, Arc::clone(&simulated)));
     }
+    let port = tokio::task::spawn_blocking(move || port.start())
+        .await
+        .map_err(|error| NodeError::Stopped(error.to_string()))??;
+    let door = || rig::Door {
+        rig: rig_inputs.clone(),
+        dds: port.monitor(),
+        record: recording.is_some().then(|| received_sender.clone()),
+    };
+    for (kind, samples) in plain {
+        tasks.spawn(rig::receive_plain(door(), kind, samples));
+    }
+    tasks.spawn(rig::receive_stamped(door(), stamped));
+    let (conditioner, intake) = (Arc::clone(&rig_inputs.conditioner), Arc::clone(&rig_inputs.intake));
     tasks.spawn(rig::keep_targets(rig_inputs));
 
     let finish = Arc::new(AtomicBool::new(false));
@@ -211,8 +205,11 @@ async fn run_in(
         gauges: Arc::clone(&gauges),
         alarms: AlarmDesk::new(Arc::clone(&config), setup.alarm_state.as_deref(), asked, rig_time()),
         conditioner,
+        intake,
         now,
+        use_sim_time: setup.use_sim_time,
         rig_time,
+        dds: port.monitor(),
         node_name: setup.identity.full_name(),
         finish: Arc::clone(&finish),
     })
@@ -256,7 +253,10 @@ async fn run_in(
         .ok_or_else(|| NodeError::Stopped("the publisher's thread ended badly".into()))?;
     drop(parameters);
     logging::disconnect();
-    drop(node);
+    // Leaves the network, after the last status has gone out.
+    tokio::task::spawn_blocking(move || drop(port))
+        .await
+        .map_err(|error| NodeError::Stopped(error.to_string()))?;
     let recording = match recording {
         Some(recording) => Some(
             tokio::task::spawn_blocking(move || recording.finish())
@@ -314,10 +314,21 @@ async fn wait(
         let Some(duration) = duration else {
             return std::future::pending().await;
         };
-        while (gauges.step.load(Ordering::Relaxed) as f64) * time_step < duration {
+        let mut ending = Ending::new(duration, monotonic::now() as f64 * 1e-9);
+        let why = loop {
+            let model_time = gauges.step.load(Ordering::Relaxed) as f64 * time_step;
+            if let Some(why) = ending.look(model_time, monotonic::now() as f64 * 1e-9) {
+                break why;
+            }
             tokio::time::sleep(Duration::from_millis(20)).await;
+        };
+        match why {
+            Ended::ModelTime => tracing::info!("the configured duration of {duration} s has passed"),
+            Ended::StandsStill => tracing::warn!(
+                "model time has stood still for the configured duration of {duration} s: is /clock published, is the node \
+                 paused, has a step failed?"
+            ),
         }
-        tracing::info!("the configured duration of {duration} s has passed");
     };
     tokio::select! {
         () = shutdown => Ok(()),
@@ -354,13 +365,9 @@ fn time_of_inputs(simulated: Option<Arc<AtomicU64>>) -> Now {
     }
 }
 
-fn rig_time(simulated: Option<Arc<AtomicU64>>) -> Arc<dyn Fn() -> i64 + Send + Sync> {
+fn rig_time(simulated: Option<Arc<AtomicU64>>) -> RigTime {
     match simulated {
         Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as i64),
-        None => Arc::new(|| {
-            SystemTime::now()
-                .duration_since(UNIX_EPOCH)
-                .map_or(0, |since| since.as_nanos() as i64)
-        }),
+        None => Arc::new(|| rig_clock() as i64),
     }
 }

@@ -9,8 +9,9 @@ use std::time::Duration;
 use super::alarms::{self, AlarmDesk};
 use super::control::Change;
 use super::publishers::Publishers;
-use super::rig::{Now, Received};
+use super::rig::{Now, Received, RigTime};
 use crate::bag::RecordingThread;
+use crate::dds::port::Monitor;
 use crate::health::diagnostics::{Diagnostics, Evidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
@@ -19,6 +20,8 @@ use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
+use crate::rig_inputs::Intake;
+use crate::told::Throttles;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::twin::{Output, RunInputs};
@@ -29,6 +32,9 @@ use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
 const POLL: Duration = Duration::from_millis(1);
 /// How often the node's own alarms are judged (Hz): ten times within their shortest default delay.
 const NODE_ALARM_RATE: f64 = 5.0;
+
+/// Least time between two lines about failed steps of one cause (s).
+const FAILURE_INTERVAL: f64 = 1.0;
 
 /// What the publisher's thread is made of.
 pub struct PublisherParts {
@@ -50,10 +56,16 @@ pub struct PublisherParts {
     pub alarms: AlarmDesk,
     /// Inputs.
     pub conditioner: Arc<Mutex<Conditioner>>,
+    /// Who sends them. Where both are locked, this comes first.
+    pub intake: Arc<Mutex<Intake>>,
     /// Time as the conditioner counts it.
     pub now: Now,
+    /// `/clock` paces the model.
+    pub use_sim_time: bool,
     /// Present instant on the rig's clock (ns since 1970).
-    pub rig_time: Arc<dyn Fn() -> i64 + Send + Sync>,
+    pub rig_time: RigTime,
+    /// DDS.
+    pub dds: Monitor,
     /// Name of the node, for the diagnostics.
     pub node_name: String,
     /// Set when the thread is to write what is left and end.
@@ -73,6 +85,9 @@ pub struct Publisher {
     next_alarms: u64,
     newest_status: TwinStatus,
     late: bool,
+    failure_lines: Throttles<&'static str>,
+    /// The last failure was logged.
+    failure_told: bool,
 }
 
 impl Publisher {
@@ -95,6 +110,8 @@ impl Publisher {
             next_alarms: now,
             newest_status: TwinStatus::default(),
             late: false,
+            failure_lines: Throttles::new(FAILURE_INTERVAL),
+            failure_told: false,
         })
     }
 
@@ -135,7 +152,7 @@ impl Publisher {
             self.record_received(received);
         }
         let now = monotonic::now();
-        self.status.note(now, &self.parts.gauges);
+        self.status.note(self.pace_time(), &self.parts.gauges);
         let rates = self.parts.config.outputs.rates;
         if due(&mut self.next_status, now, rates.status) {
             self.send_status();
@@ -144,7 +161,7 @@ impl Publisher {
             self.send_diagnostics();
         }
         if due(&mut self.next_alarms, now, NODE_ALARM_RATE) {
-            let factor = self.status.real_time_factor(now, &self.parts.gauges);
+            let factor = self.status.real_time_factor(self.pace_time(), &self.parts.gauges);
             alarms::judge_node(&mut self.parts, self.evidence.failure, factor);
         }
         let parts = &mut self.parts;
@@ -196,19 +213,27 @@ impl Publisher {
                 commands,
             } => self.applied(&inputs, ticks, commands),
             LoopEvent::Failed(failure, _) => {
-                tracing::error!(
-                    "a step failed at model time {:.4} s: {}; the outputs stand still until the inputs change or ~/reset is called",
-                    failure.time,
-                    failure
-                );
                 self.status.fail(failure);
                 self.evidence.failure = Some(failure);
-                self.send_status();
-                self.send_diagnostics();
+                // Inputs that change all the time try the step again all the time.
+                let clock = monotonic::now() as f64 * 1e-9;
+                let more = self.failure_lines.ending(failure.cause.name(), clock);
+                self.failure_told |= more.is_some();
+                if let Some(more) = more {
+                    tracing::error!(
+                        "a step failed at model time {:.4} s: {failure}; the outputs stand still until the inputs change or \
+                         ~/reset is called{more}",
+                        failure.time
+                    );
+                    self.send_status();
+                    self.send_diagnostics();
+                }
                 Ok(())
             }
             LoopEvent::Recovered => {
-                tracing::info!("the model moves again");
+                if std::mem::take(&mut self.failure_told) {
+                    tracing::info!("the model moves again");
+                }
                 self.evidence.failure = None;
                 Ok(())
             }
@@ -240,11 +265,17 @@ impl Publisher {
 
     fn record_received(&self, received: Received) {
         let Some(recording) = &self.parts.recording else { return };
-        let topic = match received.kind {
-            InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
-            InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
+        let (topic, cdr) = match received {
+            Received::Plain { kind, value } => {
+                let topic = match kind {
+                    InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
+                    InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
+                };
+                (topic, to_cdr(&Float64 { data: value }))
+            }
+            Received::Stamped(message) => (&topics::RIG_INPUTS, to_cdr(&message)),
         };
-        if let Ok(cdr) = to_cdr(&Float64 { data: received.value }) {
+        if let Ok(cdr) = cdr {
             recording.record(topic, (self.parts.rig_time)(), &cdr);
         }
     }
@@ -252,15 +283,19 @@ impl Publisher {
     fn send_status(&mut self) {
         let header = self.header();
         let parts = &self.parts;
+        let intake = parts.intake.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let conditioner = parts.conditioner.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let outputs: Vec<OutputCount<'_>> = parts.publishers.counts().collect();
         let sources = Sources {
             gauges: &parts.gauges,
             conditioner: &conditioner,
+            intake: &intake,
             now: (parts.now)(),
-            wall: monotonic::now(),
+            pace_time: self.pace_time(),
             outputs: &outputs,
             recording: parts.recording.as_ref(),
+            dds: &parts.dds.health(),
+            namesakes: &parts.dds.namesakes(),
         };
         let status = self.status.status(header, &sources);
         self.parts.send_message(&topics::STATUS, &status, self.instant());
@@ -294,6 +329,17 @@ impl Publisher {
                 .judge(&self.parts.node_name, &self.newest_status, &self.evidence),
         };
         self.parts.send_message(&topics::DIAGNOSTICS, &message, self.instant());
+    }
+
+    /// Time that the model is to keep up with (ns). Under `/clock`, which jumps and may stand still, it is what the model
+    /// has gone through or given up.
+    fn pace_time(&self) -> u64 {
+        if self.parts.use_sim_time {
+            let ticks = self.parts.gauges.ticks.load(Ordering::Relaxed);
+            (ticks as f64 * self.parts.config.solver.time_step * 1e9) as u64
+        } else {
+            monotonic::now()
+        }
     }
 
     /// The present instant of the run (ns since 1970).

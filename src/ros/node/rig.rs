@@ -1,143 +1,289 @@
-//! What comes from the rig: the two inputs and, with `use_sim_time`, the clock.
+//! What comes from the rig: the two inputs and, with `use_sim_time`, the clock. How samples are judged is
+//! [`crate::rig_inputs`]; here is their way from the network.
 
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::SyncSender;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
-use futures::StreamExt;
-use ros2_client::{Node, Subscription};
-use rustdds::policy::{Durability, History, Reliability};
-use rustdds::{DomainParticipant, QosPolicyBuilder, TopicKind};
-use serde::de::DeserializeOwned;
-
+use crate::dds::plan::Guid;
+use crate::dds::port::{Inbox, Monitor, Sample};
+use crate::messages::RigInputs as RigInputsMessage;
 use crate::messages::rosgraph_msgs::Clock;
 use crate::messages::std_msgs::Float64;
-use crate::messages::topics::TopicInfo;
-use crate::ros::NodeError;
-use crate::ros::publisher::dds_topic_name;
-use flexdrill_core::inputs::{Conditioner, InputKind, Rejection};
+use crate::messages::{Message, from_cdr_body};
+use crate::rig_inputs::{Announcement, Driver, DriverId, Intake, RigSample, SampleRefused, Sent, stamped};
+use crate::told::{Throttle, Throttles};
+use flexdrill_config::InputsConfig;
+use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Stamp};
 use flexdrill_realtime::link::Targets;
+use flexdrill_realtime::monotonic;
 
-/// Samples kept for a moment in which the node is busy; each is conditioned in turn, so the newest wins.
-const DEPTH: i32 = 10;
 /// How often the targets follow the ages of the inputs.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(10);
-/// Least time between two log lines about refused samples of one input.
-const LOG_INTERVAL: Duration = Duration::from_secs(2);
+/// Least time between two log lines about samples of one input (s).
+const LOG_INTERVAL: f64 = 2.0;
+/// Least time between two questions to discovery about a publisher that it does not know all of (s): its announcement
+/// may come after its first sample.
+const ASK_INTERVAL: f64 = 1.0;
+
+/// Characters of a message's source that are kept: the status carries them.
+const LONGEST_SOURCE: usize = 64;
 
 /// Time as the inputs' ages count it (s).
 pub type Now = Arc<dyn Fn() -> f64 + Send + Sync>;
+/// Present instant on the rig's clock (ns since 1970).
+pub type RigTime = Arc<dyn Fn() -> i64 + Send + Sync>;
 
 /// A sample as received, for the recording.
-#[derive(Debug, Clone, Copy)]
-pub struct Received {
-    /// The input that it belongs to.
-    pub kind: InputKind,
-    /// In the unit of the topic.
-    pub value: f64,
-}
-
-/// Subscribes to a topic, best effort, so that any publisher matches.
-///
-/// # Errors
-/// When DDS refuses the topic or the reader.
-pub fn subscribe<M: DeserializeOwned + 'static>(
-    node: &mut Node,
-    participant: &DomainParticipant,
-    name: &str,
-    topic: &TopicInfo,
-) -> Result<Subscription<M>, NodeError> {
-    let failed = |source| NodeError::Topic {
-        topic: name.to_owned(),
-        source,
-    };
-    let policies = QosPolicyBuilder::new()
-        .reliability(Reliability::BestEffort)
-        .durability(Durability::Volatile)
-        .history(History::KeepLast { depth: DEPTH })
-        .build();
-    let handle = participant
-        .create_topic(
-            dds_topic_name(name),
-            topic.kind.dds_type.to_owned(),
-            &policies,
-            TopicKind::NoKey,
-        )
-        .map_err(|error| failed(error.into()))?;
-    node.create_subscription(&handle, None).map_err(failed)
+#[derive(Debug, Clone)]
+pub enum Received {
+    /// A number alone.
+    Plain {
+        /// The input that it belongs to.
+        kind: InputKind,
+        /// In the unit of the topic.
+        value: f64,
+    },
+    /// With stamp, quality and source.
+    Stamped(RigInputsMessage),
 }
 
 /// Where the samples of the rig go: conditioned into the targets of the solver.
 #[derive(Clone)]
 pub struct RigInputs {
-    /// Judges samples.
+    /// Judges values.
     pub conditioner: Arc<Mutex<Conditioner>>,
-    /// Where the solver takes its targets from.
-    pub targets: Arc<Targets>,
-    /// Time of arrival.
-    pub now: Now,
+    /// Judges who sends them. Where both are locked, this comes first.
+    pub intake: Arc<Mutex<Intake>>,
+    targets: Arc<Targets>,
+    now: Now,
+    rig_time: RigTime,
+    max_skew: f64,
 }
 
 impl RigInputs {
+    /// Judges by a configuration; `now` gives the time of arrival, `rig_time` the same instant on the clock of stamps.
+    pub fn new(inputs: &InputsConfig, targets: Arc<Targets>, now: Now, rig_time: RigTime) -> Self {
+        Self {
+            conditioner: Arc::new(Mutex::new(Conditioner::new(inputs.rules()))),
+            intake: Arc::new(Mutex::new(Intake::new(inputs))),
+            targets,
+            now,
+            rig_time,
+            max_skew: inputs.stamp.max_skew,
+        }
+    }
+
+    /// Takes over changed limits, ages and safe values.
+    pub fn set_rules(&self, inputs: &InputsConfig) {
+        locked(&self.intake).set_rules(inputs);
+        locked(&self.conditioner).set_rules(inputs.rules());
+    }
+
     /// Brings the targets up to date.
     pub fn update_targets(&self) {
         let now = (self.now)();
         let (inputs, quality) = {
-            let conditioner = self.conditioner.lock().unwrap_or_else(PoisonError::into_inner);
+            let conditioner = locked(&self.conditioner);
             (conditioner.targets(now), conditioner.quality(now))
         };
         self.targets.set(inputs, quality as u8);
     }
 
-    fn offer(&self, kind: InputKind, value: f64) -> Result<(), Rejection> {
-        let now = (self.now)();
-        let offered = self
-            .conditioner
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .offer(kind, value, now);
+    /// Takes a number alone of a publisher. Why it was refused, if it was.
+    pub fn take_plain(&self, kind: InputKind, value: f64, id: DriverId) -> Vec<SampleRefused> {
+        self.take([(kind, value, None)], id)
+    }
+
+    /// Takes a message with a stamp of a publisher. Why its values were refused, of those that were.
+    pub fn take_stamped(&self, message: &RigInputsMessage, id: DriverId) -> Vec<SampleRefused> {
+        let sent = Sent {
+            source: message.source.chars().take(LONGEST_SOURCE).collect(),
+            suspect: stamped::is_suspect(message),
+        };
+        let given = stamped::values(message, (self.rig_time)(), self.max_skew);
+        let samples = InputKind::ALL.into_iter().zip(given);
+        self.take(
+            samples.filter_map(|(kind, given)| given.map(|(value, stamp)| (kind, value, Some((stamp, sent.clone()))))),
+            id,
+        )
+    }
+
+    /// Why samples were refused, of those that were.
+    fn take(
+        &self,
+        samples: impl IntoIterator<Item = (InputKind, f64, Option<(Stamp, Sent)>)>,
+        id: DriverId,
+    ) -> Vec<SampleRefused> {
+        let time = (self.now)();
+        let refused = {
+            let (mut intake, mut conditioner) = (locked(&self.intake), locked(&self.conditioner));
+            let samples = samples.into_iter().map(|(kind, value, stamp)| RigSample {
+                kind,
+                value,
+                id,
+                time,
+                stamp,
+            });
+            samples
+                .filter_map(|sample| intake.take(&mut conditioner, &sample).err())
+                .collect()
+        };
         self.update_targets();
-        offered
+        refused
+    }
+
+    /// Tells what has changed of the inputs' way to their safe values.
+    fn announce(&self) {
+        let now = (self.now)();
+        for kind in InputKind::ALL {
+            let announcement = locked(&self.intake).announce(kind, &locked(&self.conditioner), now);
+            match announcement {
+                Some(Announcement::Leaving(text)) => tracing::warn!("{text}"),
+                Some(Announcement::Back(text)) => tracing::info!("{text}"),
+                None => {}
+            }
+        }
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What discovery knows of a publisher.
+fn describe(dds: &Monitor, id: DriverId) -> Driver {
+    let peer = dds.writers().into_iter().flatten().find(|peer| peer.id == id.0);
+    peer.map_or_else(
+        || Driver::unknown(id),
+        |peer| Driver {
+            id,
+            node: peer.node,
+            host: peer.address,
+        },
+    )
+}
+
+/// The way of the samples of one topic.
+pub struct Door {
+    /// Where they go.
+    pub rig: RigInputs,
+    /// Who knows the publishers.
+    pub dds: Monitor,
+    /// Takes a copy for the recording, if there is one.
+    pub record: Option<SyncSender<Received>>,
+}
+
+impl Door {
+    fn ask_about(&self, id: DriverId, asked: &mut HashMap<DriverId, f64>) {
+        let now = monotonic::now() as f64 * 1e-9;
+        if locked(&self.rig.intake).drivers.is_described(id)
+            || asked.get(&id).is_some_and(|last| now - last < ASK_INTERVAL)
+        {
+            return;
+        }
+        if asked.len() > MOST_ASKED {
+            asked.clear();
+        }
+        asked.insert(id, now);
+        let driver = describe(&self.dds, id);
+        locked(&self.rig.intake).drivers.describe(driver);
+    }
+
+    fn record(&self, received: Received) {
+        if let Some(record) = &self.record {
+            // A full queue means that the recording is behind; it counts that itself.
+            let _ = record.try_send(received);
+        }
+    }
+}
+
+/// Publishers that are kept for asking again.
+const MOST_ASKED: usize = 64;
+
+/// Takes the samples of one topic for as long as it is polled; `take` judges one and says what was refused, `kinds` are
+/// the inputs that it carries.
+async fn receive<M: Message>(
+    door: Door,
+    topic: &'static str,
+    kinds: &'static [InputKind],
+    samples: &Inbox<Sample>,
+    take: impl Fn(&Door, M, DriverId) -> Vec<SampleRefused>,
+) {
+    let mut refused_lines = Throttles::new(LOG_INTERVAL);
+    let mut unreadable_lines = Throttle::new(LOG_INTERVAL);
+    let mut asked = HashMap::new();
+    loop {
+        let sample = samples.next().await;
+        let clock = monotonic::now() as f64 * 1e-9;
+        let (message, id) = match decode(sample) {
+            Ok((message, writer)) => (message, DriverId(writer)),
+            Err(error) => {
+                locked(&door.rig.intake).count_unreadable(kinds);
+                if let Some(more) = unreadable_lines.ending(clock) {
+                    tracing::warn!("{topic}: a sample could not be read: {error}{more}");
+                }
+                continue;
+            }
+        };
+        door.ask_about(id, &mut asked);
+        for refused in take(&door, message, id) {
+            let why = match &refused {
+                SampleRefused::Driver(_) => usize::MAX,
+                SampleRefused::Value(rejection) => rejection.reason.index(),
+            };
+            if let Some(more) = refused_lines.ending(why, clock) {
+                tracing::warn!("{refused}{more}");
+            }
+        }
+    }
+}
+
+/// A sample as its message, and who wrote it.
+fn decode<M: Message>(sample: Sample) -> Result<(M, Guid), String> {
+    match sample {
+        Sample::Body { writer, body } => from_cdr_body(&body)
+            .map(|(message, _)| (message, writer))
+            .map_err(|error| error.to_string()),
+        Sample::Unreadable(why) => Err(why),
     }
 }
 
 /// Conditions the samples of one input for as long as it is polled.
-pub async fn receive(
-    rig: RigInputs,
-    kind: InputKind,
-    subscription: Subscription<Float64>,
-    record: Option<SyncSender<Received>>,
-) {
-    let mut samples = Box::pin(subscription.async_stream());
-    let mut logged: Option<Instant> = None;
-    let mut not_logged = 0_u64;
-    while let Some(sample) = samples.next().await {
-        let value = match sample {
-            Ok((sample, _)) => sample.data,
-            Err(error) => {
-                tracing::warn!("{}: a sample could not be read: {error}", kind.topic());
-                continue;
-            }
-        };
-        if let Some(record) = &record {
-            // A full queue means that the recording is behind; it counts that itself.
-            let _ = record.try_send(Received { kind, value });
-        }
-        if let Err(rejection) = rig.offer(kind, value) {
-            if logged.is_none_or(|at| at.elapsed() >= LOG_INTERVAL) {
-                let more = if not_logged > 0 {
-                    format!(" ({not_logged} more since the last line)")
-                } else {
-                    String::new()
-                };
-                tracing::warn!("{rejection}{more}");
-                (logged, not_logged) = (Some(Instant::now()), 0);
-            } else {
-                not_logged += 1;
-            }
-        }
-    }
+pub async fn receive_plain(door: Door, kind: InputKind, samples: Arc<Inbox<Sample>>) {
+    let kinds = match kind {
+        InputKind::RotarySpeed => &InputKind::ALL[..1],
+        InputKind::WeightOnBit => &InputKind::ALL[1..],
+    };
+    receive(
+        door,
+        kind.topic(),
+        kinds,
+        &samples,
+        move |door, Float64 { data: value }, id| {
+            door.record(Received::Plain { kind, value });
+            door.rig.take_plain(kind, value, id)
+        },
+    )
+    .await;
+}
+
+/// Conditions the samples of `rig/inputs` for as long as it is polled.
+pub async fn receive_stamped(door: Door, samples: Arc<Inbox<Sample>>) {
+    receive(
+        door,
+        InputRoute::STAMPED_TOPIC,
+        &InputKind::ALL,
+        &samples,
+        |door, message, id| {
+            let refused = door.rig.take_stamped(&message, id);
+            door.record(Received::Stamped(message));
+            refused
+        },
+    )
+    .await;
 }
 
 /// Keeps the targets up to date while no sample comes: ages, holds and ramps.
@@ -147,14 +293,16 @@ pub async fn keep_targets(rig: RigInputs) {
     loop {
         tick.tick().await;
         rig.update_targets();
+        rig.announce();
     }
 }
 
 /// Follows `/clock`; `newest` is in ns.
-pub async fn follow_clock(rig: RigInputs, subscription: Subscription<Clock>, newest: Arc<AtomicU64>) {
-    let mut ticks = Box::pin(subscription.async_stream());
-    while let Some(tick) = ticks.next().await {
-        let Ok((Clock { clock }, _)) = tick else { continue };
+pub async fn follow_clock(rig: RigInputs, ticks: Arc<Inbox<Sample>>, newest: Arc<AtomicU64>) {
+    loop {
+        let Ok((Clock { clock }, _)) = decode::<Clock>(ticks.next().await) else {
+            continue;
+        };
         let time = clock.to_nanoseconds().max(0) as u64;
         let before = newest.swap(time, Ordering::AcqRel);
         if time < before {
@@ -162,10 +310,9 @@ pub async fn follow_clock(rig: RigInputs, subscription: Subscription<Clock>, new
                 "/clock went back by {:.3} s; the model goes on from where it is",
                 (before - time) as f64 * 1e-9
             );
-            rig.conditioner
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .clock_set((rig.now)());
+            let now = (rig.now)();
+            locked(&rig.intake).clock_set(now);
+            locked(&rig.conditioner).clock_set(now);
         }
     }
 }

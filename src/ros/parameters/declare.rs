@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::live::{CONFIG_FILE, USE_SIM_TIME, is_live, why_fixed};
 use super::store::{Declaration, ParameterStore};
 use crate::ros::args::value::to_parameter;
-use flexdrill_config::{Config, NumberKey};
+use flexdrill_config::{Config, HardBounds, NumberKey};
 
 /// All parameters of a node.
 pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> ParameterStore {
@@ -17,6 +17,7 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
         .into_iter()
         .map(|number| (number.key.clone(), number))
         .collect();
+    let hard = HardBounds::of(config);
     let mut found = Vec::new();
     flatten("", &config.to_tree(), &mut found);
     let fixed = |name: &str, description: &str, value| Declaration {
@@ -46,7 +47,7 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
             None => "As in the configuration.".to_owned(),
         };
         let range = number
-            .map(|number| [number.low, number.high])
+            .map(|number| hard.cut(&name, [number.low, number.high]))
             .filter(|range| range.iter().all(|bound| bound.is_finite()));
         let read_only = (!is_live(&name)).then(|| why_fixed(&name));
         Declaration {
@@ -87,10 +88,10 @@ fn from_json(value: &Value) -> Option<ParameterValue> {
     }
 }
 
-/// Replaces the limits that follow from a changed configuration.
-pub fn refresh_ranges(store: &mut ParameterStore, config: &Config) {
+/// Replaces the limits that follow from a changed configuration; those that hold while the node runs stay.
+pub fn refresh_ranges(store: &mut ParameterStore, config: &Config, hard: &HardBounds) {
     for number in config.numbers().into_iter().filter(|number| is_live(&number.key)) {
-        store.set_range(&number.key, [number.low, number.high]);
+        store.set_range(&number.key, hard.cut(&number.key, [number.low, number.high]));
     }
 }
 
@@ -114,6 +115,10 @@ mod tests {
             slew.description
         );
         assert_eq!(slew.floating_point_range.len(), 1);
+        // As far as it may be set while the node runs: inputs.hard_limits.
+        let limit = store.describe("inputs.rotary_speed.max_rpm");
+        assert_eq!(limit.floating_point_range[0].to_value, 300.0);
+        assert!(store.describe("inputs.hard_limits.max_rpm").read_only);
         assert!(store.get("use_sim_time").is_some());
         assert!(store.names().count() > 60);
     }

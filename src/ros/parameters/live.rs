@@ -40,6 +40,7 @@ pub fn is_live(key: &str) -> bool {
 /// Why a parameter that is not live cannot change.
 pub(super) fn why_fixed(key: &str) -> String {
     let what = match key.split('.').next().unwrap_or_default() {
+        _ if key.starts_with("inputs.hard_limits.") => "it is what nobody may go beyond while the node runs",
         "well" | "tool" | "masses" => "it is part of the geometry that the model is built from",
         "solver" => "the time step and the solver's limits are fixed when the model is built",
         "contact" | "environment" | "boundary" | "loads" => "the model is built with it",
@@ -66,6 +67,8 @@ mod tests {
             ("solver.time_step", false),
             ("inputs.rotary_speed.slew_rpm_per_s", true),
             ("inputs.rotary_speed.initial_rpm", false),
+            ("inputs.hard_limits.max_rpm", false),
+            ("inputs.driver.policy", false),
             ("whirl.backward_cycles.warning", true),
             ("outputs.rates.bit_state", true),
             ("use_sim_time", false),

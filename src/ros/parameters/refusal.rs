@@ -45,4 +45,10 @@ pub enum Refusal {
     /// The configuration does not make sense with it.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// The solver takes nothing at the moment.
+    #[error("the values are fine but cannot be passed on: {why}; nothing was changed, set them again")]
+    NotPassedOn {
+        /// What is in the way.
+        why: String,
+    },
 }

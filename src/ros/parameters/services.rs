@@ -1,5 +1,6 @@
 //! The six parameter services of a ROS 2 node, with descriptors, and `/parameter_events`.
 
+use std::fmt;
 use std::future::Future;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,70 +11,83 @@ use ros2_client::rcl_interfaces::{
     GetParametersRequest, GetParametersResponse, ListParametersRequest, ListParametersResponse,
     SetParametersAtomicallyResponse, SetParametersRequest, SetParametersResponse,
 };
-use ros2_client::{Node, Parameter, ParameterValue};
-use rustdds::DomainParticipant;
+use ros2_client::{Parameter, ParameterValue};
 
 use super::refusal::Refusal;
 use super::store::ParameterStore;
+use crate::dds::plan::{Offer, dds_type_name};
+use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
-use crate::ros::NodeError;
-use crate::ros::publisher::{Offer, TopicPublisher};
-use crate::ros::service::{ServiceMapping, ServiceServer, at_once};
-use flexdrill_config::ConfigError;
+use crate::rig_inputs::DriverId;
+use crate::ros::args::value::show;
+use crate::ros::service::{self, ServiceMapping, ServiceServer, at_once};
 
 /// A server's work, to be run as a task.
 pub type Task = Pin<Box<dyn Future<Output = ()> + Send>>;
 
-/// Checks a set of values as a whole.
-pub type Check = dyn Fn(&ParameterStore) -> Result<(), ConfigError> + Send + Sync;
-/// Called with accepted values, in order.
-pub type Applied = dyn Fn(&mut ParameterStore, &[Parameter]) + Send + Sync;
+/// Lets a set of values act as a whole, or refuses it. It is given the store as it would become and what changed.
+pub type Act = dyn Fn(&mut ParameterStore, &[Parameter]) -> Result<(), Refusal> + Send + Sync;
+
+/// Who asks for a change: the service, and its client where the middleware tells.
+#[derive(Debug, Clone, Copy)]
+struct Origin {
+    service: &'static str,
+    client: Option<DriverId>,
+}
+
+impl Origin {
+    /// Of the request that is being answered.
+    fn of(service: &'static str) -> Self {
+        Self {
+            service,
+            client: service::client().map(DriverId),
+        }
+    }
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "service {}", self.service)?;
+        match self.client {
+            Some(client) => write!(f, ", client {client}"),
+            None => Ok(()),
+        }
+    }
+}
 
 /// Values, rules, and what follows from a change.
 pub struct Parameters {
     store: Mutex<ParameterStore>,
-    check: Box<Check>,
-    applied: Box<Applied>,
+    act: Box<Act>,
     events: TopicPublisher,
     node_name: String,
 }
 
 impl Parameters {
-    /// Takes over a store. `check` sees candidate values together, `applied` is called with each accepted change while
-    /// no other change can come between. `/parameter_events` carries all parameters now, and every change later.
-    ///
-    /// # Errors
-    /// When the events' topic cannot be created.
-    pub fn new(
-        node: &mut Node,
-        participant: &DomainParticipant,
-        store: ParameterStore,
-        check: Box<Check>,
-        applied: Box<Applied>,
-    ) -> Result<Arc<Self>, NodeError> {
+    /// Takes over a store. `act` is called with each set of values while no other change can come between.
+    /// `/parameter_events` carries all parameters now, and every change later.
+    pub fn new(port: &mut PortBuilder, node_name: String, store: ParameterStore, act: Box<Act>) -> Arc<Self> {
         let offer = Offer {
             reliable: true,
             latched: false,
             depth: 1000,
             rate: 10.0,
+            lifespan: None,
         };
-        let events = TopicPublisher::new(
-            node,
-            participant,
+        let events = port.publisher(
             "/parameter_events",
-            "rcl_interfaces/msg/ParameterEvent",
+            &dds_type_name("rcl_interfaces/msg/ParameterEvent"),
             offer,
-        )?;
+        );
         let parameters = Self {
             store: Mutex::new(store),
-            check,
-            applied,
+            act,
             events,
-            node_name: node.fully_qualified_name(),
+            node_name,
         };
         let all = parameters.with(ParameterStore::all);
         parameters.publish(all, Vec::new());
-        Ok(Arc::new(parameters))
+        Arc::new(parameters)
     }
 
     /// Reads the values.
@@ -81,19 +95,19 @@ impl Parameters {
         read(&self.store.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Sets all of `changes` or none, lets them act, publishes the event.
-    ///
-    /// # Errors
-    /// Why the change is refused.
-    pub fn set(&self, changes: &[Parameter]) -> Result<(), Refusal> {
-        let changed = {
+    /// Sets all of `changes` or none, lets them act, publishes the event and logs who asked.
+    fn set(&self, changes: &[Parameter], origin: Origin) -> Result<(), Refusal> {
+        let (before, changed) = {
             let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
-            let changed = store.set_atomically(changes, |candidate| (self.check)(candidate))?;
-            (self.applied)(&mut store, &changed);
-            changed
+            let before: Vec<Option<ParameterValue>> = changes.iter().map(|c| store.get(&c.name).cloned()).collect();
+            (
+                before,
+                store.set_atomically(changes, |candidate, changed| (self.act)(candidate, changed))?,
+            )
         };
-        for Parameter { name, value } in &changed {
-            tracing::info!("parameter {name} is now {}", crate::ros::args::value::show(value));
+        for (Parameter { name, value }, before) in changed.iter().zip(before) {
+            let before = before.map_or_else(String::new, |before| format!(", was {}", show(&before)));
+            tracing::info!("parameter {name} is {}{before}: asked for by {origin}", show(value));
         }
         self.publish(Vec::new(), changed);
         Ok(())
@@ -108,46 +122,32 @@ impl Parameters {
             deleted_parameters: Vec::new(),
         };
         if let Ok(body) = to_cdr_body(&event) {
-            self.events.publish(&body);
+            self.events.publish(body);
         }
     }
 
-    fn answer_set(&self, changes: Vec<raw::Parameter>) -> raw::SetParametersResult {
+    fn answer_set(&self, changes: Vec<raw::Parameter>, origin: Origin) -> raw::SetParametersResult {
         let changes: Vec<Parameter> = changes.into_iter().map(Into::into).collect();
-        let result = self.set(&changes);
+        let result = self.set(&changes, origin);
         if let Err(reason) = &result {
-            tracing::warn!("a parameter change was refused: {reason}");
+            tracing::warn!("a parameter change was refused: {reason}; asked for by {origin}");
         }
         result.map_err(|refusal| refusal.to_string()).into()
     }
 }
 
 /// Creates the six servers of a node; each is a task to run.
-///
-/// # Errors
-/// When a service cannot be created.
-pub fn serve(
-    node: &mut Node,
-    participant: &DomainParticipant,
-    mapping: ServiceMapping,
-    parameters: &Arc<Parameters>,
-) -> Result<Vec<Task>, NodeError> {
-    let node_name = node.fully_qualified_name();
+pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<Parameters>) -> Vec<Task> {
+    let node_name = parameters.node_name.clone();
     let mut server = |name: &str, kind: &str| {
         let service = format!("{node_name}/{name}");
-        ServiceServer::new(
-            node,
-            participant,
-            &service,
-            &format!("rcl_interfaces/srv/{kind}"),
-            mapping,
-        )
+        ServiceServer::new(port, &service, &format!("rcl_interfaces/srv/{kind}"), mapping)
     };
     let shared = || Arc::clone(parameters);
     let (get, types, set, atomic, list, describe) = (shared(), shared(), shared(), shared(), shared(), shared());
-    Ok(vec![
+    vec![
         Box::pin(
-            server("get_parameters", "GetParameters")?.serve(at_once(move |request: GetParametersRequest| {
+            server("get_parameters", "GetParameters").serve(at_once(move |request: GetParametersRequest| {
                 get.with(|store| GetParametersResponse {
                     values: request
                         .names
@@ -157,7 +157,7 @@ pub fn serve(
                 })
             })),
         ),
-        Box::pin(server("get_parameter_types", "GetParameterTypes")?.serve(at_once(
+        Box::pin(server("get_parameter_types", "GetParameterTypes").serve(at_once(
             move |request: GetParameterTypesRequest| {
                 types.with(|store| GetParameterTypesResponse {
                     values: request
@@ -169,36 +169,36 @@ pub fn serve(
             },
         ))),
         Box::pin(
-            server("set_parameters", "SetParameters")?.serve(at_once(move |request: SetParametersRequest| {
+            server("set_parameters", "SetParameters").serve(at_once(move |request: SetParametersRequest| {
                 SetParametersResponse {
                     results: request
                         .parameter
                         .into_iter()
-                        .map(|parameter| set.answer_set(vec![parameter]))
+                        .map(|parameter| set.answer_set(vec![parameter], Origin::of("set_parameters")))
                         .collect(),
                 }
             })),
         ),
         Box::pin(
-            server("set_parameters_atomically", "SetParametersAtomically")?.serve(at_once(
+            server("set_parameters_atomically", "SetParametersAtomically").serve(at_once(
                 move |request: SetParametersRequest| SetParametersAtomicallyResponse {
-                    result: atomic.answer_set(request.parameter),
+                    result: atomic.answer_set(request.parameter, Origin::of("set_parameters_atomically")),
                 },
             )),
         ),
         Box::pin(
-            server("list_parameters", "ListParameters")?.serve(at_once(move |request: ListParametersRequest| {
+            server("list_parameters", "ListParameters").serve(at_once(move |request: ListParametersRequest| {
                 list.with(|store| ListParametersResponse {
                     result: store.list(&request.prefixes, request.depth),
                 })
             })),
         ),
-        Box::pin(server("describe_parameters", "DescribeParameters")?.serve(at_once(
+        Box::pin(server("describe_parameters", "DescribeParameters").serve(at_once(
             move |request: DescribeParametersRequest| {
                 describe.with(|store| DescribeParametersResponse {
                     values: request.names.iter().map(|name| store.describe(name)).collect(),
                 })
             },
         ))),
-    ])
+    ]
 }

@@ -8,7 +8,6 @@ use ros2_client::{Parameter, ParameterValue};
 
 use super::refusal::Refusal;
 use crate::ros::args::value::show;
-use flexdrill_config::ConfigError;
 
 /// What is declared about a parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,15 +78,16 @@ impl ParameterStore {
             .collect()
     }
 
-    /// Sets all of `changes` or none. `check` sees the store as it would become. Returns what changed, in the
-    /// parameters' own types.
+    /// Sets all of `changes` or none. `act` sees the store as it would become and what changed, in the parameters' own
+    /// types; it lets them act as a whole or refuses them. Returns what changed.
     ///
     /// # Errors
-    /// When one of them is unknown, read-only or of the wrong type, or `check` refuses them together.
+    /// When one of them is unknown, read-only or of the wrong type, or `act` refuses them together; then nothing has
+    /// changed.
     pub fn set_atomically(
         &mut self,
         changes: &[Parameter],
-        check: impl FnOnce(&ParameterStore) -> Result<(), ConfigError>,
+        act: impl FnOnce(&mut ParameterStore, &[Parameter]) -> Result<(), Refusal>,
     ) -> Result<Vec<Parameter>, Refusal> {
         let mut candidate = self.clone();
         let mut accepted = Vec::with_capacity(changes.len());
@@ -99,7 +99,7 @@ impl ParameterStore {
                 value: entry.value.clone(),
             });
         }
-        check(&candidate)?;
+        act(&mut candidate, &accepted)?;
         *self = candidate;
         Ok(accepted)
     }
@@ -134,7 +134,7 @@ impl ParameterStore {
         .into()
     }
 
-    /// Names at or below the prefixes, down to `depth` dots (0: no limit).
+    /// Names at or below the prefixes, down to `depth` levels below each of them (0: no limit), as rclcpp has it.
     pub fn list(&self, prefixes: &[String], depth: u64) -> ListParametersResult {
         let shallow = |rest: &str| depth == 0 || (rest.matches('.').count() as u64) < depth;
         let wanted = |name: &str| {
@@ -145,7 +145,8 @@ impl ParameterStore {
                 name == prefix
                     || name
                         .strip_prefix(prefix.as_str())
-                        .is_some_and(|rest| rest.starts_with('.') && shallow(rest))
+                        .and_then(|rest| rest.strip_prefix('.'))
+                        .is_some_and(shallow)
             })
         };
         let names: Vec<String> = self.names().filter(|name| wanted(name)).map(str::to_owned).collect();
@@ -181,6 +182,10 @@ fn unknown(store: &ParameterStore, name: &str) -> Refusal {
 fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue, Refusal> {
     let name = || entry.name.clone();
     if let Some(why) = &entry.read_only {
+        // So that a file of `ros2 param dump` can be loaded again.
+        if *value == entry.value {
+            return Ok(value.clone());
+        }
         return Err(Refusal::ReadOnly {
             name: name(),
             why: why.clone(),
@@ -216,6 +221,7 @@ fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue
 #[cfg(test)]
 mod tests {
     use super::*;
+    use flexdrill_config::ConfigError;
 
     fn declare(name: &str, value: ParameterValue, range: Option<[f64; 2]>, read_only: bool) -> Declaration {
         Declaration {
@@ -250,19 +256,22 @@ mod tests {
             parameter("friction.inner", ParameterValue::Double(0.4)),
             parameter("friction.outer", ParameterValue::String("rough".into())),
         ];
-        let reason = store.set_atomically(&changes, |_| Ok(())).unwrap_err().to_string();
+        let reason = store.set_atomically(&changes, |_, _| Ok(())).unwrap_err().to_string();
         assert!(
             reason.contains("friction.outer") && reason.contains("rough"),
             "{reason}"
         );
         assert_eq!(store.number("friction.inner"), Some(0.2));
-        let refused = store.set_atomically(&changes[..1], |new| {
+        let refused = store.set_atomically(&changes[..1], |new, changed| {
             assert_eq!(new.number("friction.inner"), Some(0.4));
-            Err(ConfigError::UnknownKey { key: "friction".into() })
+            assert_eq!((changed.len(), changed[0].name.as_str()), (1, "friction.inner"));
+            new.set_range("friction.inner", [0.0, 0.5]);
+            Err(ConfigError::UnknownKey { key: "friction".into() }.into())
         });
         assert!(refused.is_err());
+        assert_eq!(store.describe("friction.inner").floating_point_range[0].to_value, 1.0);
         assert_eq!(store.number("friction.inner"), Some(0.2));
-        assert_eq!(store.set_atomically(&changes[..1], |_| Ok(())).unwrap().len(), 1);
+        assert_eq!(store.set_atomically(&changes[..1], |_, _| Ok(())).unwrap().len(), 1);
         assert_eq!(store.number("friction.inner"), Some(0.4));
     }
 
@@ -270,7 +279,7 @@ mod tests {
     fn refusals_say_why() {
         let mut store = store();
         let mut refuse = |name: &str, value| {
-            let refused = store.set_atomically(&[parameter(name, value)], |_| Ok(()));
+            let refused = store.set_atomically(&[parameter(name, value)], |_, _| Ok(()));
             refused.unwrap_err().to_string()
         };
         assert!(refuse("tool.links", ParameterValue::Integer(4)).contains("part of the mesh"));
@@ -284,7 +293,10 @@ mod tests {
     fn whole_numbers_are_taken_for_real_ones() {
         let mut store = store();
         store
-            .set_atomically(&[parameter("friction.inner", ParameterValue::Integer(1))], |_| Ok(()))
+            .set_atomically(
+                &[parameter("friction.inner", ParameterValue::Integer(1))],
+                |_, _| Ok(()),
+            )
             .unwrap();
         assert_eq!(store.get("friction.inner"), Some(&ParameterValue::Double(1.0)));
     }
@@ -301,6 +313,10 @@ mod tests {
             ["friction.inner", "friction.outer"]
         );
         assert_eq!(store.list(&[], 1).names, ["count"]);
+        assert_eq!(
+            store.list(&["friction".into()], 1).names,
+            ["friction.inner", "friction.outer"]
+        );
         let described = store.describe("friction.inner");
         assert_eq!(described.floating_point_range[0].to_value, 1.0);
         assert!(store.describe("tool.links").read_only);

@@ -1,6 +1,6 @@
 //! Input conditioning: every sample from the rig is taken or refused here, ages, and becomes a target.
 
-use super::{InputKind, InputRule, InputRules, InputState, Rejection, RejectionReason};
+use super::{InputKind, InputRoute, InputRule, InputRules, InputState, Rejection, RejectionReason, Stamp};
 use crate::inputs::Inputs;
 
 /// Keeps the last good sample of each input and what became of the others.
@@ -33,6 +33,8 @@ struct Channel {
     good: Option<Sample>,
     /// Of the newest sample, if that was refused.
     refused: Option<Rejection>,
+    /// When the first sample since the last good one was refused.
+    refusing_since: Option<f64>,
     last_rejection: Option<Rejection>,
     counts: Counts,
 }
@@ -69,17 +71,61 @@ impl Conditioner {
     pub fn offer(&mut self, kind: InputKind, value: f64, time: f64) -> Result<(), Rejection> {
         let last_time = self.channels[kind.index()].good.map(|sample| sample.time);
         let judged = judge(self.rule(kind), value, time, last_time);
+        self.take(kind, InputRoute::Plain, value, time, time, judged)
+    }
+
+    /// The same of a sample that says when it was measured and how good it is: its age counts from then.
+    ///
+    /// # Errors
+    /// As [`Conditioner::offer`]; and when its source calls it bad, or its stamp is older than `max_age` or further
+    /// ahead of the clock than `stamp.max_skew`.
+    pub fn offer_stamped(&mut self, kind: InputKind, value: f64, time: f64, stamp: &Stamp) -> Result<(), Rejection> {
+        let rule = self.rule(kind);
+        let measured = time - stamp.age.max(0.0);
+        let judged = if stamp.bad {
+            Err(RejectionReason::Bad)
+        } else if !stamp.age.is_finite() {
+            Err(RejectionReason::NotFinite)
+        } else if stamp.age < -stamp.max_skew {
+            Err(RejectionReason::FromFuture {
+                by: -stamp.age,
+                max_skew: stamp.max_skew,
+            })
+        } else if stamp.age >= rule.max_age {
+            Err(RejectionReason::TooOld {
+                age: stamp.age,
+                max_age: rule.max_age,
+            })
+        } else {
+            let last_time = self.channels[kind.index()].good.map(|sample| sample.time);
+            judge(rule, value, measured, last_time)
+        };
+        self.take(kind, InputRoute::Stamped, value, measured, time, judged)
+    }
+
+    /// Keeps what was judged; `measured` and `time` (of arrival) are on the same clock.
+    fn take(
+        &mut self,
+        kind: InputKind,
+        route: InputRoute,
+        value: f64,
+        measured: f64,
+        time: f64,
+        judged: Result<f64, RejectionReason>,
+    ) -> Result<(), Rejection> {
         let channel = &mut self.channels[kind.index()];
         match judged {
             Ok(value) => {
-                channel.good = Some(Sample { value, time });
+                channel.good = Some(Sample { value, time: measured });
                 channel.refused = None;
+                channel.refusing_since = None;
                 channel.counts.accepted += 1;
                 Ok(())
             }
             Err(reason) => {
                 let rejection = Rejection {
                     kind,
+                    route,
                     value,
                     time,
                     reason,
@@ -89,6 +135,7 @@ impl Conditioner {
                 // An old sample that comes late says nothing about the newest.
                 if !matches!(reason, RejectionReason::TimeBackwards { .. }) {
                     channel.refused = Some(rejection);
+                    channel.refusing_since = channel.refusing_since.or(Some(time).filter(|time| time.is_finite()));
                 }
                 Err(rejection)
             }
@@ -98,6 +145,10 @@ impl Conditioner {
     /// State of an input at `now` (s).
     pub fn state(&self, kind: InputKind, now: f64) -> InputState {
         let (channel, rule) = (&self.channels[kind.index()], self.rule(kind));
+        let silence = self.without_good(kind, now);
+        if silence.is_some_and(|silence| silence >= rule.max_age) {
+            return InputState::Stale;
+        }
         if let Some(rejection) = channel.refused
             && age(now, rejection.time) < rule.max_age
         {
@@ -105,10 +156,29 @@ impl Conditioner {
         }
         match self.age(kind, now) {
             None => InputState::NotReceived,
-            Some(age) if age >= rule.max_age => InputState::Stale,
             Some(age) if age >= rule.slow_age => InputState::Slow,
             Some(_) => InputState::Ok,
         }
+    }
+
+    /// Time (s) for which there has been no good sample: since the last one, or since the first that was refused where
+    /// there has been none; `None` before any sample.
+    pub fn without_good(&self, kind: InputKind, now: f64) -> Option<f64> {
+        let channel = &self.channels[kind.index()];
+        let since = channel.good.map(|sample| sample.time).or(channel.refusing_since);
+        since.map(|time| age(now, time))
+    }
+
+    /// Whether the input has been without a good sample for so long that it is on its way to its safe value, or there.
+    pub fn is_brought_to_safe(&self, kind: InputKind, now: f64) -> bool {
+        self.beyond_hold(kind, now).is_some()
+    }
+
+    /// Time (s) since the end of the hold; `None` before.
+    fn beyond_hold(&self, kind: InputKind, now: f64) -> Option<f64> {
+        let rule = self.rule(kind);
+        let over = self.without_good(kind, now)? - rule.max_age - rule.hold_before_safe;
+        (over > 0.0).then_some(over)
     }
 
     /// The worse of both inputs' states.
@@ -138,19 +208,14 @@ impl Conditioner {
     }
 
     /// What is asked for at `now` (s), in the unit of the samples: the last good value, held while it ages, then
-    /// brought to the safe value; the start value before the first sample. Always within the limits.
+    /// brought to the safe value; the start value before the first good sample, held and brought to the safe value too
+    /// where all samples are refused. Always within the limits.
     pub fn target(&self, kind: InputKind, now: f64) -> f64 {
         let rule = self.rule(kind);
-        let value = match self.channels[kind.index()].good {
-            None => rule.initial,
-            Some(sample) => {
-                let over = age(now, sample.time) - rule.max_age - rule.hold_before_safe;
-                if over > 0.0 {
-                    towards(sample.value, rule.safe, rule.safe_ramp * over)
-                } else {
-                    sample.value
-                }
-            }
+        let held = self.last_good(kind).unwrap_or(rule.initial);
+        let value = match self.beyond_hold(kind, now) {
+            Some(over) => towards(held, rule.safe, rule.safe_ramp * over),
+            None => held,
         };
         // `max` and `min` instead of `clamp`, which panics on limits that are not in order.
         value.max(rule.min).min(rule.max)
@@ -174,6 +239,9 @@ impl Conditioner {
             }
             if let Some(rejection) = &mut channel.refused {
                 rejection.time = now;
+            }
+            if let Some(since) = &mut channel.refusing_since {
+                *since = now;
             }
         }
     }

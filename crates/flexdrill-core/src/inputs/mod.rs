@@ -6,6 +6,7 @@
 mod conditioner;
 mod kind;
 mod rejection;
+mod route;
 mod rule;
 mod state;
 mod wanted;
@@ -13,6 +14,7 @@ mod wanted;
 pub use conditioner::{Conditioner, Counts};
 pub use kind::InputKind;
 pub use rejection::{Rejection, RejectionReason};
+pub use route::{InputRoute, Stamp};
 pub use rule::{InputRule, InputRules};
 pub use state::InputState;
 pub use wanted::Inputs;

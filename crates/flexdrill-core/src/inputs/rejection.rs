@@ -2,13 +2,15 @@
 
 use std::fmt;
 
-use super::InputKind;
+use super::{InputKind, InputRoute};
 
 /// A sample that was refused. Its `Display` is a sentence with topic, value, bound and unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rejection {
     /// Of which input.
     pub kind: InputKind,
+    /// On which topic.
+    pub route: InputRoute,
     /// As received (r/min or kN).
     pub value: f64,
     /// When it was received (s, the caller's clock).
@@ -42,11 +44,27 @@ pub enum RejectionReason {
         /// By how much (s).
         by: f64,
     },
+    /// Its source calls it bad.
+    Bad,
+    /// Its stamp is ahead of the clock.
+    FromFuture {
+        /// By how much (s).
+        by: f64,
+        /// How far a stamp may be ahead (s).
+        max_skew: f64,
+    },
+    /// Its stamp is older than a value may be.
+    TooOld {
+        /// How old it was when it came (s).
+        age: f64,
+        /// From which age a value is stale (s).
+        max_age: f64,
+    },
 }
 
 impl RejectionReason {
     /// Number of reasons.
-    pub const COUNT: usize = 5;
+    pub const COUNT: usize = 8;
 
     /// Index into an array of counts.
     pub const fn index(&self) -> usize {
@@ -56,6 +74,9 @@ impl RejectionReason {
             Self::BelowMinimum { .. } => 2,
             Self::AboveMaximum { .. } => 3,
             Self::TimeBackwards { .. } => 4,
+            Self::Bad => 5,
+            Self::FromFuture { .. } => 6,
+            Self::TooOld { .. } => 7,
         }
     }
 }
@@ -63,7 +84,15 @@ impl RejectionReason {
 impl fmt::Display for Rejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (name, unit) = (self.kind.name(), self.kind.unit());
-        write!(f, "{}: {} {unit} refused: ", self.kind.topic(), self.value)?;
+        match self.route {
+            InputRoute::Plain => write!(f, "{}: {} {unit} refused: ", self.kind.topic(), self.value),
+            InputRoute::Stamped => write!(
+                f,
+                "{}: {name} {} {unit} refused: ",
+                InputRoute::STAMPED_TOPIC,
+                self.value
+            ),
+        }?;
         match self.reason {
             RejectionReason::NotFinite => write!(f, "not a finite number"),
             RejectionReason::Negative { tare_error } => write!(
@@ -75,6 +104,17 @@ impl fmt::Display for Rejection {
             RejectionReason::TimeBackwards { by } => {
                 write!(f, "its time is {by} s before that of the last good sample")
             }
+            RejectionReason::Bad => write!(f, "its source calls it BAD"),
+            RejectionReason::FromFuture { by, max_skew } => write!(
+                f,
+                "its stamp is {by:.3} s ahead of the clock, at most {max_skew} s are allowed (inputs.stamp.max_skew); set \
+                 the clocks of both machines"
+            ),
+            RejectionReason::TooOld { age, max_age } => write!(
+                f,
+                "its stamp is {age:.3} s old, stale from {max_age} s on (inputs.{name}.max_age); set the clocks of both \
+                 machines or look for what holds it up"
+            ),
         }?;
         write!(f, "; the last good value is held")
     }

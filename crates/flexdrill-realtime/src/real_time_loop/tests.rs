@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::RealTimeLoop;
-use crate::clock::Clock;
-use crate::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Targets, link};
+use crate::clock::{Clock, SimulatedClock};
+use crate::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Settings, Targets, link};
 use crate::monotonic;
 use flexdrill_core::dynamics::phases::Phase;
 use flexdrill_core::inputs::Inputs;
@@ -57,28 +57,34 @@ struct Bench {
     clock: ScriptedClock,
 }
 
+fn settings() -> SimulationSettings {
+    SimulationSettings {
+        time_step: 1e-3,
+        initial_inputs: Inputs {
+            rotary_speed: 1.0,
+            weight_on_bit: 2.0,
+        },
+        // Every speed is reached within a step.
+        rotary_speed_slew: 1e300,
+        ..SimulationSettings::default()
+    }
+}
+
+fn run() -> Run {
+    let mut simulation = Simulation::new(&tool(), &settings()).unwrap();
+    simulation.set_clock(monotonic::now);
+    Run::new(simulation, Schedule::new(1e-3, |_| 100.0))
+}
+
 impl Bench {
     fn new() -> Self {
-        let settings = SimulationSettings {
-            time_step: 1e-3,
-            initial_inputs: Inputs {
-                rotary_speed: 1.0,
-                weight_on_bit: 2.0,
-            },
-            // Every speed is reached within a step.
-            rotary_speed_slew: 1e300,
-            ..SimulationSettings::default()
-        };
-        let targets = Targets::new(settings.initial_inputs);
+        let targets = Targets::new(settings().initial_inputs);
         let gauges = Arc::new(Gauges::default());
         let (end, publisher, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
         let clock = ScriptedClock {
             now: Arc::new(AtomicU64::new(MS)),
         };
-        let mut simulation = Simulation::new(&tool(), &settings).unwrap();
-        simulation.set_clock(monotonic::now);
-        let run = Run::new(simulation, Schedule::new(1e-3, |_| 100.0));
-        let solver = RealTimeLoop::new(run, clock.clone(), end, 5);
+        let solver = RealTimeLoop::new(run(), clock.clone(), end, 5);
         Self {
             solver,
             publisher,
@@ -335,4 +341,46 @@ fn the_loop_ends_when_told_and_follows_the_deadlines() {
     thread.join().unwrap();
     assert_eq!(gauges.start.load(Ordering::Relaxed), START);
     assert_eq!(gauges.steps_late.load(Ordering::Relaxed), 0);
+}
+
+/// `/clock` may not tick for long, and parameters are set meanwhile: more of them than the ring holds.
+#[test]
+fn what_is_set_before_the_first_tick_acts_on_the_first_step() {
+    let targets = Targets::new(settings().initial_inputs);
+    let gauges = Arc::new(Gauges::default());
+    let (end, mut publisher, mut commands) = link(targets, Arc::clone(&gauges));
+    let (run, newest) = (run(), Arc::new(AtomicU64::new(0)));
+    let applied = run.applied();
+    let solver = RealTimeLoop::new(run, SimulatedClock::new(Arc::clone(&newest)), end, 5);
+    let thread = std::thread::spawn(move || solver.run());
+    let room = commands.slots();
+    for number in 1..=2 * room {
+        while commands.is_full() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        let settings = Settings {
+            live: applied.live,
+            slew: [number as f64, 2.0 * number as f64],
+            whirl: applied.whirl,
+            schedule: applied.schedule,
+        };
+        commands.push(Command::Settings(settings)).unwrap();
+    }
+    while commands.slots() < room {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    assert_eq!(gauges.ticks.load(Ordering::Relaxed), 0);
+    newest.store(START, Ordering::Release);
+    let first = loop {
+        match publisher.events.pop() {
+            Ok(LoopEvent::Applied { inputs, commands, .. }) => break (inputs, commands),
+            Ok(_) => panic!("the inputs come first"),
+            Err(_) => std::thread::sleep(std::time::Duration::from_millis(1)),
+        }
+    };
+    gauges.stop.store(true, Ordering::Relaxed);
+    thread.join().unwrap();
+    let newest = 2.0 * room as f64;
+    assert_eq!((first.0.step, first.0.slew), (0, [newest, 2.0 * newest]));
+    assert_eq!(first.1, 2 * room as u64);
 }

@@ -1,0 +1,223 @@
+//! `inputs.hard_limits`: what no parameter goes beyond while the twin runs, whoever asks.
+//!
+//! A parameter that is set while the twin runs comes over the network. The configuration is what the operator of the
+//! machine has allowed; its hard limits hold for everything that may be set live and loosens how the inputs are watched.
+
+use super::Config;
+use super::error::{ConfigError, Problem};
+use super::section::section;
+
+section! {
+    /// Limits of live parameters. Where the configuration itself goes further, its own value is the limit.
+    #[derive(Copy)]
+    pub struct HardLimits(this) {
+        /// `inputs.rotary_speed.min_rpm` is not set below this.
+        min_rpm: f64 = 0.0, within(-5000.0, this.max_rpm), "r/min", "not above max_rpm";
+        /// `inputs.rotary_speed.max_rpm` is not set above this.
+        max_rpm: f64 = 300.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
+        /// `inputs.rotary_speed.safe_rpm` is not set above this.
+        safe_rpm: f64 = 120.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
+        /// `inputs.rotary_speed.slew_rpm_per_s` and `safe_ramp_rpm_per_s` are not set above this.
+        slew_rpm_per_s: f64 = 200.0, above(0.0, 1e6), "r/min per s", "a jump in speed is an infinite torque";
+        /// `inputs.rotary_speed.safe_ramp_rpm_per_s` is not set below this.
+        slowest_ramp_rpm_per_s: f64 = 0.5, within(0.0, 1e6), "r/min per s", "too slow a ramp never gets there";
+        /// `inputs.weight_on_bit.max_kn` is not set above this.
+        max_kn: f64 = 200.0, within(0.0, 2000.0), "kN", "far above any drilling tool";
+        /// `inputs.weight_on_bit.safe_kn` is not set above this.
+        safe_kn: f64 = 60.0, within(0.0, 2000.0), "kN", "far above any drilling tool";
+        /// `inputs.weight_on_bit.tare_error_kn` is not set above this.
+        tare_error_kn: f64 = 5.0, within(0.0, 100.0), "kN", "a reading further below zero is wrong, not untared";
+        /// `inputs.weight_on_bit.slew_kn_per_s` and `safe_ramp_kn_per_s` are not set above this.
+        slew_kn_per_s: f64 = 100.0, above(0.0, 1e6), "kN/s", "a jump in load is a blow on the tool";
+        /// `inputs.weight_on_bit.safe_ramp_kn_per_s` is not set below this.
+        slowest_ramp_kn_per_s: f64 = 0.1, within(0.0, 1e6), "kN/s", "too slow a ramp never gets there";
+        /// `slow_age` and `max_age` of both inputs are not set above this.
+        max_age: f64 = 60.0, above(0.0, 3600.0), "s", "an hour is not live any more";
+        /// `hold_before_safe` of both inputs is not set above this.
+        hold_before_safe: f64 = 600.0, within(0.0, 86_400.0), "s", "a day is not live any more";
+        /// No key of `outputs.rates` is set above this.
+        rate: f64 = 200.0, within(0.0, 1000.0), "Hz", "more would flood the network";
+    }
+}
+
+/// Bounds of one live parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HardBound {
+    /// Dotted path of the parameter.
+    pub key: String,
+    /// Least value; none where no hard limit is.
+    pub low: Option<f64>,
+    /// Greatest value; none where no hard limit is.
+    pub high: Option<f64>,
+    /// Dotted path of the hard limit.
+    pub limit: String,
+    unit: &'static str,
+}
+
+/// Where the hard limits of a configuration lie for each live parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HardBounds(Vec<HardBound>);
+
+enum Side {
+    Low,
+    High,
+}
+use Side::{High, Low};
+
+impl HardBounds {
+    /// Those of the configuration that a run begins with.
+    pub fn of(config: &Config) -> Self {
+        let limits = &config.inputs.hard_limits;
+        let (speed, weight) = ("inputs.rotary_speed", "inputs.weight_on_bit");
+        let mut rows: Vec<(String, Side, &str, f64)> = Vec::new();
+        for (group, key, side, limit, value) in [
+            (speed, "min_rpm", Low, "min_rpm", limits.min_rpm),
+            (speed, "max_rpm", High, "max_rpm", limits.max_rpm),
+            (speed, "safe_rpm", High, "safe_rpm", limits.safe_rpm),
+            (speed, "slew_rpm_per_s", High, "slew_rpm_per_s", limits.slew_rpm_per_s),
+            (
+                speed,
+                "safe_ramp_rpm_per_s",
+                High,
+                "slew_rpm_per_s",
+                limits.slew_rpm_per_s,
+            ),
+            (
+                speed,
+                "safe_ramp_rpm_per_s",
+                Low,
+                "slowest_ramp_rpm_per_s",
+                limits.slowest_ramp_rpm_per_s,
+            ),
+            (weight, "max_kn", High, "max_kn", limits.max_kn),
+            (weight, "safe_kn", High, "safe_kn", limits.safe_kn),
+            (weight, "tare_error_kn", High, "tare_error_kn", limits.tare_error_kn),
+            (weight, "slew_kn_per_s", High, "slew_kn_per_s", limits.slew_kn_per_s),
+            (
+                weight,
+                "safe_ramp_kn_per_s",
+                High,
+                "slew_kn_per_s",
+                limits.slew_kn_per_s,
+            ),
+            (
+                weight,
+                "safe_ramp_kn_per_s",
+                Low,
+                "slowest_ramp_kn_per_s",
+                limits.slowest_ramp_kn_per_s,
+            ),
+            (speed, "slow_age", High, "max_age", limits.max_age),
+            (speed, "max_age", High, "max_age", limits.max_age),
+            (weight, "slow_age", High, "max_age", limits.max_age),
+            (weight, "max_age", High, "max_age", limits.max_age),
+            (
+                speed,
+                "hold_before_safe",
+                High,
+                "hold_before_safe",
+                limits.hold_before_safe,
+            ),
+            (
+                weight,
+                "hold_before_safe",
+                High,
+                "hold_before_safe",
+                limits.hold_before_safe,
+            ),
+        ] {
+            rows.push((format!("{group}.{key}"), side, limit, value));
+        }
+        let numbers = config.numbers();
+        let rates = numbers.iter().filter(|number| number.key.starts_with("outputs.rates."));
+        rows.extend(rates.map(|number| (number.key.clone(), High, "rate", limits.rate)));
+        let bound = |(key, side, limit, value): (String, Side, &str, f64)| {
+            let own = numbers.iter().find(|number| number.key == key)?;
+            let (low, high) = match side {
+                Low => (Some(value.min(own.value)), None),
+                High => (None, Some(value.max(own.value))),
+            };
+            Some(HardBound {
+                key,
+                low,
+                high,
+                limit: format!("inputs.hard_limits.{limit}"),
+                unit: own.unit,
+            })
+        };
+        Self(rows.into_iter().filter_map(bound).collect())
+    }
+
+    /// Whether a configuration that parameters have changed keeps them.
+    ///
+    /// # Errors
+    /// With every value that goes beyond its hard limit.
+    pub fn check(&self, changed: &Config) -> Result<(), ConfigError> {
+        let numbers = changed.numbers();
+        let mut problems = Vec::new();
+        for bound in &self.0 {
+            let Some(number) = numbers.iter().find(|number| number.key == bound.key) else {
+                continue;
+            };
+            let words = match (bound.low, bound.high) {
+                (Some(low), _) if number.value < low => format!("at least {low} {}", bound.unit),
+                (_, Some(high)) if number.value > high => format!("at most {high} {}", bound.unit),
+                _ => continue,
+            };
+            problems.push(Problem {
+                file: "parameter".to_owned(),
+                line: None,
+                is_default: false,
+                key: bound.key.clone(),
+                value: super::checker::number(number.value),
+                unit: bound.unit,
+                bound: words,
+                reason: format!(
+                    "the hard limit {}, which holds while the twin runs; start it again with another configuration",
+                    bound.limit
+                ),
+            });
+        }
+        if problems.is_empty() {
+            Ok(())
+        } else {
+            Err(ConfigError::Invalid { problems })
+        }
+    }
+
+    /// A range of a parameter, cut to its hard limits.
+    pub fn cut(&self, key: &str, range: [f64; 2]) -> [f64; 2] {
+        let mine = self.0.iter().filter(|bound| bound.key == key);
+        mine.fold(range, |[low, high], bound| {
+            [
+                bound.low.map_or(low, |hard| low.max(hard)),
+                bound.high.map_or(high, |hard| high.min(hard)),
+            ]
+        })
+    }
+
+    /// Hard limits that the configuration itself goes beyond, in sentences.
+    pub(super) fn overridden(config: &Config) -> Vec<String> {
+        let limits = &config.inputs.hard_limits;
+        let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
+        let pairs = [
+            (
+                "rotary_speed.max_rpm",
+                speed.max_rpm,
+                "max_rpm",
+                limits.max_rpm,
+                "r/min",
+            ),
+            ("weight_on_bit.max_kn", weight.max_kn, "max_kn", limits.max_kn, "kN"),
+        ];
+        let beyond = pairs.into_iter().filter(|(_, own, _, hard, _)| own > hard);
+        beyond
+            .map(|(key, own, limit, hard, unit)| {
+                format!(
+                    "inputs.{key} {own} {unit} is beyond inputs.hard_limits.{limit} {hard} {unit}; what the configuration asks for is \
+                     the hard limit"
+                )
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,84 @@
+//! Numbers on the command line. What is no number that could be meant is refused in words, before anything is opened.
+
+/// A number that cannot be used.
+#[derive(Debug, thiserror::Error, PartialEq, Eq)]
+#[error("use a number from {low} to {high}{}{unit}", if unit.is_empty() { "" } else { " " })]
+pub(super) struct NumberError {
+    low: String,
+    high: String,
+    unit: &'static str,
+}
+
+/// Nearer to 0 than this is a slip of the pen, and not a small number.
+const LEAST: f64 = 1e-9;
+
+fn number(text: &str, low: f64, high: f64, unit: &'static str) -> Result<f64, NumberError> {
+    // Neither comparison holds of NaN.
+    match text.trim().parse::<f64>() {
+        Ok(value) if value >= low && value <= high && (value == 0.0 || value.abs() >= LEAST) => Ok(value),
+        _ => Err(NumberError {
+            low: low.to_string(),
+            high: high.to_string(),
+            unit,
+        }),
+    }
+}
+
+/// A time that something lasts (s): a millisecond to some months.
+pub(super) fn seconds(text: &str) -> Result<f64, NumberError> {
+    number(text, 1e-3, 1e7, "s")
+}
+
+/// A model step (s).
+pub(super) fn time_step(text: &str) -> Result<f64, NumberError> {
+    number(text, 1e-7, 1.0, "s")
+}
+
+/// A rotary speed (r/min), within what a configuration takes.
+pub(super) fn rpm(text: &str) -> Result<f64, NumberError> {
+    number(text, -5000.0, 5000.0, "r/min")
+}
+
+/// A weight on bit (kN), within what a configuration takes.
+pub(super) fn kilonewton(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.0, 2000.0, "kN")
+}
+
+/// Turns of the tool.
+pub(super) fn turns(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.01, 10_000.0, "turns")
+}
+
+/// How many times faster than real time.
+pub(super) fn rate(text: &str) -> Result<f64, NumberError> {
+    number(text, 1e-3, 1e3, "times real time")
+}
+
+/// How many of something: what a machine can hold.
+pub(super) fn count() -> clap::builder::RangedU64ValueParser<usize> {
+    clap::builder::RangedU64ValueParser::<usize>::new().range(0..=1_000_000)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_meant_is_refused_with_the_bounds() {
+        type Parser = fn(&str) -> Result<f64, NumberError>;
+        let parsers: [Parser; 6] = [seconds, time_step, rpm, kilonewton, turns, rate];
+        for parse in parsers {
+            for text in [
+                "nan", "NaN", "inf", "-inf", "1e999", "1e-308", "-1e-308", "5e-324", "1e300", "", "x", "1,5",
+            ] {
+                assert!(parse(text).is_err(), "{text}");
+            }
+        }
+        let said = seconds("nan").unwrap_err().to_string();
+        assert_eq!(said, "use a number from 0.001 to 10000000 s");
+        assert_eq!(
+            (seconds("2.5"), rpm("-40"), kilonewton("0")),
+            (Ok(2.5), Ok(-40.0), Ok(0.0))
+        );
+    }
+}

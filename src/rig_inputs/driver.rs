@@ -1,0 +1,62 @@
+//! A publisher of an input, and what is known of it.
+
+use std::fmt;
+
+use crate::told::printable;
+
+/// Bytes of an id that tell the process; the others tell the writer in it.
+const PROCESS: usize = 12;
+
+/// A publisher: the GUID of its DDS writer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct DriverId(pub [u8; 16]);
+
+impl DriverId {
+    /// Whether both belong to one DDS participant, which is one process.
+    pub fn same_process(&self, other: &Self) -> bool {
+        self.0[..PROCESS] == other.0[..PROCESS]
+    }
+}
+
+/// Hexadecimal, a dot between the process and the writer in it.
+impl fmt::Display for DriverId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (place, byte) in self.0.iter().enumerate() {
+            if place == PROCESS {
+                write!(f, ".")?;
+            }
+            write!(f, "{byte:02x}")?;
+        }
+        Ok(())
+    }
+}
+
+/// What is known of a publisher. `Display` is `node @ host (id)`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Driver {
+    /// Its writer.
+    pub id: DriverId,
+    /// Absolute name of its node, where discovery has told it.
+    pub node: Option<String>,
+    /// Address or name of its machine, where discovery has told it.
+    pub host: Option<String>,
+}
+
+impl Driver {
+    /// Of whom nothing but the id is known.
+    pub fn unknown(id: DriverId) -> Self {
+        Self {
+            id,
+            node: None,
+            host: None,
+        }
+    }
+}
+
+impl fmt::Display for Driver {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let node = self.node.as_deref().unwrap_or("unnamed node");
+        let host = self.host.as_deref().unwrap_or("unknown host");
+        write!(f, "{} @ {} ({})", printable(node), printable(host), self.id)
+    }
+}

@@ -1,0 +1,58 @@
+//! `rig/inputs`: both inputs with stamp, quality and source.
+
+use crate::messages::RigInputs;
+use flexdrill_core::inputs::{InputKind, Stamp};
+
+/// The values that a message gives, at `rig_time` (ns since 1970) on the clock of its stamp; `None` where it gives none
+/// (NaN).
+pub fn values(message: &RigInputs, rig_time: i64, max_skew: f64) -> [Option<(f64, Stamp)>; 2] {
+    let age = rig_time.saturating_sub(message.header.stamp.to_nanoseconds());
+    let stamp = Stamp {
+        age: age as f64 * 1e-9,
+        // A code that is not known is not trusted.
+        bad: !matches!(message.quality, RigInputs::GOOD | RigInputs::SUSPECT),
+        max_skew,
+    };
+    InputKind::ALL.map(|kind| {
+        let value = match kind {
+            InputKind::RotarySpeed => message.rotary_speed_rpm,
+            InputKind::WeightOnBit => message.weight_on_bit_kn,
+        };
+        (!value.is_nan()).then_some((value, stamp))
+    })
+}
+
+/// Whether its source has doubts about a message.
+pub fn is_suspect(message: &RigInputs) -> bool {
+    message.quality == RigInputs::SUSPECT
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::messages::builtin_interfaces::Time;
+
+    fn message(stamp: i64, quality: u8) -> RigInputs {
+        let mut message = RigInputs {
+            rotary_speed_rpm: 40.0,
+            weight_on_bit_kn: f64::NAN,
+            quality,
+            ..RigInputs::default()
+        };
+        message.header.stamp = Time::from_nanoseconds(stamp);
+        message
+    }
+
+    #[test]
+    fn the_age_is_that_of_the_stamp_and_nan_is_not_given() {
+        let now = 1_700_000_000_000_000_000;
+        let [speed, weight] = values(&message(now - 250_000_000, RigInputs::GOOD), now, 0.5);
+        let (value, stamp) = speed.unwrap();
+        assert_eq!((value, stamp.age, stamp.bad, weight), (40.0, 0.25, false, None));
+        let [ahead, _] = values(&message(now + 1_000_000_000, RigInputs::SUSPECT), now, 0.5);
+        assert_eq!(ahead.unwrap().1.age, -1.0);
+        for quality in [RigInputs::BAD, 7] {
+            assert!(values(&message(now, quality), now, 0.5)[0].unwrap().1.bad, "{quality}");
+        }
+    }
+}
