@@ -188,6 +188,19 @@ fn a_disk_that_hangs_at_any_write_holds_nobody_up() {
 }
 
 #[test]
+fn a_disk_that_hangs_at_the_start_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let disk = Faulty::new(Counted::All, Fault::Hang);
+    disk.fail_once_after(0);
+    let began = Instant::now();
+    let error = start(disk.clone(), &folder.path().join("run")).err().unwrap();
+    assert!(error.to_string().contains("could not be begun within 10 s"), "{error}");
+    // The bound, and what a busy machine adds.
+    assert!(began.elapsed() < Duration::from_secs(15));
+    disk.heal();
+}
+
+#[test]
 fn after_a_full_disk_it_goes_on_in_another_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run");

@@ -75,6 +75,17 @@ pub enum BagError {
         /// The folder.
         path: PathBuf,
     },
+    /// The disk does not answer when a recording is begun.
+    #[error(
+        "the recording {path} could not be begun within {seconds} s: the disk does not answer",
+        path = path.display()
+    )]
+    NotBegun {
+        /// File or folder that it is about.
+        path: PathBuf,
+        /// How long it was waited for (s).
+        seconds: u64,
+    },
     /// The disk does not answer.
     #[error(
         "the recording {path} did not end within {seconds} s: the disk does not answer; \

@@ -379,8 +379,8 @@ impl LiveRecorder {
         })
     }
 
-    /// The folder must be there, or there again, on the disk that it was on: where a disk was taken out, its mount point
-    /// is a folder of another one.
+    /// The folder must be there, or there again, on the disk that it was on: where a disk was taken out, its mount
+    /// point is a folder of another one.
     fn check_folder(&self) -> Result<(), BagError> {
         let folder = &self.location.folder;
         let read = |path: &Path| self.storage.id(path).map_err(BagError::io("read", path));

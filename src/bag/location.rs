@@ -1,7 +1,8 @@
 //! Where the files of a recording go.
 //!
 //! `run.mcap` is a file with `metadata.yaml` beside it; any other path is a folder as rosbag2 makes one, `run/` with
-//! `run_0.mcap` and `metadata.yaml`. A recording that goes on in another file does so in `run_1.mcap`, `run_2.mcap`, ...
+//! `run_0.mcap` and `metadata.yaml`. A recording that goes on in another file does so in `run_1.mcap`, `run_2.mcap`
+//! and so on.
 
 use std::path::{Path, PathBuf};
 

@@ -54,8 +54,8 @@ pub(super) struct EarlyEnd {
     pub safe: bool,
 }
 
-/// A file of a recording. A chunk is put together in memory and written whole; the first after a tenth of a second, later
-/// ones after half a second, and then brought to the disk.
+/// A file of a recording. A chunk is put together in memory and written whole; the first after a tenth of a second,
+/// later ones after half a second, and then brought to the disk.
 ///
 /// After an error the file is cut back to its last whole chunk, and only [`Part::end_early`] may follow.
 pub(super) struct Part {

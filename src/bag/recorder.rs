@@ -27,8 +27,8 @@ pub struct Recording {
 
 /// A recording to MCAP that is being written, one caller at a time.
 ///
-/// A chunk is held in memory and written whole, at the latest after half a second, and then brought to the disk: when the
-/// process or the machine dies, less than the last second is lost and everything before it can be read. The same
+/// A chunk is held in memory and written whole, at the latest after half a second, and then brought to the disk: when
+/// the process or the machine dies, less than the last second is lost and everything before it can be read. The same
 /// messages in the same order give the same bytes of every message; chunks are cut by log time, so that the whole file
 /// is the same too as long as it is written faster than real time.
 ///
@@ -85,8 +85,8 @@ impl Recorder {
         self.record_as(topic, None, log_time, log_time, bytes)
     }
 
-    /// Like [`Recorder::record`], with another publish time than log time, and a number in the topic: without one, it is
-    /// the one after the last.
+    /// Like [`Recorder::record`], with another publish time than log time, and a number in the topic: without one, it
+    /// is the one after the last.
     ///
     /// # Errors
     /// As [`Recorder::record`].

@@ -19,8 +19,8 @@ const QUEUE: usize = 8192;
 const QUEUE_BYTES: usize = 128 << 20;
 /// How often it is looked what is due when no message comes.
 const TICK: Duration = Duration::from_millis(50);
-/// Longest wait for the end of a recording: a disk that does not answer must not hold the end of the node.
-const END: Duration = Duration::from_secs(10);
+/// Longest wait for the beginning and for the end of a recording: a disk that does not answer must not hold the node.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A recording under way.
 pub struct RecordingThread {
@@ -33,10 +33,10 @@ pub struct RecordingThread {
 }
 
 impl RecordingThread {
-    /// Begins to record all topics of the node; `name` makes a topic's name absolute.
+    /// Begins to record all topics of the node; `name` makes a topic's name absolute. Gives up after 10 s.
     ///
     /// # Errors
-    /// When the file cannot be made.
+    /// When the file cannot be made; [`BagError::NotBegun`] when the disk does not answer.
     pub fn start(path: &Path, name: impl Fn(&TopicInfo) -> String) -> Result<Self, BagError> {
         Self::start_on(Arc::new(Disk), path, name)
     }
@@ -55,14 +55,37 @@ impl RecordingThread {
             .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
             .collect();
         let health = Arc::new(RecordingHealth::default());
-        let recorder = LiveRecorder::start(storage, path, recorded, Arc::clone(&health))?;
         let (queue, items) = sync_channel(QUEUE);
         let queued = Arc::new(AtomicUsize::new(0));
-        let waiting = Arc::clone(&queued);
+        let (waiting, shared, place) = (Arc::clone(&queued), Arc::clone(&health), path.to_owned());
+        let (begun_sender, begun) = sync_channel(1);
+        let work = move || {
+            // Here, since making a file can take for ever too.
+            let recorder = LiveRecorder::start(storage, &place, recorded, shared);
+            let (recorder, result) = match recorder {
+                Ok(recorder) => (Some(recorder), Ok(())),
+                Err(error) => (None, Err(error)),
+            };
+            // Nobody waits any more when that took too long.
+            let _ = begun_sender.send(result);
+            match recorder {
+                Some(recorder) => write(recorder, &items, &waiting),
+                None => Err(BagError::Stopped { path: place }),
+            }
+        };
         let thread = std::thread::Builder::new()
             .name("recorder".into())
-            .spawn(move || write(recorder, &items, &waiting))
+            .spawn(work)
             .map_err(BagError::io("start the recorder of", path))?;
+        match begun.recv_timeout(PATIENCE) {
+            Ok(begun) => begun?,
+            Err(_) => {
+                return Err(BagError::NotBegun {
+                    path: path.to_owned(),
+                    seconds: PATIENCE.as_secs(),
+                });
+            }
+        }
         Ok(Self {
             queue: Some(queue),
             thread: Some(thread),
@@ -110,7 +133,7 @@ impl RecordingThread {
     /// # Errors
     /// When something could not be written; [`BagError::Hung`] when the disk does not answer.
     pub fn finish(self) -> Result<Recording, BagError> {
-        self.finish_within(END)
+        self.finish_within(PATIENCE)
     }
 
     /// Like [`RecordingThread::finish`], with another bound.

@@ -26,9 +26,8 @@ pub trait StorageFile: Send {
 
     /// Brings what was written to the disk.
     ///
-    /// # Errors
-    /// When the disk refused it. What was written since the last good time may then be lost, whatever a later call says:
-    /// the kernel forgets it.
+    /// # Errors When the disk refused it. What was written since the last good time may then be lost, whatever a later
+    /// call says: the kernel forgets it.
     fn sync(&mut self) -> io::Result<()>;
 
     /// Cuts the file to `length` bytes.

@@ -22,8 +22,8 @@ use crate::messages::topics;
 /// Run a bag or a field log through the model as fast as it goes, into a bag.
 ///
 /// One of our recordings is replayed with its own configuration and applied inputs: the outputs are the same to the
-/// bit. So is a bag of the twin by others (ros2 bag record -a), from where it begins, with what that means for exactness.
-/// From other bags and from field logs the inputs are taken.
+/// bit. A bag that others made of the twin (ros2 bag record -a) is replayed from where it begins, and what is not exact
+/// then is said. From other bags and from field logs the inputs are taken.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
     /// Bag (MCAP, SQLite or their folder) or field log (CSV).

@@ -1,4 +1,5 @@
-//! Ctrl-C and SIGTERM: the first asks for an orderly end, a later one insists. A file size limit is an error of a write.
+//! Ctrl-C and SIGTERM: the first asks for an orderly end, a later one insists. A file size limit is an error of a
+//! write.
 
 use std::io;
 use std::sync::Arc;
@@ -11,8 +12,8 @@ use tokio::signal::unix::{Signal, SignalKind, signal};
 /// Exit code after a forced end, as shells know it from SIGINT.
 const FORCED: i32 = 130;
 
-/// Signals that come this soon after the first are the same request: a supervisor sends one to the process and one to its
-/// group.
+/// Signals that come this soon after the first are the same request: a supervisor sends one to the process and one to
+/// its group.
 const SAME_REQUEST: Duration = Duration::from_secs(2);
 
 /// Time after the first request within which everything has ended or hangs: the solver's last step, what is left to be
@@ -55,8 +56,8 @@ impl Signals {
     }
 }
 
-/// Done when the process is first asked to end. After that, another request ends it at once; while it is recording, once
-/// the end of the recording is written or cannot be.
+/// Done when the process is first asked to end. After that, another request ends it at once; while it is recording,
+/// once the end of the recording is written or cannot be.
 ///
 /// # Errors
 /// When the handlers cannot be installed.
@@ -92,8 +93,8 @@ pub(super) fn shutdown(recording: bool) -> io::Result<impl Future<Output = ()>> 
     })
 }
 
-/// A file that reaches the limit of its size (`ulimit -f`) is an error of that write, as on a full disk, and not the end
-/// of the process.
+/// A file that reaches the limit of its size (`ulimit -f`) is an error of that write, as on a full disk, and not the
+/// end of the process.
 ///
 /// # Errors
 /// When the handler cannot be installed.

@@ -1,14 +1,14 @@
 //! A recording of ours again: its configuration, its applied inputs step by step, the same outputs to the bit.
 //!
-//! A bag that somebody else began while the twin ran (`ros2 bag record -a`) begins with the first applied inputs that it
-//! heard. The model's state at that step is in no message, so that its replay begins with a tool at rest.
+//! A bag that somebody else began while the twin ran (`ros2 bag record -a`) begins with the first applied inputs that
+//! it heard. The model's state at that step is in no message, so that its replay begins with a tool at rest.
 
 use std::path::Path;
 
 use anyhow::Context as _;
 
 use super::player::Player;
-use crate::bag::{self, Bag, Gap, Gaps};
+use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
@@ -36,6 +36,8 @@ pub(super) struct Script {
     last_step: u64,
     /// Messages that the recording lost.
     gaps: Vec<Gap>,
+    /// Parts of it that cannot be read.
+    damaged: Vec<String>,
 }
 
 /// Whether a bag is a recording of the twin, by us or others: it says what the run was made with.
@@ -69,9 +71,17 @@ impl Script {
             })
             .collect();
         let (mut session, mut applied, mut gaps) = (None, Vec::new(), Gaps::default());
+        let mut damaged = Vec::new();
         let (mut status_step, mut newest_stamp) = (0, None);
         for message in bag.by_ref() {
-            let message = message?;
+            let message = match message {
+                // What is lost with it shows by the numbers of the messages around it.
+                Err(error @ BagError::Damaged { .. }) => {
+                    damaged.push(error.to_string());
+                    continue;
+                }
+                message => message?,
+            };
             gaps.observe(&message);
             match message.topic.ros_type.as_str() {
                 SessionInfo::ROS_TYPE => {
@@ -106,6 +116,7 @@ impl Script {
             names,
             last_step,
             gaps: gaps.found(),
+            damaged,
         })
     }
 
@@ -145,13 +156,17 @@ impl Script {
         for gap in &self.gaps {
             if gap.topic.ros_type == AppliedInputs::ROS_TYPE {
                 exactness.departures.push(format!(
-                    "the recording was interrupted, and what drove the model meanwhile is missing ({gap}): \
+                    "the recording has a gap, and what drove the model meanwhile is missing ({gap}): \
                      the replay goes on with the inputs before it"
                 ));
             } else {
-                exactness.notes.push(format!("the recording was interrupted ({gap})"));
+                exactness.notes.push(format!("the recording has a gap ({gap})"));
             }
         }
+        let damaged = self.damaged.iter();
+        exactness
+            .notes
+            .extend(damaged.map(|damage| format!("left out of the recording: {damage}")));
         if self.session.version != env!("CARGO_PKG_VERSION") {
             exactness.departures.push(format!(
                 "recorded with flexdrill {}, replayed with {}: outputs may differ",
