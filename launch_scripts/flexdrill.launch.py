@@ -1,18 +1,21 @@
 """Starts the twin under ROS 2, and on request a rig that plays a log into it.
 
-    ros2 launch launch_scripts/flexdrill.launch.py config:=config/coarse.yaml namespace:=rig_7
+    ros2 launch flexdrill flexdrill.launch.py config:=path/to/config.yaml namespace:=rig_7
     ros2 launch launch_scripts/flexdrill.launch.py log:=path/to/rig_log.csv record:=my_run
 
-The binary is target/release/flexdrill of this repository, or else the one on PATH; binary:=... names another.
+Included from another launch file it keeps to PushRosNamespace and SetParameter. The binary is the one installed with this
+file, or target/release/flexdrill of this repository, or the one on PATH; binary:=... names another.
 """
 
 import shutil
 from pathlib import Path
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
 
+# The repository, or share/flexdrill where it is installed.
 ROOT = Path(__file__).resolve().parent.parent
 
 ARGUMENTS = [
@@ -20,7 +23,7 @@ ARGUMENTS = [
     ("namespace", "", "namespace of all topics that do not start with /"),
     ("node_name", "flexdrill", "name of the node"),
     ("params_file", "", "ROS 2 parameter file"),
-    ("use_sim_time", "false", "take the time from /clock"),
+    ("use_sim_time", "", "true: take the time from /clock; empty: as SetParameter says, else false"),
     ("record", "", "bag to record to (a folder, or a file .mcap); empty: none"),
     ("log", "", "rig log or bag to play into the twin; empty: wait for a real rig"),
     ("mapping", str(ROOT / "config" / "field_logs" / "rig_1hz.yaml"), "columns of a log in CSV"),
@@ -32,9 +35,11 @@ ARGUMENTS = [
 def find_binary(given):
     if given:
         return given
+    installed = ROOT.parent.parent / "lib" / "flexdrill" / "flexdrill"
     built = ROOT / "target" / "release" / "flexdrill"
-    if built.exists():
-        return str(built)
+    for binary in (installed, built):
+        if binary.exists():
+            return str(binary)
     found = shutil.which("flexdrill")
     if found is None:
         raise RuntimeError(f"no flexdrill binary: run `cargo build --release` in {ROOT}, or give binary:=PATH")
@@ -44,24 +49,23 @@ def find_binary(given):
 def start(context):
     value = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
     binary = find_binary(value["binary"])
-    node = [binary, "run", "--config", value["config"]]
+    namespace = value["namespace"].strip("/")
+    node = ["run", "--config", value["config"]]
     if value["record"]:
         node += ["--record", value["record"]]
-    node += ["--ros-args", "-r", f"__node:={value['node_name']}"]
-    if value["namespace"]:
-        node += ["-r", f"__ns:=/{value['namespace'].strip('/')}"]
-    if value["params_file"]:
-        node += ["--params-file", value["params_file"]]
-    node += ["-p", f"use_sim_time:={value['use_sim_time']}"]
-    # Time to finish a recording before the launch system kills.
-    actions = [ExecuteProcess(cmd=node, name="flexdrill", output="screen", sigterm_timeout="15")]
+    parameters = [value["params_file"]] if value["params_file"] else []
+    if value["use_sim_time"]:
+        parameters.append({"use_sim_time": value["use_sim_time"].lower() == "true"})
+    # An own namespace goes below one that was pushed; time to finish a recording before the launch system kills.
+    common = {"namespace": namespace, "output": "screen", "executable": binary}
+    actions = [
+        Node(name=value["node_name"], arguments=node, parameters=parameters, sigterm_timeout="15", **common),
+    ]
     if value["log"]:
-        rig = [binary, "rig", value["log"], "--rate", value["rate"]]
+        rig = ["rig", value["log"], "--rate", value["rate"]]
         if value["log"].endswith(".csv"):
             rig += ["--mapping", value["mapping"]]
-        if value["namespace"]:
-            rig += ["--namespace", f"/{value['namespace'].strip('/')}"]
-        actions.append(ExecuteProcess(cmd=rig, name="flexdrill_rig", output="screen"))
+        actions.append(Node(name="flexdrill_rig", arguments=rig, **common))
     return actions
 
 

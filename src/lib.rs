@@ -20,6 +20,7 @@
 pub mod alarms;
 pub mod bag;
 pub mod cli;
+pub mod dds;
 pub mod field_log;
 pub mod health;
 pub mod messages;

@@ -11,6 +11,7 @@ use std::process::Command;
 use std::sync::Arc;
 
 use flexdrill::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use flexdrill::dds::port::Health;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
     AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, from_cdr, topics,
@@ -122,7 +123,7 @@ fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
     show(&mut book, 10, 1, &snapshot(&[stick_slip(), rolling()]));
     let (events, list) = publish(&mut book, 11);
     let list = list.unwrap();
-    assert_eq!(list.alarms.len(), 12, "all of them are listed");
+    assert_eq!(list.alarms.len(), 13, "all of them are listed");
     assert_eq!((list.sequence, list.unacknowledged, events.len()), (2, 2, 2));
     let worst = &list.alarms[0];
     assert_eq!((worst.id.as_str(), worst.priority), ("backward_whirl", Alarm::HIGH));
@@ -317,8 +318,10 @@ fn inputs_pace_and_recording_call_too() {
             real_time_factor: Some(0.85),
             recording: Some(RecordingState {
                 error: Some("no space left".to_owned()),
+                notice: None,
                 drops: 3,
             }),
+            dds: Health::default(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
     }
@@ -349,6 +352,48 @@ fn inputs_pace_and_recording_call_too() {
             (AlarmEvent::RAISED, Alarm::HIGH)
         ]
     );
+}
+
+/// Losses of a moment outlast the alarm's delay, and so does what is over already.
+#[test]
+fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
+    let calls = |recording: &dyn Fn(i64) -> RecordingState| {
+        let config = config();
+        let conditioner = Conditioner::new(config.inputs.rules());
+        let mut book = AlarmBook::fresh(config, 0);
+        for tenth in 0..40 {
+            let state = NodeState {
+                conditioner: &conditioner,
+                now: tenth as f64 * 0.1,
+                run_state: RunState::Running,
+                failure: None,
+                real_time_factor: Some(1.0),
+                recording: Some(recording(tenth)),
+                dds: Health::default(),
+                drivers: Default::default(),
+            };
+            book.observe_node(&state, tenth * SECOND / 10);
+        }
+        let (_, list) = publish(&mut book, 4);
+        let alarm = find(&list.unwrap(), "recording").clone();
+        (alarm.priority, alarm.evidence)
+    };
+    let good = RecordingState::default();
+    assert_eq!(calls(&|_| good.clone()).0, Alarm::NO_PRIORITY);
+    let lost = |tenth| RecordingState {
+        drops: if tenth < 5 { 0 } else { 7 },
+        ..RecordingState::default()
+    };
+    let (priority, evidence) = calls(&lost);
+    assert_eq!(priority, Alarm::LOW);
+    assert!(evidence.contains("7 messages"), "{evidence}");
+    let over = |_| RecordingState {
+        notice: Some("its folder was removed".to_owned()),
+        ..RecordingState::default()
+    };
+    let (priority, evidence) = calls(&over);
+    assert_eq!(priority, Alarm::MEDIUM);
+    assert!(evidence.contains("its folder was removed"), "{evidence}");
 }
 
 /// A replay of the small tool with levels so low that there are alarms; what it says.
@@ -456,6 +501,7 @@ fn two_drivers_call_with_who_they_are() {
             failure: None,
             real_time_factor: Some(1.0),
             recording: None,
+            dds: Health::default(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
         if tenth == 90 {
@@ -501,6 +547,7 @@ fn an_input_that_is_only_refused_is_stale_and_says_why() {
             failure: None,
             real_time_factor: Some(1.0),
             recording: None,
+            dds: Health::default(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
         // Stale after max_age of 5 s, on its safe value after 10 s more; each calls after the alarm's delay of 2 s.

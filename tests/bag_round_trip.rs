@@ -172,8 +172,10 @@ fn one_damaged_chunk_costs_only_its_own_messages() {
     let folder = tempfile::tempdir().unwrap();
     let path = recording(folder.path(), "run.mcap", 1500);
     let mut bytes = std::fs::read(&path).unwrap();
-    // Well inside one of the ten chunks.
-    let middle = bytes.len() * 4 / 10;
+    // Well inside one of the chunks.
+    let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
+    let chunk = &summary.chunk_indexes[9];
+    let middle = (chunk.chunk_start_offset + chunk.chunk_length / 2) as usize;
     bytes[middle] ^= 0xFF;
     let damaged = folder.path().join("damaged.mcap");
     std::fs::write(&damaged, &bytes).unwrap();

@@ -31,6 +31,22 @@ fn interop_foreign_programs_read_what_we_recover() {
     }
 }
 
+/// A recording whose process was killed has no metadata, which others ask for: better than one that says nothing is there.
+#[test]
+fn interop_foreign_programs_refuse_a_killed_recording() {
+    let folder = tempfile::tempdir().unwrap();
+    let bag = folder.path().join("run");
+    let mut recorder = bag::Recorder::create(&bag, &bag_support::topics()).unwrap();
+    bag_support::record(&mut recorder, 300);
+    recorder.flush().unwrap();
+    // As a kill does: nothing more is written.
+    std::mem::forget(recorder);
+    if let Some(printed) = common::python::run("bags.py", &["killed", bag.to_str().unwrap()], "") {
+        assert!(printed.contains("refused") && printed.contains("metadata"), "{printed}");
+    }
+    assert_eq!(bag_support::check_prefix(bag::open(&bag).unwrap()), 300);
+}
+
 #[test]
 fn interop_we_read_foreign_recordings() {
     let folder = tempfile::tempdir().unwrap();

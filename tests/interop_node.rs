@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 const STATUS: (&str, &str) = ("/twin/status", "flexdrill/msg/TwinStatus");
 
 /// All outputs with their types and how a reader asks for them.
-const OUTPUTS: [(&str, &str, &str); 14] = [
+const OUTPUTS: [(&str, &str, &str); 15] = [
     ("/twin/joint_deflections", "flexdrill/msg/JointDeflections", "reliable"),
     ("/twin/contact_forces", "flexdrill/msg/ContactForces", "reliable"),
     ("/twin/whirl", "flexdrill/msg/WhirlState", "reliable"),
@@ -22,6 +22,7 @@ const OUTPUTS: [(&str, &str, &str); 14] = [
     ("/twin/session", "flexdrill/msg/SessionInfo", "latched"),
     ("/joint_states", "sensor_msgs/msg/JointState", "reliable"),
     ("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "reliable"),
+    ("/tf_static", "tf2_msgs/msg/TFMessage", "latched"),
     ("/rosout", "rcl_interfaces/msg/Log", "latched"),
 ];
 const JOINTS: usize = 6;
@@ -90,6 +91,14 @@ fn inputs_go_in_and_all_outputs_come_out() {
             .contains("build_angle_deg: 19")
     );
     assert_eq!(newest(&mut peer, "/joint_states")["name"][0], "joint_01");
+    // Z is down in the tool's frame and up in its parent: half a turn about X.
+    let transform = newest(&mut peer, "/tf_static")["transforms"][0].clone();
+    assert_eq!(transform["header"]["frame_id"], "map");
+    assert_eq!(transform["child_frame_id"], "flexible_tool");
+    assert_eq!(
+        transform["transform"]["rotation"],
+        json!({"x": 1.0, "y": 0.0, "z": 0.0, "w": 0.0})
+    );
     let items = newest(&mut peer, "/diagnostics")["status"].clone();
     let names: Vec<&str> = items
         .as_array()
@@ -105,6 +114,7 @@ fn inputs_go_in_and_all_outputs_come_out() {
         "stick-slip",
         "shock",
         "recording",
+        "network",
         "alarms",
     ];
     assert_eq!(names, items.map(|item| format!("/flexdrill: {item}")));
@@ -190,6 +200,27 @@ fn parameters_and_services_answer_both_kinds_of_clients() {
         json!({"prefixes": ["outputs.rates"]}),
     );
     assert_eq!(length(&listed["result"], "names"), 9);
+
+    // The logger of the node's name, as `ros2 service call` would set it.
+    let logger = |level: u32| json!({"levels": [{"name": "rig_7.flexdrill", "level": level}]});
+    let set = |peer: &mut common::Peer, level| {
+        peer.call(
+            &service("set_logger_levels"),
+            "rcl_interfaces/srv/SetLoggerLevels",
+            logger(level),
+        )["results"][0]
+            .clone()
+    };
+    assert_eq!(set(&mut peer, 10)["successful"], true);
+    let refused = set(&mut peer, 11);
+    assert!(refused["reason"].as_str().unwrap().contains("20 (info)"), "{refused}");
+    let names = json!({"names": ["rig_7.flexdrill"]});
+    let levels = peer.call(
+        &service("get_logger_levels"),
+        "rcl_interfaces/srv/GetLoggerLevels",
+        names,
+    );
+    assert_eq!(levels["levels"][0]["level"], 10, "{levels}");
 
     // Replies are not lost: the same question many times.
     for _ in 0..30 {

@@ -33,11 +33,13 @@ pub enum AlarmId {
     Solver,
     /// The recording stopped or loses messages.
     Recording,
+    /// DDS had to be started again.
+    Network,
 }
 
 impl AlarmId {
     /// All of them; where they are equally bad, the first goes first.
-    pub const ALL: [AlarmId; 12] = [
+    pub const ALL: [AlarmId; 13] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
@@ -50,6 +52,7 @@ impl AlarmId {
         AlarmId::RealTime,
         AlarmId::Solver,
         AlarmId::Recording,
+        AlarmId::Network,
     ];
 
     /// For programs: as in the configuration.
@@ -67,6 +70,7 @@ impl AlarmId {
             AlarmId::RealTime => "real_time",
             AlarmId::Solver => "solver",
             AlarmId::Recording => "recording",
+            AlarmId::Network => "network",
         }
     }
 
@@ -85,6 +89,7 @@ impl AlarmId {
             AlarmId::RealTime => "not in real time",
             AlarmId::Solver => "model stands still",
             AlarmId::Recording => "recording",
+            AlarmId::Network => "network started again",
         }
     }
 
@@ -124,6 +129,7 @@ impl AlarmId {
             AlarmId::RealTime => node(&alarms.real_time),
             AlarmId::Solver => node(&alarms.solver),
             AlarmId::Recording => node(&alarms.recording),
+            AlarmId::Network => node(&alarms.network),
         };
         Definition {
             id: self.id(),

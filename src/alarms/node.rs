@@ -2,6 +2,7 @@
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
+use crate::dds::port::Health;
 use crate::rig_inputs::DriverSummary;
 use flexdrill_alarms::{Priority, Setpoints};
 use flexdrill_core::dynamics::StepFailure;
@@ -11,6 +12,10 @@ use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
 
 /// Deadband of the real-time factor: less than that between the two setpoints.
 const FACTOR_DEADBAND: f64 = 0.01;
+
+/// How long a loss of messages counts (s): longer than the alarm's default delay, which a loss of a moment would not
+/// outlast.
+const LOSS_COUNTS: f64 = 5.0;
 
 /// What the node knows of itself at an instant.
 #[derive(Debug)]
@@ -29,13 +34,17 @@ pub struct NodeState<'a> {
     pub real_time_factor: Option<f64>,
     /// The recording, if there is one.
     pub recording: Option<RecordingState>,
+    /// DDS.
+    pub dds: Health,
 }
 
 /// How the recording is.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RecordingState {
-    /// Why writing failed; nothing more is recorded then.
+    /// Why nothing can be written at present.
     pub error: Option<String>,
+    /// What was wrong a moment ago, when the recording goes on in another file since.
+    pub notice: Option<String>,
     /// Messages lost so far.
     pub drops: u64,
 }
@@ -45,10 +54,12 @@ pub struct RecordingState {
 pub(super) struct Memory {
     pace: Option<Priority>,
     drops: u64,
+    /// Messages that the recording lost in a row of losses, and until when that counts (s).
+    losses: Option<(u64, f64)>,
 }
 
 /// What the node's state says of every alarm of the node.
-pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 6] {
+pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 7] {
     let [speed, weight] = InputKind::ALL.map(|kind| (AlarmId::of_input(kind), input(kind, state)));
     [
         speed,
@@ -56,7 +67,11 @@ pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId,
         (AlarmId::TwoDrivers, two_drivers(&state.drivers)),
         (AlarmId::RealTime, real_time(state, memory)),
         (AlarmId::Solver, solver(state.failure)),
-        (AlarmId::Recording, recording(state.recording.as_ref(), memory)),
+        (
+            AlarmId::Recording,
+            recording(state.recording.as_ref(), memory, state.now),
+        ),
+        (AlarmId::Network, network(&state.dds)),
     ]
 }
 
@@ -202,34 +217,78 @@ fn solver(failure: Option<StepFailure>) -> Finding {
     }
 }
 
-fn recording(recording: Option<&RecordingState>, memory: &mut Memory) -> Finding {
+/// Restarts of DDS within a minute from which on it is not a single event.
+const MANY_RESTARTS: usize = 3;
+
+fn network(dds: &Health) -> Finding {
+    let recent = dds.recent_restarts();
+    let Some(cause) = dds.cause().filter(|_| recent > 0) else {
+        return Finding::default();
+    };
+    let many = recent >= MANY_RESTARTS;
+    Finding {
+        priority: Some(if many { Priority::Medium } else { Priority::Low }),
+        value: recent as f64,
+        threshold: if many { MANY_RESTARTS as f64 } else { 1.0 },
+        unit: "1/min",
+        evidence: format!("DDS was started again {recent} times within a minute; the last time {cause}."),
+        cause: "A packet of another program, a stopped process, a clock that was set, or too little memory.".to_owned(),
+        consequence:
+            "Dashboards and the rig's values are cut off for up to 3 s each time; the model and its recording \
+                      go on."
+                .to_owned(),
+        what_to_do: if many {
+            "Look for a program that sends broken packets; ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST keeps others out."
+        } else {
+            "Nothing if it does not come again; the log tells more."
+        }
+        .to_owned(),
+        ..Finding::default()
+    }
+}
+
+fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) -> Finding {
     let Some(recording) = recording else {
         return Finding::default();
     };
     let lost = recording.drops.saturating_sub(memory.drops);
     memory.drops = recording.drops;
-    let (priority, evidence, cause) = match &recording.error {
-        Some(error) => (
+    let row = memory.losses.filter(|(_, until)| now < *until);
+    if lost > 0 {
+        let before = row.map_or(0, |(lost, _)| lost);
+        memory.losses = Some((before + lost, now + LOSS_COUNTS));
+    } else {
+        memory.losses = row;
+    }
+    let stopped = "The disk is full or has gone, or the file or its folder was removed.";
+    let (priority, evidence, cause) = match (&recording.error, &recording.notice) {
+        (Some(error), _) => (Priority::Medium, format!("The recording stopped: {error}."), stopped),
+        (None, Some(notice)) => (
             Priority::Medium,
-            format!("The recording stopped: {error}."),
-            "The disk is full or has gone, or the file was removed.",
+            format!("The recording had stopped and goes on in another file: {notice}."),
+            stopped,
         ),
-        None if lost > 0 => (
-            Priority::Low,
-            format!(
-                "{lost} messages did not get into the recording, {} so far.",
-                recording.drops
+        (None, None) => match memory.losses {
+            Some((lost, _)) => (
+                Priority::Low,
+                format!(
+                    "{lost} messages did not get into the recording, {} so far.",
+                    recording.drops
+                ),
+                "The disk is too slow.",
             ),
-            "The disk is too slow.",
-        ),
-        None => return Finding::default(),
+            None => return Finding::default(),
+        },
     };
     Finding {
         priority: Some(priority),
         evidence,
         cause: cause.to_owned(),
         consequence: "The run cannot be replayed to the bit, and the journal of alarms has gaps.".to_owned(),
-        what_to_do: "Free the disk or record to another, and start the node again with --record.".to_owned(),
+        what_to_do:
+            "Free the disk: the recording then goes on in another file by itself. Or start the node again with \
+                     --record on another disk."
+                .to_owned(),
         ..Finding::default()
     }
 }

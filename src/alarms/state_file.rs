@@ -5,8 +5,12 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use flexdrill_alarms::Saved;
+
+/// Longest wait for the last state at the end.
+const LAST_STATE: Duration = Duration::from_secs(2);
 
 /// Why a kept state cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -134,12 +138,23 @@ impl StateWriter {
 }
 
 impl Drop for StateWriter {
-    /// Waits until the last state is on the disk.
+    /// Waits until the last state is on the disk, for a moment.
     fn drop(&mut self) {
         drop(self.sender.take());
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
+        let Some(thread) = self.thread.take() else { return };
+        let deadline = Instant::now() + LAST_STATE;
+        while !thread.is_finished() {
+            if Instant::now() >= deadline {
+                // The thread is left behind: a disk that does not answer must not hold the end of the node.
+                tracing::warn!(
+                    "the alarms' state was not written within {} s: the disk does not answer",
+                    LAST_STATE.as_secs()
+                );
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(1));
         }
+        let _ = thread.join();
     }
 }
 

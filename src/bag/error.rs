@@ -40,6 +40,70 @@ pub enum BagError {
         /// File or folder that it is about.
         path: PathBuf,
     },
+    /// The disk refused what the kernel had taken.
+    #[error(
+        "cannot bring {path} to the disk: {source}; the last {messages} messages in it may be lost",
+        path = path.display()
+    )]
+    NotSafe {
+        /// File or folder that it is about.
+        path: PathBuf,
+        /// Messages written since the last time that it was on the disk for certain.
+        messages: u64,
+        /// The error behind it.
+        source: io::Error,
+    },
+    /// The file is not at its place any more.
+    #[error(
+        "{path} is no longer where it was made: the file or its folder was removed, moved or replaced; \
+         the {messages} messages in it are not in this recording any more",
+        path = path.display()
+    )]
+    Gone {
+        /// File or folder that it is about.
+        path: PathBuf,
+        /// Messages in the file.
+        messages: u64,
+    },
+    /// The folder of a recording is on another disk than before.
+    #[error(
+        "{path} is on another disk than when the recording began: nothing is written there; \
+         bring the first disk back, or start the recording again",
+        path = path.display()
+    )]
+    OtherDisk {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The disk does not answer.
+    #[error(
+        "the recording {path} did not end within {seconds} s: the disk does not answer; \
+         {messages} messages are not known to be on it",
+        path = path.display()
+    )]
+    Hung {
+        /// File or folder that it is about.
+        path: PathBuf,
+        /// How long it was waited for (s).
+        seconds: u64,
+        /// Messages that may be lost.
+        messages: u64,
+    },
+    /// A recording ended while it could not be written, or its end could not.
+    #[error(
+        "the recording {path} is not complete: {problem}; {messages} messages are in it, {lost} are lost",
+        path = path.display()
+    )]
+    Incomplete {
+        /// File or folder that it is about.
+        path: PathBuf,
+        /// Messages in the files.
+        messages: u64,
+        /// Messages lost.
+        lost: u64,
+        /// Why.
+        problem: Box<BagError>,
+    },
     /// The MCAP writer refused.
     #[error("cannot write {path}: {source}", path = path.display())]
     Write {
@@ -151,8 +215,9 @@ impl BagError {
 /// What a person can do about the commonest ones.
 fn hint(error: &io::Error) -> &'static str {
     match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            "; free space and start a new recording, what was written before is kept"
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "; free space, what was written before is kept",
+        io::ErrorKind::FileTooLarge => {
+            "; a file may not grow further (ulimit -f, or the file system), what was written before is kept"
         }
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "; choose a folder that you may write to"

@@ -1,11 +1,12 @@
 //! Where the files of a recording go.
 //!
 //! `run.mcap` is a file with `metadata.yaml` beside it; any other path is a folder as rosbag2 makes one, `run/` with
-//! `run_0.mcap` and `metadata.yaml`.
+//! `run_0.mcap` and `metadata.yaml`. A recording that goes on in another file does so in `run_1.mcap`, `run_2.mcap`, ...
 
 use std::path::{Path, PathBuf};
 
 use super::BagError;
+use super::storage::sync_folder;
 
 /// Name of rosbag2's metadata file.
 pub(super) const METADATA: &str = "metadata.yaml";
@@ -13,10 +14,14 @@ pub(super) const METADATA: &str = "metadata.yaml";
 /// Paths of one recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Location {
-    /// The MCAP file.
+    /// The first MCAP file.
     pub file: PathBuf,
     /// The metadata.yaml.
     pub metadata: PathBuf,
+    /// Where both are.
+    pub folder: PathBuf,
+    /// Name of the files before their number.
+    stem: String,
 }
 
 impl Location {
@@ -26,24 +31,49 @@ impl Location {
     /// When a file of the recording exists already, or a folder cannot be made.
     pub fn prepare(path: &Path) -> Result<Self, BagError> {
         let is_file = path.extension().is_some_and(|extension| extension == "mcap");
-        let (folder, file) = if is_file {
-            let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-            (folder.unwrap_or(Path::new(".")).to_owned(), path.to_owned())
-        } else {
-            let name = path.file_name().ok_or_else(|| BagError::NotABag {
+        let name = |name: Option<&std::ffi::OsStr>| {
+            let name = name.ok_or_else(|| BagError::NotABag {
                 path: path.to_owned(),
                 problem: "a recording needs a name".to_owned(),
             })?;
-            (path.to_owned(), path.join(format!("{}_0.mcap", name.to_string_lossy())))
+            Ok::<_, BagError>(name.to_string_lossy().into_owned())
         };
-        let metadata = folder.join(METADATA);
-        if file.exists() {
-            return Err(BagError::Exists { path: file });
+        let location = if is_file {
+            let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+            let folder = folder.unwrap_or(Path::new(".")).to_owned();
+            Self {
+                file: path.to_owned(),
+                metadata: folder.join(METADATA),
+                folder,
+                stem: name(path.file_stem())?,
+            }
+        } else {
+            let stem = name(path.file_name())?;
+            Self {
+                file: path.join(format!("{stem}_0.mcap")),
+                metadata: path.join(METADATA),
+                folder: path.to_owned(),
+                stem,
+            }
+        };
+        if location.file.exists() {
+            return Err(BagError::Exists { path: location.file });
         }
-        if metadata.exists() {
-            return Err(BagError::OtherMetadata { path: metadata });
+        if location.metadata.exists() {
+            return Err(BagError::OtherMetadata {
+                path: location.metadata,
+            });
         }
-        std::fs::create_dir_all(&folder).map_err(BagError::io("make the folder", &folder))?;
-        Ok(Self { file, metadata })
+        std::fs::create_dir_all(&location.folder).map_err(BagError::io("make the folder", &location.folder))?;
+        sync_folder(&location.folder);
+        Ok(location)
+    }
+
+    /// The file of that number, from 0.
+    pub fn part(&self, number: usize) -> PathBuf {
+        match number {
+            0 => self.file.clone(),
+            _ => self.folder.join(format!("{}_{number}.mcap", self.stem)),
+        }
     }
 }

@@ -1,92 +1,102 @@
-//! rosbag2's `metadata.yaml`, version 9: written beside a recording, read to find a bag's files.
+//! rosbag2's `metadata.yaml`, version 9: written beside a recording at its end, read to
+//! find a bag's files.
 
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::Write as _;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use super::storage::Storage;
+use super::tally::Tally;
 use super::{BagError, Topic, qos};
 
-/// What the metadata says of a recording.
-pub(super) struct Metadata<'a> {
-    /// Name of the MCAP file, without folder.
-    pub file: &'a str,
-    /// Topics with their numbers of messages.
-    pub topics: &'a [Topic],
-    /// Messages per topic.
-    pub counts: &'a [u64],
-    /// First and last log time (ns), if there are messages.
-    pub bounds: Option<(u64, u64)>,
+/// A file of a recording, as its metadata names it.
+#[derive(Debug, Clone)]
+pub(super) struct FileEntry {
+    /// Name, without folder.
+    pub name: String,
+    /// What is in it.
+    pub tally: Tally,
 }
 
-impl Metadata<'_> {
-    /// The YAML below `rosbag2_bagfile_information`.
-    pub fn body(&self) -> String {
-        let total: u64 = self.counts.iter().sum();
-        let (start, end) = self.bounds.unwrap_or((0, 0));
-        let (duration, file) = (end - start, quoted(self.file));
-        let mut text = format!(
-            concat!(
-                "version: 9\nstorage_identifier: mcap\nduration:\n  nanoseconds: {duration}\n",
-                "starting_time:\n  nanoseconds_since_epoch: {start}\nmessage_count: {total}\n",
-                "topics_with_message_count:{none}\n",
-            ),
-            duration = duration,
-            start = start,
-            total = total,
-            none = if self.topics.is_empty() { " []" } else { "" },
-        );
-        for (topic, count) in self.topics.iter().zip(self.counts) {
-            let _ = write!(
-                text,
-                concat!(
-                    "- topic_metadata:\n    name: {}\n    type: {}\n    serialization_format: {}\n",
-                    "    offered_qos_profiles:{}    type_description_hash: {}\n  message_count: {}\n",
-                ),
-                quoted(&topic.name),
-                quoted(&topic.ros_type),
-                quoted(&topic.encoding),
-                nested(&qos::to_yaml(&topic.qos), "      "),
-                quoted(&topic.type_hash),
-                count,
-            );
-        }
+/// The YAML below `rosbag2_bagfile_information`, of these files; `custom` are rosbag2's pairs of free text.
+pub(super) fn body(topics: &[Topic], files: &[FileEntry], custom: &[(&str, String)]) -> String {
+    let mut all = Tally::new(topics.len());
+    for file in files {
+        all.add(&file.tally);
+    }
+    let none = |empty: bool| if empty { " []" } else { "" };
+    let mut text = format!(
+        "version: 9\nstorage_identifier: mcap\n{}topics_with_message_count:{}\n",
+        times(&all),
+        none(topics.is_empty())
+    );
+    for (topic, count) in topics.iter().zip(&all.per_topic) {
         let _ = write!(
             text,
             concat!(
-                "compression_format: \"\"\ncompression_mode: \"\"\nrelative_file_paths:\n- {file}\n",
-                "files:\n- path: {file}\n  starting_time:\n    nanoseconds_since_epoch: {start}\n",
-                "  duration:\n    nanoseconds: {duration}\n  message_count: {total}\n",
-                "custom_data: ~\nros_distro: jazzy\n",
+                "- topic_metadata:\n    name: {}\n    type: {}\n    serialization_format: {}\n",
+                "    offered_qos_profiles:{}    type_description_hash: {}\n  message_count: {}\n",
             ),
-            file = file,
-            start = start,
-            duration = duration,
-            total = total,
+            quoted(&topic.name),
+            quoted(&topic.ros_type),
+            quoted(&topic.encoding),
+            nested(&qos::to_yaml(&topic.qos), "      "),
+            quoted(&topic.type_hash),
+            count,
         );
-        text
     }
+    let _ = writeln!(
+        text,
+        "compression_format: \"\"\ncompression_mode: \"\"\nrelative_file_paths:{}",
+        none(files.is_empty())
+    );
+    for file in files {
+        let _ = writeln!(text, "- {}", quoted(&file.name));
+    }
+    let _ = writeln!(text, "files:{}", none(files.is_empty()));
+    for file in files {
+        let times = nested(&times(&file.tally), "  ");
+        let _ = write!(text, "- path: {}{times}", quoted(&file.name));
+    }
+    if custom.is_empty() {
+        text.push_str("custom_data: ~\n");
+    } else {
+        text.push_str("custom_data:\n");
+    }
+    for (key, value) in custom {
+        let _ = writeln!(text, "  {key}: {}", quoted(value));
+    }
+    text.push_str("ros_distro: jazzy\n");
+    text
+}
 
-    /// Writes the file: first under another name, so that there is never half of one.
-    ///
-    /// # Errors
-    /// When it cannot be written.
-    pub fn write(&self, path: &Path) -> Result<(), BagError> {
-        let temporary = path.with_extension("yaml.part");
-        let text = format!("rosbag2_bagfile_information:{}", nested(&self.body(), "  "));
-        let written = File::create(&temporary).and_then(|mut file| {
-            file.write_all(text.as_bytes())?;
-            file.sync_all()
-        });
-        written
-            .and_then(|()| std::fs::rename(&temporary, path))
-            .map_err(|source| {
-                let _ = std::fs::remove_file(&temporary);
-                BagError::io("write", path)(source)
-            })
-    }
+/// Duration, start and number of messages.
+fn times(tally: &Tally) -> String {
+    let (start, end) = tally.bounds.unwrap_or((0, 0));
+    format!(
+        concat!(
+            "duration:\n  nanoseconds: {}\nstarting_time:\n  nanoseconds_since_epoch: {}\n",
+            "message_count: {}\n"
+        ),
+        end - start,
+        start,
+        tally.messages()
+    )
+}
+
+/// Writes the file at the end of a recording. Before there is none, so that nobody takes a recording that was killed
+/// for one without messages.
+///
+/// # Errors
+/// When it cannot be written, or another bag's is there.
+pub(super) fn write(storage: &dyn Storage, path: &Path, body: &str) -> Result<(), BagError> {
+    let text = format!("rosbag2_bagfile_information:{}", nested(body, "  "));
+    storage.put(path, &text).map_err(|source| match source.kind() {
+        ErrorKind::AlreadyExists => BagError::OtherMetadata { path: path.to_owned() },
+        _ => BagError::io("write", path)(source),
+    })
 }
 
 /// A double-quoted YAML scalar; JSON's escapes are YAML's too.

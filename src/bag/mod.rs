@@ -24,27 +24,39 @@
 //! ```
 //!
 //! # Layout
-//! - `recorder`: writing; `recording_thread`: the same behind a queue. `location`: where the files of a recording go.
-//!   `metadata`: rosbag2's `metadata.yaml`.
+//! - `storage`: what is asked of the file system. `part`: one MCAP file that is written, by `sink`, with its
+//!   `tally`. `recorder`: a recording that the
+//!   first error ends; `live`: one that goes on in another file; `recording_thread`: the same behind a queue, with its
+//!   `recording_health`. `location`: where the files go. `metadata`: rosbag2's `metadata.yaml`.
 //! - `reader`: [`open`], all sources merged in time order. `mcap_file`, `sqlite`: one source each.
-//! - `recover`: reading and writing again.
+//! - `recover`: reading and writing again. `gaps`: what a recording lost.
 
 mod error;
+mod gaps;
+mod live;
 mod location;
 mod mcap_file;
 mod metadata;
+mod part;
 mod qos;
 mod raw;
 mod reader;
 mod recorder;
+mod recording_health;
 mod recording_thread;
 mod recover;
+mod sink;
 mod sqlite;
+mod storage;
+mod tally;
 mod topic;
 
 pub use error::BagError;
+pub use gaps::{Gap, Gaps};
 pub use reader::{Bag, BagMessage, Cut, open};
 pub use recorder::{Recorder, Recording};
-pub use recording_thread::{RecordingHealth, RecordingThread};
+pub use recording_health::RecordingHealth;
+pub use recording_thread::RecordingThread;
 pub use recover::{Recovered, recover, recover_with};
+pub use storage::{Disk, FileId, Storage, StorageFile};
 pub use topic::Topic;

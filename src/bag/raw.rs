@@ -12,6 +12,8 @@ pub(super) struct RawMessage {
     /// ns since the clock's epoch.
     pub publish_time: i64,
     pub topic: usize,
+    /// Number in its topic, where the file numbers them.
+    pub sequence: Option<u32>,
     /// CDR with its header.
     pub data: Vec<u8>,
 }

@@ -28,6 +28,8 @@ pub struct BagMessage {
     pub publish_time: i64,
     /// CDR with its header.
     pub data: Vec<u8>,
+    /// Number in its topic; in our recordings, one that is left out is a message that was lost. SQLite bags do not say.
+    pub sequence: Option<u32>,
 }
 
 impl BagMessage {
@@ -185,7 +187,7 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, BagError> {
             files.push(file);
         }
     }
-    files.sort();
+    files.sort_by_cached_key(|file| in_order(file));
     if files.is_empty() {
         return Err(BagError::NotABag {
             path: path.to_owned(),
@@ -193,6 +195,14 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, BagError> {
         });
     }
     Ok(files)
+}
+
+/// Orders `run_10.mcap` behind `run_2.mcap`: name before the number, number, name.
+fn in_order(file: &Path) -> (String, u64, PathBuf) {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let name = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+    let number = stem.get(name.len()..).and_then(|number| number.parse().ok());
+    (name.to_owned(), number.unwrap_or(0), file.to_owned())
 }
 
 impl Bag {
@@ -304,6 +314,7 @@ impl Iterator for Bag {
             log_time: message.log_time,
             publish_time: message.publish_time,
             data: message.data,
+            sequence: message.sequence,
         }))
     }
 }

@@ -1,63 +1,35 @@
 //! The recorder's thread behind a bounded queue: a slow disk loses messages of the recording, never time of the node.
 
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use super::{BagError, Recorder, Recording, Topic};
+use super::live::{Item, LiveRecorder};
+use super::recording_health::RecordingHealth;
+use super::storage::{Disk, Storage};
+use super::{BagError, Recording, Topic};
 use crate::messages::topics::{self, TopicInfo};
 
 /// Messages that may wait for the disk: at 300 per second, over 20 s.
 const QUEUE: usize = 8192;
-/// Silence after which what was recorded is brought to the disk.
-const IDLE: Duration = Duration::from_millis(500);
-
-struct Item {
-    topic: usize,
-    log_time: i64,
-    cdr: Vec<u8>,
-}
-
-/// How the recording is doing.
-#[derive(Debug, Default)]
-pub struct RecordingHealth {
-    messages: AtomicU64,
-    drops: AtomicU64,
-    failed: AtomicBool,
-    error: Mutex<Option<String>>,
-}
-
-impl RecordingHealth {
-    /// Messages written.
-    pub fn messages(&self) -> u64 {
-        self.messages.load(Ordering::Relaxed)
-    }
-
-    /// Messages lost because the queue was full or writing failed.
-    pub fn drops(&self) -> u64 {
-        self.drops.load(Ordering::Relaxed)
-    }
-
-    /// Whether writing failed; nothing more is recorded then.
-    pub fn failed(&self) -> bool {
-        self.failed.load(Ordering::Acquire)
-    }
-
-    /// Why writing failed, for a person.
-    pub fn error(&self) -> Option<String> {
-        self.error.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-}
+/// Bytes that may wait for the disk: at 16 kB a message, as many as messages.
+const QUEUE_BYTES: usize = 128 << 20;
+/// How often it is looked what is due when no message comes.
+const TICK: Duration = Duration::from_millis(50);
+/// Longest wait for the end of a recording: a disk that does not answer must not hold the end of the node.
+const END: Duration = Duration::from_secs(10);
 
 /// A recording under way.
 pub struct RecordingThread {
     queue: Option<SyncSender<Item>>,
     thread: Option<JoinHandle<Result<Recording, BagError>>>,
     health: Arc<RecordingHealth>,
-    path: PathBuf,
+    /// Next number of each topic of the node.
+    sequences: [AtomicU32; topics::ALL.len()],
+    queued: Arc<AtomicUsize>,
 }
 
 impl RecordingThread {
@@ -66,45 +38,66 @@ impl RecordingThread {
     /// # Errors
     /// When the file cannot be made.
     pub fn start(path: &Path, name: impl Fn(&TopicInfo) -> String) -> Result<Self, BagError> {
+        Self::start_on(Arc::new(Disk), path, name)
+    }
+
+    /// Like [`RecordingThread::start`], on another file system than this machine's.
+    ///
+    /// # Errors
+    /// As [`RecordingThread::start`].
+    pub fn start_on(
+        storage: Arc<dyn Storage>,
+        path: &Path,
+        name: impl Fn(&TopicInfo) -> String,
+    ) -> Result<Self, BagError> {
         let recorded: Vec<Topic> = topics::ALL
             .iter()
             .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
             .collect();
-        let recorder = Recorder::create(path, &recorded)?;
-        let path = recorder.path().to_owned();
-        let (queue, items) = sync_channel(QUEUE);
         let health = Arc::new(RecordingHealth::default());
-        let shared = Arc::clone(&health);
+        let recorder = LiveRecorder::start(storage, path, recorded, Arc::clone(&health))?;
+        let (queue, items) = sync_channel(QUEUE);
+        let queued = Arc::new(AtomicUsize::new(0));
+        let waiting = Arc::clone(&queued);
         let thread = std::thread::Builder::new()
             .name("recorder".into())
-            .spawn(move || write(recorder, &items, &shared))
-            .map_err(|source| BagError::Io {
-                action: "start the recorder of",
-                path: path.clone(),
-                source,
-            })?;
+            .spawn(move || write(recorder, &items, &waiting))
+            .map_err(BagError::io("start the recorder of", path))?;
         Ok(Self {
             queue: Some(queue),
             thread: Some(thread),
             health,
-            path,
+            sequences: Default::default(),
+            queued,
         })
     }
 
-    /// Hands over a message; counts it as lost when there is no room.
+    /// Hands over a message; counts it as lost when there is no room. Never waits.
     pub fn record(&self, topic: &TopicInfo, log_time: i64, cdr: &[u8]) {
         let Some(index) = topics::ALL.iter().position(|known| known.name == topic.name) else {
             return;
         };
-        let item = Item {
-            topic: index,
-            log_time,
-            cdr: cdr.to_vec(),
+        let Some(sequence) = self.sequences.get(index) else {
+            return;
         };
-        let sent = self.queue.as_ref().is_some_and(|queue| queue.try_send(item).is_ok());
-        if !sent {
-            self.health.drops.fetch_add(1, Ordering::Relaxed);
-        }
+        // Counted whether there is room or not: a reader finds what is missing by its number.
+        let sequence = sequence.fetch_add(1, Ordering::Relaxed);
+        let room = self.queued.load(Ordering::Relaxed) + cdr.len() <= QUEUE_BYTES;
+        let sent = room
+            && self.queue.as_ref().is_some_and(|queue| {
+                self.queued.fetch_add(cdr.len(), Ordering::Relaxed);
+                let sent = queue.try_send(Item {
+                    topic: index,
+                    sequence,
+                    log_time: u64::try_from(log_time).unwrap_or(0),
+                    cdr: cdr.to_vec(),
+                });
+                if sent.is_err() {
+                    self.queued.fetch_sub(cdr.len(), Ordering::Relaxed);
+                }
+                sent.is_ok()
+            });
+        self.health.offer(sent);
     }
 
     /// How it is doing.
@@ -112,55 +105,59 @@ impl RecordingThread {
         &self.health
     }
 
-    /// The MCAP file.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Writes what is left, the index and the metadata.
+    /// Writes what is left, the index and the metadata. Gives up after 10 s.
     ///
     /// # Errors
-    /// When writing failed, now or before.
-    pub fn finish(mut self) -> Result<Recording, BagError> {
+    /// When something could not be written; [`BagError::Hung`] when the disk does not answer.
+    pub fn finish(self) -> Result<Recording, BagError> {
+        self.finish_within(END)
+    }
+
+    /// Like [`RecordingThread::finish`], with another bound.
+    ///
+    /// # Errors
+    /// As [`RecordingThread::finish`].
+    pub fn finish_within(mut self, bound: Duration) -> Result<Recording, BagError> {
         drop(self.queue.take());
-        match self.thread.take().map(JoinHandle::join) {
-            Some(Ok(result)) => result,
-            _ => Err(BagError::Stopped {
-                path: self.path.clone(),
-            }),
+        let Some(thread) = self.thread.take() else {
+            return Err(self.stopped());
+        };
+        let deadline = Instant::now() + bound;
+        while !thread.is_finished() {
+            if Instant::now() >= deadline {
+                // The thread is left behind: nobody can end a call that waits for a disk.
+                return Err(BagError::Hung {
+                    path: self.health.path(),
+                    seconds: bound.as_secs(),
+                    messages: self.health.waiting(),
+                });
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        thread.join().unwrap_or_else(|_| Err(self.stopped()))
+    }
+
+    fn stopped(&self) -> BagError {
+        BagError::Stopped {
+            path: self.health.path(),
         }
     }
 }
 
-fn write(mut recorder: Recorder, items: &Receiver<Item>, health: &RecordingHealth) -> Result<Recording, BagError> {
-    let mut first_error = None;
+fn write(mut recorder: LiveRecorder, items: &Receiver<Item>, queued: &AtomicUsize) -> Result<Recording, BagError> {
+    let mut ticked = Instant::now();
     loop {
-        let result = match items.recv_timeout(IDLE) {
+        match items.recv_timeout(TICK) {
             Ok(item) => {
-                let recorded = recorder.record(item.topic, item.log_time, &item.cdr);
-                let counter = if recorded.is_ok() {
-                    &health.messages
-                } else {
-                    &health.drops
-                };
-                counter.fetch_add(1, Ordering::Relaxed);
-                recorded
+                queued.fetch_sub(item.cdr.len(), Ordering::Relaxed);
+                recorder.record(item);
             }
-            Err(RecvTimeoutError::Timeout) if first_error.is_none() => recorder.flush(),
-            Err(RecvTimeoutError::Timeout) => Ok(()),
-            Err(RecvTimeoutError::Disconnected) => break,
-        };
-        if let Err(error) = result
-            && first_error.is_none()
-        {
-            tracing::error!("the recording stopped: {error}; the twin goes on without it");
-            *health.error.lock().unwrap_or_else(PoisonError::into_inner) = Some(error.to_string());
-            health.failed.store(true, Ordering::Release);
-            first_error = Some(error);
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return recorder.finish(),
         }
-    }
-    match first_error {
-        Some(error) => Err(error),
-        None => recorder.finish(),
+        if ticked.elapsed() >= TICK {
+            recorder.tick();
+            ticked = Instant::now();
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{BagError, Cut, Recorder, Recording, Topic, open};
+use super::{BagError, Cut, Gap, Gaps, Recorder, Recording, Topic, open};
 
 /// What was recovered.
 #[derive(Debug)]
@@ -15,6 +15,8 @@ pub struct Recovered {
     pub cuts: Vec<Cut>,
     /// Parts that were damaged and are not in the new bag.
     pub damaged: Vec<BagError>,
+    /// Topics of which messages were lost before: the recording was interrupted.
+    pub gaps: Vec<Gap>,
 }
 
 /// Copies everything that can be read of the bag `input` to a new one at `output`.
@@ -40,6 +42,7 @@ pub fn recover_with(
     let total = bag.message_count();
     let mut recorder = Recorder::create(output, &topics)?;
     let mut damaged = Vec::new();
+    let mut gaps = Gaps::default();
     for message in bag {
         match message {
             // A channel that neither summary nor first pass knew of.
@@ -49,8 +52,10 @@ pub fn recover_with(
                 count: topics.len(),
             }),
             Ok(message) => {
-                recorder.record_published(
+                gaps.observe(&message);
+                recorder.record_as(
                     message.topic_index,
+                    message.sequence,
                     message.log_time,
                     message.publish_time,
                     &message.data,
@@ -65,5 +70,6 @@ pub fn recover_with(
         topics,
         cuts,
         damaged,
+        gaps: gaps.found(),
     })
 }

@@ -159,6 +159,7 @@ fn message(
         order: 0,
         publish_time: log_time,
         topic,
+        sequence: None,
         data: row.get(3)?,
     }))
 }

@@ -18,6 +18,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::dds::side;
 use crate::ros::args;
 use crate::told::printable_lines;
 
@@ -57,8 +58,18 @@ const WRONG_USE: u8 = 2;
 
 /// Parses the command line, runs the subcommand, reports a failure on standard error.
 pub fn main() -> ExitCode {
+    // The node's own child, not a subcommand for people.
+    if std::env::args_os()
+        .nth(1)
+        .is_some_and(|first| first == side::SUBCOMMAND)
+    {
+        return side::main();
+    }
     let (arguments, ros_args) = args::split(std::env::args());
     let cli = Cli::parse_from(arguments);
+    if let Err(error) = signals::outlive_file_size_limit() {
+        eprintln!("warning: a limit of the file size will end the program: {error}");
+    }
     let result: anyhow::Result<()> = match cli.command {
         Command::Run(args) => run::run(&args, &ros_args),
         Command::Rig(args) => rig::run(&args, &ros_args),

@@ -10,7 +10,7 @@ use crate::told::printable;
 /// Make a whole bag of one that was cut short or damaged.
 #[derive(Debug, clap::Args)]
 pub struct RecoverArgs {
-    /// Bag: an .mcap or .db3 file, or a folder with metadata.yaml.
+    /// Bag: an .mcap or .db3 file, or a folder with such files.
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// New bag: a file if it ends in .mcap, else a folder.
@@ -40,6 +40,9 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
     }
     for damage in &recovered.damaged {
         eprintln!("left out: {}", printable(&damage.to_string()));
+    }
+    for gap in &recovered.gaps {
+        eprintln!("lost while it was recorded: {gap}");
     }
     for (topic, count) in recovered.topics.iter().zip(&recovered.recording.per_topic) {
         println!(

@@ -9,6 +9,7 @@ mod summary;
 
 use std::path::{Path, PathBuf};
 
+use anyhow::Context as _;
 use clap::Args;
 
 use self::player::Player;
@@ -16,11 +17,13 @@ use super::progress::Progress;
 use super::run::load_config;
 use super::{WrongUse, numbers, source};
 use crate::bag;
+use crate::messages::topics;
 
 /// Run a bag or a field log through the model as fast as it goes, into a bag.
 ///
 /// One of our recordings is replayed with its own configuration and applied inputs: the outputs are the same to the
-/// bit. From other bags and from field logs the inputs are taken.
+/// bit. So is a bag of the twin by others (ros2 bag record -a), from where it begins, with what that means for exactness.
+/// From other bags and from field logs the inputs are taken.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
     /// Bag (MCAP, SQLite or their folder) or field log (CSV).
@@ -48,8 +51,32 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         if args.config.is_some() || args.source.is_given() {
             return Err(WrongUse::new("a recording of flexdrill brings its own configuration and inputs: leave out --config, --from, --to and --mapping, or use another bag").into());
         }
-        let done = recording::Script::read(&args.input)?.replay(&args.out, args.duration)?;
-        return finish(done, args.incidents.as_deref());
+        let script = recording::Script::read(&args.input)?;
+        let exactness = script.exactness();
+        for departure in &exactness.departures {
+            eprintln!("not exact: {departure}");
+        }
+        for note in &exactness.notes {
+            eprintln!("{note}");
+        }
+        let done = if script.is_empty() {
+            let samples = args.source.read(&args.input).with_context(|| {
+                format!(
+                    "{}: nothing in it says what drove the model, neither {} nor the rig's inputs",
+                    args.input.display(),
+                    topics::APPLIED_INPUTS.name
+                )
+            })?;
+            inputs::replay(script.config()?, &samples, &args.out, args.duration)?
+        } else {
+            script.replay(&args.out, args.duration)?
+        };
+        finish(done, args.incidents.as_deref())?;
+        match exactness.departures.as_slice() {
+            [] => println!("  exact: nothing of what drove the model is missing in the recording"),
+            departures => println!("  not exact: {}", departures.join("; ")),
+        }
+        return Ok(());
     }
     let (config, name) = load_config(args.config.as_deref())?;
     println!("configuration {name}, hash {}", &config.hash()[..12]);

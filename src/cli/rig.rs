@@ -7,9 +7,9 @@ use clap::Args;
 
 use super::source::{self, Sample};
 use super::{WrongUse, numbers, signals};
+use crate::dds::network::Network;
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
-use crate::ros::network::Network;
 use crate::ros::rig_node::{RIG_NODE_NAME, RigNode};
 use flexdrill_core::inputs::InputKind;
 
@@ -70,7 +70,7 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
     );
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {
-        let shutdown = signals::shutdown()?;
+        let shutdown = signals::shutdown(false)?;
         tokio::select! {
             () = shutdown => {}
             () = play(&node, &samples, args.rate, args.again) => {}

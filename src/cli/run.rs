@@ -6,10 +6,10 @@ use clap::Args;
 
 use super::{WrongUse, numbers, signals};
 use crate::alarms::state_file;
+use crate::dds::network::Network;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
-use crate::ros::network::{Network, Reach};
 use crate::ros::node::{self, NodeSetup, RunSummary};
 use crate::ros::parameters;
 use crate::ros::service::ServiceMapping;
@@ -69,6 +69,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .map_err(WrongUse::new)?;
     let started = parameters::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+    let network = network.configured(&started.config.network);
     let state_dir = args
         .state_dir
         .clone()
@@ -98,7 +99,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .enable_all()
         .build()?;
     let summary = runtime.block_on(async {
-        let shutdown = signals::shutdown()?;
+        let shutdown = signals::shutdown(setup.record.is_some())?;
         anyhow::Ok(node::run(setup, shutdown).await?)
     })?;
     print_summary(&summary);
@@ -138,11 +139,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             config.solver.time_step * 1e3
         ),
     );
-    let reach = match setup.network.reach {
-        Reach::Subnet => "all interfaces",
-        Reach::Localhost => "this machine only",
-    };
-    row("network", format!("domain {}, {reach}", setup.network.domain_id));
+    row("network", setup.network.describe());
     row("services", setup.mapping.describe().to_owned());
     if setup.use_sim_time {
         row("clock", format!("{} (use_sim_time)", setup.topic_name(&topics::CLOCK)?));
@@ -216,15 +213,25 @@ fn print_summary(summary: &RunSummary) {
          {halved_steps} halved, {failed_steps} failed"
     );
     if let Some(recording) = &summary.recording {
+        let files = match recording.files {
+            1 => String::new(),
+            files => format!(" and {} more", files - 1),
+        };
         println!(
-            "recorded {} messages to {}",
+            "recorded {} messages to {}{files}",
             recording.messages,
             recording.path.display()
         );
-        if summary.status.recording_drops > 0 {
+        if recording.lost > 0 {
             println!(
-                "{} messages did not get into the recording: the disk was too slow",
-                summary.status.recording_drops
+                "{} messages did not get into the recording: the disk was too slow, or failed for a while",
+                recording.lost
+            );
+        }
+        if recording.doubtful > 0 {
+            println!(
+                "{} messages of the recording may be lost: the disk refused to keep them",
+                recording.doubtful
             );
         }
     }

@@ -1,14 +1,45 @@
-//! Ctrl-C and SIGTERM: the first asks for an orderly end, the second forces it.
+//! Ctrl-C and SIGTERM: the first asks for an orderly end, a later one insists. A file size limit is an error of a write.
 
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use futures::future::select_all;
 use tokio::signal::unix::{Signal, SignalKind, signal};
 
 /// Exit code after a forced end, as shells know it from SIGINT.
 const FORCED: i32 = 130;
+
+/// Signals that come this soon after the first are the same request: a supervisor sends one to the process and one to its
+/// group.
+const SAME_REQUEST: Duration = Duration::from_secs(2);
+
+/// Time after the first request within which everything has ended or hangs: the solver's last step, what is left to be
+/// published, and the end of a recording on a disk that does not answer.
+const ORDERLY_END: Duration = Duration::from_secs(20);
+
+/// What a request to end means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Request {
+    /// The first was meant.
+    Same,
+    /// The end of the recording is on its way, and is waited for.
+    Wait,
+    /// At once.
+    Insist,
+}
+
+/// What a request means that comes so long after the first.
+fn meaning(after: Duration, recording: bool) -> Request {
+    if after < SAME_REQUEST {
+        Request::Same
+    } else if recording && after < ORDERLY_END {
+        Request::Wait
+    } else {
+        Request::Insist
+    }
+}
 
 /// Listens to several signals at once.
 struct Signals(Vec<Signal>);
@@ -24,20 +55,51 @@ impl Signals {
     }
 }
 
-/// Done when the process is first asked to end. After that, another signal ends it at once.
+/// Done when the process is first asked to end. After that, another request ends it at once; while it is recording, once
+/// the end of the recording is written or cannot be.
 ///
 /// # Errors
 /// When the handlers cannot be installed.
-pub(super) fn shutdown() -> io::Result<impl Future<Output = ()>> {
+pub(super) fn shutdown(recording: bool) -> io::Result<impl Future<Output = ()>> {
     let mut signals = Signals::listen([SignalKind::interrupt(), SignalKind::terminate()])?;
     Ok(async move {
         signals.next().await;
+        let first = Instant::now();
         tokio::spawn(async move {
-            signals.next().await;
+            let mut insisted = false;
+            loop {
+                let left = ORDERLY_END.saturating_sub(first.elapsed());
+                tokio::select! {
+                    () = signals.next() => {}
+                    () = tokio::time::sleep(left), if insisted => break,
+                }
+                match meaning(first.elapsed(), recording) {
+                    Request::Same => {}
+                    Request::Wait if insisted => {}
+                    Request::Wait => {
+                        insisted = true;
+                        eprintln!(
+                            "the end of the recording is being written; that takes at most {} s",
+                            left.as_secs()
+                        );
+                    }
+                    Request::Insist => break,
+                }
+            }
             eprintln!("ended at once");
             std::process::exit(FORCED);
         });
     })
+}
+
+/// A file that reaches the limit of its size (`ulimit -f`) is an error of that write, as on a full disk, and not the end
+/// of the process.
+///
+/// # Errors
+/// When the handler cannot be installed.
+pub(super) fn outlive_file_size_limit() -> io::Result<()> {
+    // Nobody asks for the flag: a handler that does nothing of note is all that is needed.
+    signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false))).map(drop)
 }
 
 /// A flag that SIGINT, SIGTERM and SIGHUP set, so that a terminal is always given back as it was.
@@ -57,4 +119,22 @@ pub(super) fn stop_flag() -> io::Result<Arc<AtomicBool>> {
         flag.store(true, Ordering::Relaxed);
     });
     Ok(stop)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signals_close_together_are_one_request_and_a_recording_is_always_ended() {
+        let after = |seconds: f64, recording| meaning(Duration::from_secs_f64(seconds), recording);
+        for recording in [false, true] {
+            assert_eq!(after(0.0, recording), Request::Same);
+            assert_eq!(after(1.9, recording), Request::Same);
+            assert_eq!(after(21.0, recording), Request::Insist);
+        }
+        assert_eq!(after(2.1, false), Request::Insist);
+        assert_eq!(after(2.1, true), Request::Wait);
+        assert_eq!(after(19.0, true), Request::Wait);
+    }
 }

@@ -16,7 +16,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 
 use super::{numbers, signals};
-use crate::ros::network::Network;
+use crate::dds::network::Network;
 use board::Board;
 use feed::Feed;
 

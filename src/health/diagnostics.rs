@@ -1,7 +1,7 @@
 //! `/diagnostics`: items judged from the status, the newest snapshot and the alarms, with hysteresis.
 
 use super::alarms::alarms;
-use super::items::{inputs, pacing, recording, solver};
+use super::items::{inputs, network, pacing, recording, solver};
 use super::motion::MotionEvidence;
 use crate::messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
 use crate::messages::{AlarmList, TwinStatus};
@@ -34,7 +34,7 @@ impl Hysteresis {
 /// Keeps what the next judgement needs.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
-    levels: [Hysteresis; 8],
+    levels: [Hysteresis; 9],
     previous: Option<TwinStatus>,
 }
 
@@ -61,6 +61,7 @@ impl Diagnostics {
             evidence.motion.stick_slip(),
             evidence.motion.shock(),
             recording(status, &previous),
+            network(status, &previous),
             alarms(&evidence.alarms),
         ];
         judgements
@@ -105,6 +106,7 @@ mod tests {
             input_received: vec![1.0; 2],
             input_applied: vec![1.0; 2],
             input_rejected: vec![0; 2],
+            dds_up: true,
             ..TwinStatus::default()
         }
     }

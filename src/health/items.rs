@@ -178,13 +178,13 @@ pub(super) fn recording(status: &TwinStatus, previous: &TwinStatus) -> Judgement
         TwinStatus::RECORDING_FAILED => (
             DiagnosticStatus::ERROR,
             format!(
-                "the recording to {} stopped on an error; the twin goes on",
+                "the recording to {} stopped on an error, which the alarm tells; the twin goes on",
                 status.recording_path
             ),
         ),
         TwinStatus::RECORDING_ON if lost > 0 => (
             DiagnosticStatus::WARN,
-            format!("{lost} messages lost: the disk is too slow"),
+            format!("{lost} messages lost: the disk is too slow, or failed for a while"),
         ),
         TwinStatus::RECORDING_ON => (DiagnosticStatus::OK, format!("recording to {}", status.recording_path)),
         _ => (DiagnosticStatus::OK, "not recording".to_owned()),
@@ -196,6 +196,47 @@ pub(super) fn recording(status: &TwinStatus, previous: &TwinStatus) -> Judgement
         values: vec![
             ("messages", status.recording_messages.to_string()),
             ("drops", status.recording_drops.to_string()),
+        ],
+    }
+}
+
+pub(super) fn network(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
+    let restarts = status.dds_restarts.saturating_sub(previous.dds_restarts);
+    let (level, message) = if !status.dds_up {
+        (
+            DiagnosticStatus::ERROR,
+            format!("DDS is being started again: {}", status.dds_restart_cause),
+        )
+    } else if restarts > 0 {
+        (
+            DiagnosticStatus::WARN,
+            format!("DDS was started again: {}", status.dds_restart_cause),
+        )
+    } else if let Some(other) = status.namesake.first() {
+        (
+            DiagnosticStatus::WARN,
+            format!("another node has the name of this one: {other}; start one of them with another --namespace"),
+        )
+    } else if !status.dds_stalled_reader.is_empty() {
+        (DiagnosticStatus::WARN, status.dds_stalled_reader.clone())
+    } else if status.clock_set_by != 0.0 {
+        (
+            DiagnosticStatus::WARN,
+            format!(
+                "the system's clock was set by {:+.1} s; stamps keep to the clock at the start until the node is started again",
+                status.clock_set_by
+            ),
+        )
+    } else {
+        (DiagnosticStatus::OK, "up".to_owned())
+    };
+    Judgement {
+        name: "network",
+        level,
+        message,
+        values: vec![
+            ("dds_restarts", status.dds_restarts.to_string()),
+            ("clock_set_by (s)", format!("{:.1}", status.clock_set_by)),
         ],
     }
 }

@@ -4,6 +4,8 @@ use std::sync::atomic::Ordering;
 
 use super::step_times::StepTimes;
 use crate::bag::RecordingThread;
+use crate::dds::frames::Peer;
+use crate::dds::port::Health;
 use crate::messages::TwinStatus;
 use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Intake;
@@ -62,12 +64,16 @@ pub struct Sources<'a> {
     pub intake: &'a Intake,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
-    /// Present time of the monotonic clock (ns).
-    pub wall: u64,
+    /// Time that the model is to keep up with (ns).
+    pub pace_time: u64,
     /// Every output topic.
     pub outputs: &'a [OutputCount<'a>],
     /// The recording, if there is one.
     pub recording: Option<&'a RecordingThread>,
+    /// DDS.
+    pub dds: &'a Health,
+    /// Other nodes with the name of this one.
+    pub namesakes: &'a [Peer],
 }
 
 impl StatusKeeper {
@@ -125,13 +131,14 @@ impl StatusKeeper {
     }
 
     /// Notes the progress of the model, for the real-time factor.
-    pub fn note(&mut self, wall: u64, gauges: &Gauges) {
-        self.factor.note(wall, self.model_time_gained(gauges));
+    pub fn note(&mut self, pace_time: u64, gauges: &Gauges) {
+        self.factor.note(pace_time, self.model_time_gained(gauges));
     }
 
-    /// Model time gained per second of wall time, over the last second; none before a second has passed.
-    pub fn real_time_factor(&self, wall: u64, gauges: &Gauges) -> Option<f64> {
-        self.factor.factor(wall, self.model_time_gained(gauges))
+    /// Model time gained per second of the time that it is to keep up with, over the last second; none before a second has
+    /// passed.
+    pub fn real_time_factor(&self, pace_time: u64, gauges: &Gauges) -> Option<f64> {
+        self.factor.factor(pace_time, self.model_time_gained(gauges))
     }
 
     fn model_time_gained(&self, gauges: &Gauges) -> f64 {
@@ -162,7 +169,7 @@ impl StatusKeeper {
             model_time: step_count as f64 * self.time_step,
             step_count,
             time_step: self.time_step,
-            real_time_factor: self.factor.factor(sources.wall, gained).unwrap_or(0.0),
+            real_time_factor: self.factor.factor(sources.pace_time, gained).unwrap_or(0.0),
             lateness: gauges.lateness.load(Ordering::Relaxed) as f64 * 1e-9,
             deadline_misses: gauges.deadline_misses.load(Ordering::Relaxed),
             steps_skipped: gauges.steps_skipped.load(Ordering::Relaxed),
@@ -194,6 +201,7 @@ impl StatusKeeper {
         self.fill_phases(&mut status, gauges);
         self.fill_inputs(&mut status, sources);
         fill_outputs(&mut status, sources);
+        fill_network(&mut status, sources);
         status
     }
 
@@ -240,6 +248,16 @@ impl StatusKeeper {
     }
 }
 
+fn fill_network(status: &mut TwinStatus, sources: &Sources<'_>) {
+    let dds = sources.dds;
+    status.dds_up = dds.is_up;
+    status.dds_restarts = dds.restarts;
+    status.dds_restart_cause = dds.cause().unwrap_or_default().to_owned();
+    status.dds_stalled_reader = dds.stalled_reader().unwrap_or_default().to_owned();
+    status.namesake = sources.namesakes.iter().map(ToString::to_string).collect();
+    status.clock_set_by = dds.clock_set_by;
+}
+
 fn fill_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
     for output in sources.outputs {
         status.output_topic.push(output.topic.to_owned());
@@ -253,7 +271,7 @@ fn fill_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
         } else {
             TwinStatus::RECORDING_ON
         };
-        status.recording_path = recording.path().display().to_string();
+        status.recording_path = health.path().display().to_string();
         status.recording_messages = health.messages();
         status.recording_drops = health.drops();
     }

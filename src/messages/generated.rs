@@ -390,7 +390,8 @@ pub mod flexdrill {
     }
 
     /// What drives the model from a step on, sent when anything of it changes. The sequence of these messages and the
-    /// configuration determine a run to the bit.
+    /// configuration determine a run to the bit. While nothing changes it is sent again every second of model time, with
+    /// reset false and with all parameters changed since the start, for who listens or records from later on.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AppliedInputs {
         /// Stamp: model time on the rig's clock. Frame: the tool.
@@ -775,9 +776,9 @@ pub mod flexdrill {
         pub recording_state: u8,
         /// File that is recorded to, empty if none.
         pub recording_path: std::string::String,
-        /// Messages recorded.
+        /// Messages in the recording's files; those of the last moments are still on their way there.
         pub recording_messages: u64,
-        /// Messages that the recording lost.
+        /// Messages that the recording lost, and those in a file that the disk refused to keep.
         pub recording_drops: u64,
         /// SHA-256 of the configuration in force.
         pub config_hash: std::string::String,
@@ -813,6 +814,18 @@ pub mod flexdrill {
         /// Work of the steps against the laws over the last 10 s, magnitudes added, over what contact, Rayleigh and numerical damping took in
         /// them; zero is exact.
         pub energy_error_share: f64,
+        /// DDS: whether it is up, and how often it had to be started again since the start.
+        pub dds_up: bool,
+        pub dds_restarts: u64,
+        /// Why it had to be, the last time; empty if it never was.
+        pub dds_restart_cause: std::string::String,
+        /// Topic, node, address and id of readers that asked for every sample and did not take them within the last minute; empty if there are
+        /// none.
+        pub dds_stalled_reader: std::string::String,
+        /// Other nodes on the network with the name of this one, with address and id.
+        pub namesake: Vec<std::string::String>,
+        /// What the system's clock was set by since the start (s). Stamps keep to the clock as it was at the start.
+        pub clock_set_by: f64,
         /// Per input: the publisher that drives it, as node @ host (id of its DDS writer); empty while nobody does.
         pub input_driver: Vec<std::string::String>,
         /// Per input: all publishers heard within its max_age, the one that drives first, separated by commas.
@@ -854,7 +867,8 @@ pub mod flexdrill {
         pub const RECORDING_OFF: u8 = 0;
         /// Recording to recording_path.
         pub const RECORDING_ON: u8 = 1;
-        /// The recording stopped on an error; what was written before is kept.
+        /// The recording stopped on an error; what was written before is kept. It goes on in another file as soon as that can be
+        /// written, and is RECORDING_ON again then.
         pub const RECORDING_FAILED: u8 = 2;
         /// The steps' errors are those of runs that agree with a finer step within about a tenth in ripple and forces.
         pub const QUALITY_GOOD: u8 = 0;
@@ -869,7 +883,7 @@ pub mod flexdrill {
         const NAME: &'static str = "TwinStatus";
         const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
-        const RIHS01: &'static str = "RIHS01_771e4980f5052fde43c6f364833610e4cd249c7c0f23ccc9deba2e85536ad650";
+        const RIHS01: &'static str = "RIHS01_87ba09797954a0f5bbcfa3433bdbc5037fca7b2e5693a58d704cd5ae8e6e25c6";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -1230,6 +1244,57 @@ pub mod geometry_msgs {
         const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg");
     }
 
+    /// `geometry_msgs/msg/Transform`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Transform {
+        pub translation: Vector3,
+        pub rotation: Quaternion,
+    }
+
+    impl Message for Transform {
+        const PACKAGE: &'static str = "geometry_msgs";
+        const NAME: &'static str = "Transform";
+        const ROS_TYPE: &'static str = "geometry_msgs/msg/Transform";
+        const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Transform_";
+        const RIHS01: &'static str = "RIHS01_beb83fbe698636351461f6f35d1abb20010c43d55374d81bd041f1ba2581fddc";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/geometry_msgs/msg/Transform.msg"),
+            "================================================================================\nMSG: geometry_msgs/Vector3\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            "================================================================================\nMSG: geometry_msgs/Quaternion\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+        );
+    }
+
+    /// `geometry_msgs/msg/TransformStamped`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TransformStamped {
+        pub header: super::std_msgs::Header,
+        pub child_frame_id: std::string::String,
+        pub transform: Transform,
+    }
+
+    impl Message for TransformStamped {
+        const PACKAGE: &'static str = "geometry_msgs";
+        const NAME: &'static str = "TransformStamped";
+        const ROS_TYPE: &'static str = "geometry_msgs/msg/TransformStamped";
+        const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::TransformStamped_";
+        const RIHS01: &'static str = "RIHS01_0a241f87d04668d94099cbb5ba11691d5ad32c2f29682e4eb5653424bd275206";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/geometry_msgs/msg/TransformStamped.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: geometry_msgs/Transform\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Transform.msg"),
+            "================================================================================\nMSG: geometry_msgs/Vector3\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            "================================================================================\nMSG: geometry_msgs/Quaternion\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+        );
+    }
+
     /// `geometry_msgs/msg/Vector3`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Vector3 {
@@ -1335,6 +1400,32 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+    }
+
+    /// `rcl_interfaces/msg/LoggerLevel`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct LoggerLevel {
+        pub name: std::string::String,
+        pub level: u32,
+    }
+
+    impl LoggerLevel {
+        /// No logger level has been set; the parent logger decides.
+        pub const LOG_LEVEL_UNKNOWN: u8 = 0;
+        pub const LOG_LEVEL_DEBUG: u8 = 10;
+        pub const LOG_LEVEL_INFO: u8 = 20;
+        pub const LOG_LEVEL_WARN: u8 = 30;
+        pub const LOG_LEVEL_ERROR: u8 = 40;
+        pub const LOG_LEVEL_FATAL: u8 = 50;
+    }
+
+    impl Message for LoggerLevel {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "LoggerLevel";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/LoggerLevel";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::LoggerLevel_";
+        const RIHS01: &'static str = "RIHS01_95785cc42f048ab4f395af65035aeaf2181d8e1c7a44edb8ad4558445fdb43c0";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg");
     }
 
     /// `rcl_interfaces/msg/Parameter`.
@@ -1465,6 +1556,22 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg");
     }
 
+    /// `rcl_interfaces/msg/SetLoggerLevelsResult`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetLoggerLevelsResult {
+        pub successful: bool,
+        pub reason: std::string::String,
+    }
+
+    impl Message for SetLoggerLevelsResult {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "SetLoggerLevelsResult";
+        const ROS_TYPE: &'static str = "rcl_interfaces/msg/SetLoggerLevelsResult";
+        const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::SetLoggerLevelsResult_";
+        const RIHS01: &'static str = "RIHS01_9316e5e679a5b72d2dd7fd80c539bae9e106fa0890a06dc5da3a8177a3ff6909";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/SetLoggerLevelsResult.msg");
+    }
+
     /// `rcl_interfaces/msg/SetParametersResult`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct SetParametersResult {
@@ -1516,6 +1623,40 @@ pub mod rcl_interfaces {
             include_str!("../../src/messages/external/rcl_interfaces/msg/FloatingPointRange.msg"),
             "================================================================================\nMSG: rcl_interfaces/IntegerRange\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/GetLoggerLevels_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetLoggerLevelsRequest {
+        pub names: Vec<std::string::String>,
+    }
+
+    impl Message for GetLoggerLevelsRequest {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "GetLoggerLevels_Request";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/GetLoggerLevels_Request";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetLoggerLevels_Request_";
+        const RIHS01: &'static str = "RIHS01_490ace424a5f5b14cb4e1e95030d7fe366d8df0fd9fe4d03b44d6009504fd2cc";
+        const SCHEMA: &'static str = "string[] names\n";
+    }
+
+    /// `rcl_interfaces/srv/GetLoggerLevels_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetLoggerLevelsResponse {
+        pub levels: Vec<LoggerLevel>,
+    }
+
+    impl Message for GetLoggerLevelsResponse {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "GetLoggerLevels_Response";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/GetLoggerLevels_Response";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetLoggerLevels_Response_";
+        const RIHS01: &'static str = "RIHS01_228685d350911d213047abe756f5bf566d2f76b359c4e9fac16e5ef652aff910";
+        const SCHEMA: &'static str = concat!(
+            "rcl_interfaces/LoggerLevel[] levels\n",
+            "================================================================================\nMSG: rcl_interfaces/LoggerLevel\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg"),
         );
     }
 
@@ -1619,6 +1760,44 @@ pub mod rcl_interfaces {
             "ListParametersResult result\n",
             "================================================================================\nMSG: rcl_interfaces/ListParametersResult\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/ListParametersResult.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/SetLoggerLevels_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetLoggerLevelsRequest {
+        pub levels: Vec<LoggerLevel>,
+    }
+
+    impl Message for SetLoggerLevelsRequest {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "SetLoggerLevels_Request";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/SetLoggerLevels_Request";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::SetLoggerLevels_Request_";
+        const RIHS01: &'static str = "RIHS01_4e7768e0f4c749205f35bc05449f83fad18c42de52c16b1934d66c2f68ffd862";
+        const SCHEMA: &'static str = concat!(
+            "rcl_interfaces/LoggerLevel[] levels\n",
+            "================================================================================\nMSG: rcl_interfaces/LoggerLevel\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg"),
+        );
+    }
+
+    /// `rcl_interfaces/srv/SetLoggerLevels_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetLoggerLevelsResponse {
+        pub results: Vec<SetLoggerLevelsResult>,
+    }
+
+    impl Message for SetLoggerLevelsResponse {
+        const PACKAGE: &'static str = "rcl_interfaces";
+        const NAME: &'static str = "SetLoggerLevels_Response";
+        const ROS_TYPE: &'static str = "rcl_interfaces/srv/SetLoggerLevels_Response";
+        const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::SetLoggerLevels_Response_";
+        const RIHS01: &'static str = "RIHS01_ba51739027e57cb9120015737f4618579684047d862b2b16a76bc399d987d6d3";
+        const SCHEMA: &'static str = concat!(
+            "rcl_interfaces/SetLoggerLevelsResult[] results\n",
+            "================================================================================\nMSG: rcl_interfaces/SetLoggerLevelsResult\n",
+            include_str!("../../src/messages/external/rcl_interfaces/msg/SetLoggerLevelsResult.msg"),
         );
     }
 
@@ -1929,6 +2108,42 @@ pub mod std_srvs {
     }
 }
 
+/// Messages of the ROS package `tf2_msgs`.
+pub mod tf2_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `tf2_msgs/msg/TFMessage`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TFMessage {
+        pub transforms: Vec<super::geometry_msgs::TransformStamped>,
+    }
+
+    impl Message for TFMessage {
+        const PACKAGE: &'static str = "tf2_msgs";
+        const NAME: &'static str = "TFMessage";
+        const ROS_TYPE: &'static str = "tf2_msgs/msg/TFMessage";
+        const DDS_TYPE: &'static str = "tf2_msgs::msg::dds_::TFMessage_";
+        const RIHS01: &'static str = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/tf2_msgs/msg/TFMessage.msg"),
+            "================================================================================\nMSG: geometry_msgs/TransformStamped\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/TransformStamped.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: geometry_msgs/Transform\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Transform.msg"),
+            "================================================================================\nMSG: geometry_msgs/Vector3\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            "================================================================================\nMSG: geometry_msgs/Quaternion\n",
+            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+        );
+    }
+}
+
 /// Messages of the ROS package `visualization_msgs`.
 pub mod visualization_msgs {
     use serde::{Deserialize, Serialize};
@@ -2115,25 +2330,33 @@ pub const TYPES: &[TypeInfo] = &[
     <geometry_msgs::Point as super::Message>::INFO,
     <geometry_msgs::Pose as super::Message>::INFO,
     <geometry_msgs::Quaternion as super::Message>::INFO,
+    <geometry_msgs::Transform as super::Message>::INFO,
+    <geometry_msgs::TransformStamped as super::Message>::INFO,
     <geometry_msgs::Vector3 as super::Message>::INFO,
     <rcl_interfaces::FloatingPointRange as super::Message>::INFO,
     <rcl_interfaces::IntegerRange as super::Message>::INFO,
     <rcl_interfaces::ListParametersResult as super::Message>::INFO,
     <rcl_interfaces::Log as super::Message>::INFO,
+    <rcl_interfaces::LoggerLevel as super::Message>::INFO,
     <rcl_interfaces::Parameter as super::Message>::INFO,
     <rcl_interfaces::ParameterDescriptor as super::Message>::INFO,
     <rcl_interfaces::ParameterEvent as super::Message>::INFO,
     <rcl_interfaces::ParameterType as super::Message>::INFO,
     <rcl_interfaces::ParameterValue as super::Message>::INFO,
+    <rcl_interfaces::SetLoggerLevelsResult as super::Message>::INFO,
     <rcl_interfaces::SetParametersResult as super::Message>::INFO,
     <rcl_interfaces::DescribeParametersRequest as super::Message>::INFO,
     <rcl_interfaces::DescribeParametersResponse as super::Message>::INFO,
+    <rcl_interfaces::GetLoggerLevelsRequest as super::Message>::INFO,
+    <rcl_interfaces::GetLoggerLevelsResponse as super::Message>::INFO,
     <rcl_interfaces::GetParameterTypesRequest as super::Message>::INFO,
     <rcl_interfaces::GetParameterTypesResponse as super::Message>::INFO,
     <rcl_interfaces::GetParametersRequest as super::Message>::INFO,
     <rcl_interfaces::GetParametersResponse as super::Message>::INFO,
     <rcl_interfaces::ListParametersRequest as super::Message>::INFO,
     <rcl_interfaces::ListParametersResponse as super::Message>::INFO,
+    <rcl_interfaces::SetLoggerLevelsRequest as super::Message>::INFO,
+    <rcl_interfaces::SetLoggerLevelsResponse as super::Message>::INFO,
     <rcl_interfaces::SetParametersAtomicallyRequest as super::Message>::INFO,
     <rcl_interfaces::SetParametersAtomicallyResponse as super::Message>::INFO,
     <rcl_interfaces::SetParametersRequest as super::Message>::INFO,
@@ -2149,6 +2372,7 @@ pub const TYPES: &[TypeInfo] = &[
     <std_srvs::SetBoolResponse as super::Message>::INFO,
     <std_srvs::TriggerRequest as super::Message>::INFO,
     <std_srvs::TriggerResponse as super::Message>::INFO,
+    <tf2_msgs::TFMessage as super::Message>::INFO,
     <visualization_msgs::Marker as super::Message>::INFO,
     <visualization_msgs::MarkerArray as super::Message>::INFO,
     <visualization_msgs::MeshFile as super::Message>::INFO,

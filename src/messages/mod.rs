@@ -21,6 +21,6 @@ pub use cdr::{CdrError, MOST_PADDING, from_cdr, from_cdr_body, to_cdr, to_cdr_bo
 pub use generated::flexdrill::*;
 pub use generated::{
     builtin_interfaces, diagnostic_msgs, geometry_msgs, rcl_interfaces, rosgraph_msgs, sensor_msgs, std_msgs, std_srvs,
-    visualization_msgs,
+    tf2_msgs, visualization_msgs,
 };
 pub use message::{Message, TypeInfo, find_type};

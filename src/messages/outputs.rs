@@ -1,10 +1,14 @@
 //! From a frame to the messages that are due, in the order in which they are published. The node and a replay both
 //! use this, so that they give the same bytes.
 
+use std::collections::BTreeMap;
+
 use super::builtin_interfaces::Time;
 use super::fill::{self, ShapeStyle};
+use super::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
 use super::sensor_msgs::JointState;
 use super::std_msgs::Header;
+use super::tf2_msgs::TFMessage;
 use super::topics::{self, TopicInfo};
 use super::visualization_msgs::MarkerArray;
 use super::{
@@ -17,6 +21,10 @@ use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
 /// How often the alarms of the tool are judged, per second of model time: ten times within the shortest duration that a
 /// level has by default.
 const ALARM_RATE: f64 = 10.0;
+
+/// How often what drives the run is sent again while nothing of it changes (s on the rig's clock): who listens or records
+/// from later on knows it this soon.
+const REPEAT: f64 = 1.0;
 
 /// A message ready to be sent and recorded.
 #[derive(Debug, Clone, Copy)]
@@ -32,11 +40,21 @@ pub struct Encoded<'a> {
 /// A parameter changed while running, that [`AppliedInputs`] has no field for.
 pub type ParameterChange = (String, f64);
 
+/// What drives the run, as it was sent last.
+struct Driven {
+    inputs: RunInputs,
+    /// Parameters changed since the start.
+    changes: BTreeMap<String, f64>,
+    /// When it was sent last.
+    ticks: u64,
+}
+
 /// Makes messages, keeping their memory.
 pub struct Outputs {
     timeline: Timeline,
     style: ShapeStyle,
     header: Header,
+    parent_frame: String,
     bytes: Vec<u8>,
     joint_deflections: JointDeflections,
     joint_states: JointState,
@@ -50,6 +68,8 @@ pub struct Outputs {
     warned: Option<(u64, bool)>,
     /// How often a warning was suppressed or released; counts as a change too.
     suppressions: u64,
+    /// `None` before the first.
+    driven: Option<Driven>,
 }
 
 /// The publishing schedule of a configuration.
@@ -80,6 +100,7 @@ impl Outputs {
                 frame_id: config.outputs.frame_id.clone(),
                 ..Header::default()
             },
+            parent_frame: config.outputs.parent_frame.clone(),
             bytes: Vec::new(),
             joint_deflections: JointDeflections::default(),
             joint_states: JointState::default(),
@@ -91,6 +112,7 @@ impl Outputs {
             ageing: Ageing::default(),
             warned: None,
             suppressions: 0,
+            driven: None,
         }
     }
 
@@ -195,6 +217,49 @@ impl Outputs {
         inputs: &RunInputs,
         changes: &[ParameterChange],
         ticks: u64,
+        send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut known = self.driven.take().map(|driven| driven.changes).unwrap_or_default();
+        known.extend(changes.iter().cloned());
+        self.driven = Some(Driven {
+            inputs: *inputs,
+            changes: known,
+            ticks,
+        });
+        self.send_applied(inputs, changes, ticks, send)
+    }
+
+    /// Sends what drives the run again, with all parameters changed since the start, when a second has passed since the
+    /// last time. To be called with every frame, after [`Outputs::frame`]. The values are those in force: a replay that
+    /// applies them changes nothing.
+    ///
+    /// # Errors
+    /// As [`Outputs::frame`].
+    pub fn repeat_applied<E: From<CdrError>>(
+        &mut self,
+        frame: &Frame,
+        send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let interval = (REPEAT / self.timeline.time_step).round() as u64;
+        let Some(driven) = &mut self.driven else { return Ok(()) };
+        if frame.ticks < driven.ticks + interval {
+            return Ok(());
+        }
+        driven.ticks = frame.ticks;
+        let inputs = RunInputs {
+            step: frame.snapshot.step,
+            reset: false,
+            ..driven.inputs
+        };
+        let changes: Vec<ParameterChange> = driven.changes.clone().into_iter().collect();
+        self.send_applied(&inputs, &changes, frame.ticks, send)
+    }
+
+    fn send_applied<E: From<CdrError>>(
+        &mut self,
+        inputs: &RunInputs,
+        changes: &[ParameterChange],
+        ticks: u64,
         mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
         let message = AppliedInputs {
@@ -221,7 +286,7 @@ impl Outputs {
         })
     }
 
-    /// Sends what the run is made with.
+    /// Sends what the run is made with, and where its frame lies.
     ///
     /// # Errors
     /// As [`Outputs::frame`].
@@ -243,6 +308,37 @@ impl Outputs {
         to_cdr_into(&message, &mut self.bytes)?;
         send(Encoded {
             topic: &topics::SESSION,
+            stamp: self.timeline.at(0),
+            cdr: &self.bytes,
+        })?;
+        self.place(send)
+    }
+
+    /// Sends where the frame of all headers lies: in the parent turned by half a turn about X, so that Z points up.
+    fn place<E: From<CdrError>>(&mut self, mut send: impl FnMut(Encoded<'_>) -> Result<(), E>) -> Result<(), E> {
+        if self.parent_frame.is_empty() {
+            return Ok(());
+        }
+        let mut header = self.header_at(0);
+        let child_frame_id = std::mem::replace(&mut header.frame_id, self.parent_frame.clone());
+        let message = TFMessage {
+            transforms: vec![TransformStamped {
+                header,
+                child_frame_id,
+                transform: Transform {
+                    translation: Vector3::default(),
+                    rotation: Quaternion {
+                        x: 1.0,
+                        y: 0.0,
+                        z: 0.0,
+                        w: 0.0,
+                    },
+                },
+            }],
+        };
+        to_cdr_into(&message, &mut self.bytes)?;
+        send(Encoded {
+            topic: &topics::TF_STATIC,
             stamp: self.timeline.at(0),
             cdr: &self.bytes,
         })

@@ -3,7 +3,7 @@
 use super::{
     Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, RigInputs,
     SessionInfo, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs,
-    visualization_msgs,
+    tf2_msgs, visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -135,7 +135,7 @@ pub const TOOL_SHAPE: TopicInfo = TopicInfo::new(
     Cadence::Rate("tool_shape"),
     BEST_EFFORT,
 );
-/// Output: what drives the model from which step on.
+/// Output: what drives the model from which step on, on change and every second.
 pub const APPLIED_INPUTS: TopicInfo = TopicInfo::new(
     "twin/applied_inputs",
     AppliedInputs::INFO,
@@ -159,8 +159,11 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
     reliable(10),
 );
 
+/// Output: where the frame of all headers lies, in ROS's own place.
+pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
+
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 18] = [
+pub const ALL: [TopicInfo; 19] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RIG_INPUTS,
@@ -179,4 +182,5 @@ pub const ALL: [TopicInfo; 18] = [
     SESSION,
     JOINT_STATES,
     DIAGNOSTICS,
+    TF_STATIC,
 ];

@@ -4,19 +4,17 @@ use std::fmt::Write as _;
 use std::io::IsTerminal as _;
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
-use ros2_client::Node;
 use ros2_client::builtin_interfaces::Time;
 use ros2_client::log::Log;
-use rustdds::DomainParticipant;
 use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
 use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 use tracing_subscriber::util::SubscriberInitExt;
-use tracing_subscriber::{EnvFilter, fmt};
+use tracing_subscriber::{EnvFilter, Registry, fmt, reload};
 
-use super::NodeError;
 use super::args::RosArgs;
-use super::publisher::{Offer, TopicPublisher};
+use crate::dds::plan::{Offer, dds_type_name};
+use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
 use crate::told::printable;
 
@@ -30,6 +28,8 @@ struct Rosout {
 }
 
 static ROSOUT: OnceLock<Arc<Rosout>> = OnceLock::new();
+/// The filter as it was at the start, and the way to change it.
+static FILTER: OnceLock<(String, reload::Handle<EnvFilter, Registry>)> = OnceLock::new();
 
 /// Starts logging. The filter is RUST_LOG if set, else `--log-level` or `info`, with the libraries' noise left out. May
 /// be called more than once; only the first call counts.
@@ -40,6 +40,8 @@ pub fn start(arguments: &RosArgs) {
         let _ = write!(filter, ",{logger}={level}");
     }
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(filter));
+    let text = filter.to_string();
+    let (filter, handle) = reload::Layer::new(filter);
     let rosout = ROSOUT.get_or_init(Arc::default);
     let lines = fmt::layer()
         .with_writer(std::io::stderr)
@@ -49,29 +51,40 @@ pub fn start(arguments: &RosArgs) {
             write!(writer, "{}", shown(field, value))
         }));
     // A second subscriber is refused; the first one stays.
-    let _ = tracing_subscriber::registry()
+    let started = tracing_subscriber::registry()
         .with(filter)
         .with(lines)
         .with(RosoutLayer(Arc::clone(rosout)))
         .try_init();
+    if started.is_ok() {
+        // The first call is the only one that gets here.
+        let _ = FILTER.set((text, handle));
+    }
 }
 
-/// Publishes log lines of this crate on `/rosout` until [`disconnect`].
-///
-/// # Errors
-/// When the topic cannot be created.
-pub fn connect(node: &mut Node, participant: &DomainParticipant) -> Result<(), NodeError> {
+/// Adds directives such as `flexdrill=debug` to those of the start, in place of those that were added before. False when
+/// logging was not started here.
+pub fn add_directives(directives: &[String]) -> bool {
+    let Some((start, handle)) = FILTER.get() else {
+        return false;
+    };
+    let filter = format!("{start},{}", directives.join(","));
+    handle.reload(EnvFilter::new(filter)).is_ok()
+}
+
+/// Publishes log lines of this crate on `/rosout` until [`disconnect`]; `node` is the node's full name.
+pub fn connect(port: &mut PortBuilder, node: &str) {
     let offer = Offer {
         reliable: true,
         latched: true,
         depth: 100,
         rate: 10.0,
+        lifespan: Some(10.0),
     };
-    let publisher = TopicPublisher::new(node, participant, "/rosout", "rcl_interfaces/msg/Log", offer)?;
-    let name = node.fully_qualified_name().trim_start_matches('/').replace('/', ".");
+    let publisher = port.publisher("/rosout", &dds_type_name("rcl_interfaces/msg/Log"), offer);
+    let name = node.trim_start_matches('/').replace('/', ".");
     let rosout = ROSOUT.get_or_init(Arc::default);
     *rosout.target.write().unwrap_or_else(PoisonError::into_inner) = Some((publisher, name));
-    Ok(())
 }
 
 /// Lets go of the topic; to be called before the node is dropped.
@@ -111,7 +124,7 @@ impl<S: Subscriber> Layer<S> for RosoutLayer {
             line: metadata.line().unwrap_or_default(),
         };
         if let Ok(body) = to_cdr_body(&line) {
-            publisher.publish(&body);
+            publisher.publish(body);
         }
     }
 }

@@ -1,17 +1,14 @@
 //! The ROS 2 node.
 
 pub mod args;
+pub mod loggers;
 pub mod logging;
-pub mod network;
+
 pub mod node;
 pub mod parameters;
-pub mod publisher;
-pub mod raw;
 pub mod rig_node;
 pub mod service;
 pub mod subscriber;
-
-use ros2_client::CreateError;
 
 /// Name of the node unless it is remapped.
 pub const DEFAULT_NODE_NAME: &str = "flexdrill";
@@ -22,41 +19,9 @@ pub enum NodeError {
     /// Wrong ROS 2 arguments.
     #[error(transparent)]
     Args(#[from] args::ArgsError),
-    /// Wrong network settings, or DDS did not start.
+    /// DDS, in its own process, could not be brought up.
     #[error(transparent)]
-    Network(#[from] network::NetworkError),
-    /// The node itself could not be created.
-    #[error("node {node}: {why}")]
-    Node {
-        /// Absolute name.
-        node: String,
-        /// What is wrong.
-        why: String,
-    },
-    /// A topic or its endpoint could not be created.
-    #[error("topic {topic}: {source}")]
-    Topic {
-        /// Absolute name.
-        topic: String,
-        /// From DDS.
-        source: CreateError,
-    },
-    /// A service's name is not usable.
-    #[error("service {service}: {why}")]
-    ServiceName {
-        /// Absolute name.
-        service: String,
-        /// What is wrong.
-        why: String,
-    },
-    /// A service could not be created.
-    #[error("service {service}: {source}")]
-    Service {
-        /// Absolute name.
-        service: String,
-        /// From DDS.
-        source: CreateError,
-    },
+    Dds(#[from] crate::dds::port::StartError),
     /// A part of the node could not be started or ended badly.
     #[error("{0}")]
     Stopped(String),
@@ -64,7 +29,7 @@ pub enum NodeError {
     #[error(transparent)]
     Build(#[from] flexdrill_core::twin::BuildError),
     /// The recording.
-    #[error("recording: {0}")]
+    #[error(transparent)]
     Recording(#[from] crate::bag::BagError),
     /// A checkpoint that cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]

@@ -5,41 +5,26 @@
 //! its bytes fit the request type exactly with or without those 16 bytes in front. So a server here answers each
 //! client in its own way, and `ros2 param` works from both.
 
-use std::collections::HashSet;
 use std::future::Future;
 use std::str::FromStr;
 use std::sync::Arc;
-use std::time::Duration;
 
-use futures::StreamExt;
-use ros2_client::qos::{History, WhenFull};
-use ros2_client::{Name, Node, QosProfile, RmwRequestId, Server, ServiceMapping as Wire, ServiceTypeName};
-use rustdds::{DomainParticipant, GUID};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::NodeError;
-use super::raw::RawCdr;
+use crate::dds::plan::Guid;
+use crate::dds::port::{PortBuilder, Request, Requests};
 use crate::messages::{MOST_PADDING, from_cdr_body, to_cdr_body};
 
 /// Bytes that rmw_cyclonedds puts before a request and expects before its reply: client id and sequence number.
 const CYCLONE_HEADER: usize = 16;
-/// Requests and replies kept per service; several clients may ask at once.
-const DEPTH: usize = 64;
-/// Longest wait for a new client's reply reader to be discovered.
-const CLIENT_WAIT: Duration = Duration::from_millis(500);
-
-/// Discovery knows a reader some time before our writer is matched with it, on another thread; nothing tells when. Paid
-/// once per client.
-const MATCH_WAIT: Duration = Duration::from_millis(100);
-
 tokio::task_local! {
     /// Who asked for what is being answered.
-    static CLIENT: [u8; 16];
+    static CLIENT: Guid;
 }
 
 /// The client whose request is being answered: the GUID of its DDS writer; none outside of a handler.
-pub fn client() -> Option<[u8; 16]> {
+pub fn client() -> Option<Guid> {
     CLIENT.try_with(|client| *client).ok()
 }
 
@@ -135,47 +120,19 @@ fn interpret<Req: DeserializeOwned>(mapping: ServiceMapping, body: &[u8]) -> Res
 
 /// A service's server, ready to be run as a task.
 pub struct ServiceServer {
-    server: Server<RawCdr, RawCdr>,
+    requests: Requests,
     name: String,
     mapping: ServiceMapping,
-    participant: DomainParticipant,
 }
 
 impl ServiceServer {
-    /// Creates the server. `name` is absolute, `type_name` as `package/srv/Type`.
-    ///
-    /// # Errors
-    /// When DDS refuses the name or an endpoint.
-    pub fn new(
-        node: &mut Node,
-        participant: &DomainParticipant,
-        name: &str,
-        type_name: &str,
-        mapping: ServiceMapping,
-    ) -> Result<Self, NodeError> {
-        let mut parts = type_name.split('/');
-        let package = parts.next().unwrap_or_default();
-        let service_type = ServiceTypeName::new(package, parts.next_back().unwrap_or_default());
-        let parsed = Name::parse(name).map_err(|error| NodeError::ServiceName {
-            service: name.to_owned(),
-            why: error.to_string(),
-        })?;
-        let qos = QosProfile::publisher_default()
-            .reliability_reliable(WhenFull::Fail)
-            .history(History::KeepLast { depth: DEPTH });
-        // The crate's enhanced mapping is the one that leaves the bytes alone.
-        let server = node
-            .create_server(Wire::Enhanced, &parsed, &service_type, qos.clone(), qos)
-            .map_err(|source| NodeError::Service {
-                service: name.to_owned(),
-                source,
-            })?;
-        Ok(Self {
-            server,
+    /// A server at `port`. `name` is absolute, `ros_type` as `package/srv/Type`.
+    pub fn new(port: &mut PortBuilder, name: &str, ros_type: &str, mapping: ServiceMapping) -> Self {
+        Self {
+            requests: port.service(name, ros_type),
             name: name.to_owned(),
             mapping,
-            participant: participant.clone(),
-        })
+        }
     }
 
     /// Answers requests, one after another, for as long as the future is polled.
@@ -186,65 +143,34 @@ impl ServiceServer {
         Handler: Fn(Req) -> Answer,
         Answer: Future<Output = Resp>,
     {
-        let mut requests = self.server.receive_request_stream();
-        let mut known_clients = HashSet::new();
-        while let Some(received) = requests.next().await {
-            let (id, RawCdr(body)) = match received {
-                Ok(request) => request,
-                Err(error) => {
-                    tracing::warn!("service {}: a request could not be received: {error}", self.name);
-                    continue;
-                }
-            };
-            let (dialect, request) = match interpret::<Req>(self.mapping, &body) {
+        loop {
+            let asked = self.requests.next().await;
+            let (dialect, request) = match interpret::<Req>(self.mapping, &asked.body) {
                 Ok(request) => request,
                 Err(why) => {
                     tracing::warn!(
                         "service {}: a request of {} bytes could not be read: {why}",
                         self.name,
-                        body.len()
+                        asked.body.len()
                     );
                     continue;
                 }
             };
-            let client = GUID::from(id.writer_gid).to_bytes();
-            let response = CLIENT.scope(client, async { handler(request).await }).await;
-            if known_clients.insert(GUID::from(id.writer_gid)) {
-                self.wait_for_client(&id).await;
-            }
-            self.reply(id, dialect, &body, &response);
+            let response = CLIENT.scope(asked.client, async { handler(request).await }).await;
+            self.reply(&asked, dialect, &response);
         }
     }
 
-    fn reply<Resp: Serialize>(&self, id: RmwRequestId, dialect: Dialect, request: &[u8], response: &Resp) {
+    fn reply<Resp: Serialize>(&self, asked: &Request, dialect: Dialect, response: &Resp) {
         let mut bytes = match dialect {
-            Dialect::Cyclone => request[..CYCLONE_HEADER].to_vec(),
+            Dialect::Cyclone => asked.body.get(..CYCLONE_HEADER).unwrap_or_default().to_vec(),
             Dialect::Enhanced => Vec::new(),
         };
         match to_cdr_body(response) {
             Ok(encoded) => bytes.extend(encoded),
             Err(error) => return tracing::error!("service {}: the reply could not be encoded: {error}", self.name),
         }
-        if let Err(error) = self.server.send_response(id, RawCdr(bytes)) {
-            tracing::warn!("service {}: the reply was not sent: {error}", self.name);
-        }
-    }
-
-    /// A client's request can arrive before DDS has matched its reply reader; a reply sent then would be lost.
-    async fn wait_for_client(&self, id: &RmwRequestId) {
-        let client = GUID::from(id.writer_gid).prefix;
-        let topic = format!("rr{}Reply", self.name);
-        let known = || {
-            self.participant.discovered_readers().iter().any(|reader| {
-                reader.subscription_topic_data.topic_name == topic
-                    && reader.reader_proxy.remote_reader_guid.prefix == client
-            })
-        };
-        let deadline = tokio::time::Instant::now() + CLIENT_WAIT;
-        while !known() && tokio::time::Instant::now() < deadline {
-            tokio::time::sleep(Duration::from_millis(5)).await;
-        }
-        tokio::time::sleep(MATCH_WAIT).await;
+        self.requests.reply(asked, bytes);
     }
 }
 

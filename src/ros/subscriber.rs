@@ -1,49 +1,43 @@
 //! A client's side: a node that only listens, as a dashboard does.
 
 use std::marker::PhantomData;
-
-use ros2_client::{Context, Node, NodeName, NodeOptions, Subscription};
-use rustdds::policy::{Durability, History, Reliability};
-use rustdds::{Duration, QosPolicyBuilder, TopicKind};
+use std::sync::Arc;
 
 use super::NodeError;
 use super::args::names::NodeIdentity;
-use super::network::Network;
-use super::publisher::{dds_topic_name, dds_type_name};
-use crate::messages::Message;
+use crate::dds::network::Network;
+use crate::dds::port::{Inbox, Monitor, Port, PortBuilder, Sample};
 use crate::messages::topics::TopicInfo;
+use crate::messages::{Message, from_cdr_body};
 
-/// A node without parameters, services or log topic, in the namespace of the twin it listens to.
-pub struct Listener {
-    context: Context,
-    node: Node,
+/// A node to be, without parameters, services or log topic, in the namespace of the twin it listens to.
+pub struct ListenerBuilder {
+    port: PortBuilder,
     twin: NodeIdentity,
+}
+
+/// Joined to the network until it is dropped.
+pub struct Listener {
+    port: Port,
 }
 
 /// One subscribed topic.
 pub struct TopicReader<M> {
-    subscription: Subscription<M>,
+    inbox: Arc<Inbox<Sample>>,
     message: PhantomData<M>,
 }
 
-impl Listener {
-    /// Joins the network as `name`.
+impl ListenerBuilder {
+    /// A node called `name`.
     ///
     /// # Errors
-    /// When DDS does not start or a name is not allowed.
+    /// When a name is not allowed.
     pub fn new(network: &Network, namespace: &str, name: &str) -> Result<Self, NodeError> {
         let twin = NodeIdentity::new(namespace, name)?;
-        let failed = |why: String| NodeError::Node {
-            node: twin.full_name(),
-            why,
-        };
-        let context = network.start()?;
-        let node_name = NodeName::new(&twin.namespace, name).map_err(|error| failed(format!("{error:?}")))?;
-        let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
-        let node = context
-            .new_node(node_name, options)
-            .map_err(|error| failed(format!("{error:?}")))?;
-        Ok(Self { context, node, twin })
+        Ok(Self {
+            port: PortBuilder::new(network, &twin.namespace, &twin.name),
+            twin,
+        })
     }
 
     /// Absolute name of a topic of the twin.
@@ -58,44 +52,32 @@ impl Listener {
     /// looks must not make the twin keep samples.
     ///
     /// # Errors
-    /// When DDS refuses the topic or the reader.
+    /// When the name is not allowed.
     pub fn subscribe<M: Message + 'static>(&mut self, topic: &TopicInfo) -> Result<TopicReader<M>, NodeError> {
         let name = self.topic_name(topic)?;
-        let failed = |source| NodeError::Topic {
-            topic: name.clone(),
-            source,
-        };
-        let latched = topic.qos.transient_local;
-        let policies = QosPolicyBuilder::new()
-            .reliability(if latched {
-                Reliability::Reliable {
-                    max_blocking_time: Duration::ZERO,
-                }
-            } else {
-                Reliability::BestEffort
-            })
-            .durability(if latched {
-                Durability::TransientLocal
-            } else {
-                Durability::Volatile
-            })
-            .history(History::KeepLast { depth: 10 })
-            .build();
-        let handle = self
-            .context
-            .domain_participant()
-            .create_topic(
-                dds_topic_name(&name),
-                dds_type_name(topic.kind.ros_type),
-                &policies,
-                TopicKind::NoKey,
-            )
-            .map_err(|error| failed(error.into()))?;
-        let subscription = self.node.create_subscription(&handle, None).map_err(failed)?;
         Ok(TopicReader {
-            subscription,
+            inbox: self
+                .port
+                .subscription(&name, topic.kind.dds_type, topic.qos.transient_local),
             message: PhantomData,
         })
+    }
+
+    /// Joins the network.
+    ///
+    /// # Errors
+    /// When DDS does not start.
+    pub fn start(self) -> Result<Listener, NodeError> {
+        Ok(Listener {
+            port: self.port.start()?,
+        })
+    }
+}
+
+impl Listener {
+    /// How DDS is.
+    pub fn monitor(&self) -> Monitor {
+        self.port.monitor()
     }
 }
 
@@ -103,14 +85,15 @@ impl<M: Message + 'static> TopicReader<M> {
     /// Hands over every sample that has arrived, oldest first, and says how many could not be read.
     pub fn drain(&self, mut take: impl FnMut(M)) -> u64 {
         let mut unreadable = 0;
-        loop {
-            match self.subscription.take() {
-                Ok(Some((message, _))) => take(message),
-                Ok(None) => return unreadable,
-                // The reader has moved past the bad sample, so this ends.
-                Err(_) if unreadable < 1000 => unreadable += 1,
-                Err(_) => return unreadable,
+        while let Some(sample) = self.inbox.take() {
+            match sample {
+                Sample::Body { body, .. } => match from_cdr_body::<M>(&body) {
+                    Ok((message, _)) => take(message),
+                    Err(_) => unreadable += 1,
+                },
+                Sample::Unreadable(_) => unreadable += 1,
             }
         }
+        unreadable
     }
 }

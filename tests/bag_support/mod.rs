@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "each test file uses some of it")]
 #![allow(clippy::unwrap_used, reason = "a helper of tests fails by panicking")]
 
+pub mod faulty;
+
 use std::path::{Path, PathBuf};
 
 use flexdrill::bag::{Bag, Recorder, Topic};

@@ -11,7 +11,7 @@
 
 mod network;
 mod peer;
-mod program;
+pub mod program;
 pub mod python;
 mod skip;
 

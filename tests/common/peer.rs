@@ -47,9 +47,10 @@ impl Peer {
         answer
     }
 
-    /// Subscribes to a topic as `reliable`, `best_effort` or `latched`.
-    pub fn subscribe(&mut self, topic: &str, ros_type: &str, kind: &str) {
-        self.command(json!({"do": "subscribe", "topic": topic, "type": ros_type, "kind": kind}));
+    /// Subscribes to a topic as `reliable`, `best_effort`, `latched` or `hoarding`; the id of the reader.
+    pub fn subscribe(&mut self, topic: &str, ros_type: &str, kind: &str) -> String {
+        let answer = self.command(json!({"do": "subscribe", "topic": topic, "type": ros_type, "kind": kind}));
+        answer["id"].as_str().unwrap().to_owned()
     }
 
     /// Takes messages until there are `count` or `seconds` have passed.

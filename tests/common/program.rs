@@ -7,8 +7,13 @@ use std::time::{Duration, Instant};
 
 /// Sends a signal by its name (INT, TERM, KILL, STOP, CONT) to a process.
 pub fn signal(child: &Child, name: &str) {
+    signal_id(child.id(), name);
+}
+
+/// As [`signal`], by the process's id.
+pub fn signal_id(id: u32, name: &str) {
     let status = Command::new("kill")
-        .args(["-s", name, &child.id().to_string()])
+        .args(["-s", name, &id.to_string()])
         .status()
         .unwrap();
     assert!(status.success());
@@ -50,6 +55,11 @@ impl Program {
         }
     }
 
+    /// Number of the process.
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
     /// Waits until it says something with this in it.
     pub fn wait_for(&mut self, text: &str) -> String {
         let deadline = Instant::now() + Duration::from_secs(60);
@@ -69,6 +79,22 @@ impl Program {
     pub fn said(&mut self) -> String {
         self.said.extend(self.lines.try_iter());
         self.said.join("\n")
+    }
+
+    /// The process that keeps DDS for it, once there is one.
+    pub fn dds_process(&self) -> u32 {
+        let deadline = Instant::now() + Duration::from_secs(10);
+        while Instant::now() < deadline {
+            let found = Command::new("pgrep")
+                .args(["-P", &self.child.id().to_string()])
+                .output()
+                .unwrap();
+            if let Ok(id) = String::from_utf8_lossy(&found.stdout).trim().parse() {
+                return id;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        panic!("it has no process for DDS");
     }
 
     /// Sends a signal by its name: INT, TERM, KILL, STOP, CONT.

@@ -2,6 +2,8 @@
 
 bags.py check BAG    reads the recording that the Rust test has made, with both, and checks types, hashes and values
 bags.py live BAG     reads a recording that the node has made while it ran, with both, and holds one against the other
+bags.py parts BAG    reads a recording in several files, and its metadata
+bags.py killed BAG   finds that a recording that was killed is refused
 bags.py write DIR    writes DIR/mcap and DIR/sqlite with rosbags, for the Rust test to read
 
 Ends with 77 when the packages are missing.
@@ -17,7 +19,7 @@ try:
     from mcap.reader import make_reader
     from mcap_ros2.decoder import DecoderFactory
     from rosbags.highlevel import AnyReader
-    from rosbags.rosbag2 import Reader, StoragePlugin, Writer
+    from rosbags.rosbag2 import Reader, ReaderError, StoragePlugin, Writer
     from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 except ImportError as missing:
     print(f"missing: {missing.name}")
@@ -126,6 +128,31 @@ def live(bag):
     print(f"topics {len(by_topic)} messages {count}")
 
 
+def parts(bag):
+    count = 0
+    with Reader(bag) as reader:
+        for connection, _, _ in reader.messages():
+            count += 1
+        assert count == reader.message_count
+    metadata = (bag / "metadata.yaml").read_text()
+    files = list(bag.glob("*.mcap"))
+    assert len(files) > 1 and all(metadata.count(f'- path: "{file.name}"') == 1 for file in files), metadata
+    again = 0
+    for file in files:
+        with file.open("rb") as stream:
+            again += sum(1 for _ in make_reader(stream, validate_crcs=True).iter_messages())
+    assert again == count
+    print(f"messages {count}")
+
+
+def killed(bag):
+    try:
+        with Reader(bag) as reader:
+            print(f"taken for a bag of {reader.message_count} messages")
+    except (ReaderError, FileNotFoundError) as error:
+        print(f"refused: {error}")
+
+
 def write(folder):
     store = own_types()
     float64 = store.types["std_msgs/msg/Float64"]
@@ -148,7 +175,7 @@ def write(folder):
 
 def main():
     action, path = sys.argv[1:]
-    {"check": check, "live": live, "write": write}[action](Path(path))
+    {"check": check, "live": live, "parts": parts, "killed": killed, "write": write}[action](Path(path))
 
 
 main()

@@ -22,8 +22,10 @@ CLIENT = 0x1122334455667788
 
 
 def qos(kind, depth=50):
-    """`reliable`, `best_effort`, `latched` (reliable and transient local)."""
+    """`reliable`, `best_effort`, `latched` (reliable and transient local), `hoarding` (reliable, has room for five only)."""
     policies = [Policy.History.KeepLast(depth)]
+    if kind == "hoarding":
+        policies = [Policy.History.KeepAll, Policy.ResourceLimits(5, 1, 5)]
     if kind == "best_effort":
         policies.append(Policy.Reliability.BestEffort)
     else:
@@ -44,7 +46,7 @@ class Peer:
 
     def subscribe(self, topic, type, kind="reliable", depth=50):
         self.readers[topic] = self.reader("rt" + topic, ros_types.make(type), kind, depth)
-        return {}
+        return {"id": self.readers[topic].get_guid().hex}
 
     def take(self, topic, seconds=0.0, count=1):
         """Messages until there are `count` or time is up."""

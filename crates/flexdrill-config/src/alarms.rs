@@ -34,6 +34,8 @@ section! {
         solver: NodeAlarm = NodeAlarm::default(), below;
         /// The recording stopped or loses messages.
         recording: NodeAlarm = NodeAlarm::default(), below;
+        /// DDS had to be started again.
+        network: NodeAlarm = NodeAlarm { on_delay: 0.0, ..NodeAlarm::default() }, below;
         /// Limits that the operator is told to keep.
         advice: AdviceTable = AdviceTable::default();
     }

@@ -19,6 +19,7 @@ mod hard_limits;
 mod inputs;
 pub mod lines;
 mod loads;
+mod network;
 mod outputs;
 mod pipe;
 mod place;
@@ -51,6 +52,7 @@ pub use error::{ConfigError, Problem};
 pub use hard_limits::{HardBounds, HardLimits};
 pub use inputs::{DriverPolicy, DriverRule, InputsConfig, RotarySpeed, StampRule, WeightOnBit};
 pub use loads::{History, Load, Mass};
+pub use network::{Network, Reach};
 pub use outputs::{Outputs, Rates};
 pub use pipe::{Guide, Piece, Pipe};
 pub use place::At;
@@ -126,6 +128,9 @@ pub struct Schema {
     /// What the rig sends.
     #[serde(default)]
     pub inputs: InputsConfig,
+    /// How far DDS reaches.
+    #[serde(default)]
+    pub network: Network,
     /// Analysis and warnings.
     #[serde(default)]
     pub whirl: Whirl,

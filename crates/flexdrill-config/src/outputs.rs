@@ -8,6 +8,9 @@ section! {
     pub struct Outputs(this) {
         /// `frame_id` of every header. Default `flexible_tool`.
         frame_id: String = "flexible_tool".to_string();
+        /// Frame in which `frame_id` is told to lie, on `/tf_static`: Z up, X in the build's direction, origin at the
+        /// kick-off. Default `map`; empty tells nothing.
+        parent_frame: String = "map".to_string();
         /// Factor on displacements in `twin/tool_shape`.
         exaggeration: f64 = 10.0, within(0.0, 1000.0), "", "1 is true to scale";
         /// Per topic.
@@ -49,6 +52,14 @@ impl Outputs {
             "",
             "one word",
             "tf frames have names without spaces",
+        );
+        c.require(
+            !self.parent_frame.contains(char::is_whitespace) && self.parent_frame != self.frame_id,
+            "parent_frame",
+            format!("{:?}", self.parent_frame),
+            "",
+            "one word other than frame_id, or none",
+            "tf frames have names without spaces, and none is its own parent",
         );
         self.check_numbers(c);
     }

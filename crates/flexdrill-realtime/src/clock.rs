@@ -1,7 +1,7 @@
 //! The clocks that can pace the solver.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crate::monotonic;
@@ -17,9 +17,26 @@ pub trait Clock: Send {
     fn rig_time(&self) -> u64;
     /// Lateness that is caught up rather than skipped (s).
     fn tolerance(&self) -> f64;
+    /// How far the clock may jump at once (ns): no more lateness than that tells of a slow machine.
+    fn jump(&self) -> u64 {
+        0
+    }
 }
 
-/// The machine's clock: deadlines on the monotonic one, stamps from the real-time one.
+/// The present instant for stamps (ns since 1970): the system's clock as it was when this was first called, carried on by
+/// the monotonic one. All stamps of a process are on this one clock, whatever the system's is set to meanwhile.
+pub fn rig_clock() -> u64 {
+    static OFFSET: OnceLock<u64> = OnceLock::new();
+    let offset = OFFSET.get_or_init(|| {
+        let system = SystemTime::now()
+            .duration_since(UNIX_EPOCH)
+            .map_or(0, |since| since.as_nanos() as u64);
+        system.saturating_sub(monotonic::now())
+    });
+    offset + monotonic::now()
+}
+
+/// The machine's clock: deadlines on the monotonic one, stamps from [`rig_clock`].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct WallClock;
 
@@ -33,9 +50,7 @@ impl Clock for WallClock {
     }
 
     fn rig_time(&self) -> u64 {
-        SystemTime::now()
-            .duration_since(UNIX_EPOCH)
-            .map_or(0, |since| since.as_nanos() as u64)
+        rig_clock()
     }
 
     fn tolerance(&self) -> f64 {
@@ -74,5 +89,9 @@ impl Clock for SimulatedClock {
     fn tolerance(&self) -> f64 {
         // /clock may come once a second.
         2.5
+    }
+
+    fn jump(&self) -> u64 {
+        (self.tolerance() * 1e9) as u64
     }
 }

@@ -98,7 +98,10 @@ impl<C: Clock> RealTimeLoop<C> {
 
     fn start(&mut self) {
         self.pacer.restart(self.clock.now());
-        self.end.gauges.start.store(self.clock.rig_time(), Ordering::Release);
+        // The steps of a period are taken at its begin. Their stamps are within the period before, so that none is ahead of
+        // the clock when it is published.
+        let start = self.clock.rig_time().saturating_sub(self.period).max(1);
+        self.end.gauges.start.store(start, Ordering::Release);
     }
 
     /// One period and what follows from how long it took.
@@ -113,7 +116,8 @@ impl<C: Clock> RealTimeLoop<C> {
                 self.end.gauges.steps_late.fetch_add(steps, Ordering::Relaxed);
             }
         }
-        self.end.gauges.lateness.store(paced.lateness, Ordering::Relaxed);
+        let lateness = paced.lateness.saturating_sub(self.clock.jump());
+        self.end.gauges.lateness.store(lateness, Ordering::Relaxed);
         self.update_gauges();
     }
 
@@ -178,7 +182,7 @@ impl<C: Clock> RealTimeLoop<C> {
                         self.push(LoopEvent::Recovered);
                     }
                     self.publish_if_due();
-                    if self.clock.now() > end {
+                    if self.clock.now() > end.saturating_add(self.clock.jump()) {
                         self.end.gauges.deadline_misses.fetch_add(1, Ordering::Relaxed);
                     }
                 }

@@ -11,7 +11,8 @@ const LARGEST: u64 = 1 << 30;
 /// to the cut; of a whole one with a wrong checksum, nothing.
 pub(super) fn unpack(body: &[u8], whole: bool) -> (Vec<u8>, Option<String>) {
     let Some((head, rest)) = ChunkHead::parse(body) else {
-        return (Vec::new(), Some("the chunk's head is damaged".to_owned()));
+        // Of a cut chunk, not even the head may be there.
+        return (Vec::new(), whole.then(|| "the chunk's head is damaged".to_owned()));
     };
     let compressed = match usize::try_from(head.compressed_size) {
         Ok(size) if size <= rest.len() => &rest[..size],

@@ -158,6 +158,7 @@ impl McapStream {
                 order: self.order,
                 publish_time: i64::try_from(message.publish_time).unwrap_or(i64::MAX),
                 topic,
+                sequence: Some(message.sequence),
                 data: body[MESSAGE_HEAD..].to_vec(),
             }));
             self.order += 1;

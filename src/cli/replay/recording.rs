@@ -1,17 +1,30 @@
 //! A recording of ours again: its configuration, its applied inputs step by step, the same outputs to the bit.
+//!
+//! A bag that somebody else began while the twin ran (`ros2 bag record -a`) begins with the first applied inputs that it
+//! heard. The model's state at that step is in no message, so that its replay begins with a tool at rest.
 
 use std::path::Path;
 
-use anyhow::{Context as _, bail};
+use anyhow::Context as _;
 
 use super::player::Player;
-use crate::bag::{self, Bag};
+use crate::bag::{self, Bag, Gap, Gaps};
 use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{AppliedInputs, JointDeflections, Message, SessionInfo, TwinStatus};
 use crate::told::printable;
 use flexdrill_config::Config;
+use flexdrill_core::twin::RunInputs;
+
+/// How a replay can differ from what was recorded.
+#[derive(Debug, Default)]
+pub(super) struct Exactness {
+    /// Why it is not the same to the bit.
+    pub departures: Vec<String>,
+    /// What else is to be known.
+    pub notes: Vec<String>,
+}
 
 /// What of a recording is needed.
 pub(super) struct Script {
@@ -21,12 +34,13 @@ pub(super) struct Script {
     names: Vec<(&'static str, String)>,
     /// Steps taken at the end, since the last reset.
     last_step: u64,
+    /// Messages that the recording lost.
+    gaps: Vec<Gap>,
 }
 
-/// Whether a bag is a recording of ours.
+/// Whether a bag is a recording of the twin, by us or others: it says what the run was made with.
 pub(super) fn is_ours(bag: &Bag) -> bool {
-    let has = |ros_type: &str| bag.topics().iter().any(|topic| topic.ros_type == ros_type);
-    has(SessionInfo::ROS_TYPE) && has(AppliedInputs::ROS_TYPE)
+    bag.topics().iter().any(|topic| topic.ros_type == SessionInfo::ROS_TYPE)
 }
 
 impl Script {
@@ -54,11 +68,11 @@ impl Script {
                 Some((known.name, found.name.clone()))
             })
             .collect();
-        let (mut session, mut applied) = (None, Vec::new());
+        let (mut session, mut applied, mut gaps) = (None, Vec::new(), Gaps::default());
         let (mut status_step, mut newest_stamp) = (0, None);
         for message in bag.by_ref() {
-            // A damaged part loses what is in it; a lost AppliedInputs shows by its step.
             let message = message?;
+            gaps.observe(&message);
             match message.topic.ros_type.as_str() {
                 SessionInfo::ROS_TYPE => {
                     session.get_or_insert(message.decode::<SessionInfo>()?);
@@ -85,20 +99,67 @@ impl Script {
             );
         }
         let session = session.with_context(|| format!("{}: it holds no {}", path.display(), topics::SESSION.name))?;
-        if applied.is_empty() {
-            bail!(
-                "{}: it holds no {}; the run ended before the first step",
-                path.display(),
-                topics::APPLIED_INPUTS.name
-            );
-        }
         let last_step = status_step.max(step_of(newest_stamp, &session, &applied));
         Ok(Self {
             session,
             applied,
             names,
             last_step,
+            gaps: gaps.found(),
         })
+    }
+
+    /// Whether nothing says what drove the model: the bag was begun and ended between two messages that do.
+    pub(super) fn is_empty(&self) -> bool {
+        self.applied.is_empty()
+    }
+
+    /// The configuration at the start of the run.
+    ///
+    /// # Errors
+    /// When it is not one of this version.
+    pub(super) fn config(&self) -> anyhow::Result<Config> {
+        Ok(Config::from_text(
+            "the recorded configuration",
+            &self.session.configuration,
+        )?)
+    }
+
+    /// How a replay of it can differ from what was recorded.
+    pub(super) fn exactness(&self) -> Exactness {
+        let mut exactness = Exactness::default();
+        let Some(first) = self.applied.first() else {
+            exactness.departures.push(format!(
+                "the recording holds no {}: the inputs are taken as they were received, and conditioned anew",
+                topics::APPLIED_INPUTS.name
+            ));
+            return exactness;
+        };
+        if first.step > 0 && !first.reset {
+            exactness.departures.push(format!(
+                "the recording begins at step {} of the run, and the model's state at that step is not in it: \
+                 the replay begins there with the tool at rest",
+                first.step
+            ));
+        }
+        for gap in &self.gaps {
+            if gap.topic.ros_type == AppliedInputs::ROS_TYPE {
+                exactness.departures.push(format!(
+                    "the recording was interrupted, and what drove the model meanwhile is missing ({gap}): \
+                     the replay goes on with the inputs before it"
+                ));
+            } else {
+                exactness.notes.push(format!("the recording was interrupted ({gap})"));
+            }
+        }
+        if self.session.version != env!("CARGO_PKG_VERSION") {
+            exactness.departures.push(format!(
+                "recorded with flexdrill {}, replayed with {}: outputs may differ",
+                self.session.version,
+                env!("CARGO_PKG_VERSION")
+            ));
+        }
+        exactness
     }
 
     /// The recorded name of a topic.
@@ -111,64 +172,124 @@ impl Script {
 
     /// Replays it into `out`, at most `duration` s of model time.
     pub(super) fn replay(&self, out: &Path, duration: Option<f64>) -> anyhow::Result<(Player, Progress)> {
-        let config = Config::from_text("the recorded configuration", &self.session.configuration)?;
-        let start = self.session.start.to_nanoseconds();
-        if self.session.version != env!("CARGO_PKG_VERSION") {
-            eprintln!(
-                "recorded with flexdrill {}, replayed with {}: outputs may differ",
-                printable(&self.session.version),
-                env!("CARGO_PKG_VERSION")
-            );
-        }
+        let config = self.config()?;
         let time_step = config.solver.time_step;
+        let total = self.total() as f64 * time_step;
         println!(
-            "recording of configuration {}, {} changes of inputs, {} s",
+            "recording of configuration {}, {} messages of inputs, {total} s",
             printable(short(&self.session.config_hash)),
             self.applied.len(),
-            self.total(time_step)
         );
-        let mut player = Player::new(config, start, out, |topic| self.name(topic))?;
-        let most = duration.map_or(u64::MAX, |duration| (duration / time_step).round() as u64);
-        let mut progress = Progress::new(self.total(time_step).min(duration.unwrap_or(f64::INFINITY)));
-        let mut taken = 0_u64;
+        let mut base = Base::of(&self.session, self.applied.first());
+        let mut player = Player::new(config, base.start, out, |topic| self.name(topic))?;
+        let mut pace = Pace {
+            taken: 0,
+            most: duration.map_or(u64::MAX, |duration| (duration / time_step).round() as u64),
+            time_step,
+            progress: Progress::new(total.min(duration.unwrap_or(f64::INFINITY))),
+        };
         for (index, message) in self.applied.iter().enumerate() {
-            if message.step != player.step() {
-                bail!(
-                    "{}: the inputs of step {} are missing; the recording lost messages",
-                    topics::APPLIED_INPUTS.name,
-                    player.step()
-                );
+            if base.step(message.step) != Some(player.step()) {
+                // A message that says so was lost: the model had gone back to its start.
+                let inputs = RunInputs {
+                    reset: true,
+                    ..player.inputs()
+                };
+                player.apply(&inputs, &[], false)?;
+                base.step = 0;
+                pace.advance(&mut player, message.step)?;
             }
             let changes = changes_of(message);
-            if !changes.is_empty() {
-                let values = changes.iter().map(|(name, value)| (name, *value));
-                let changed = player.config().with_values("recorded parameters", values)?;
+            let values = changes.iter().map(|(name, value)| (name, *value));
+            let changed = player.config().with_values("recorded parameters", values)?;
+            // What is sent again every second changes nothing.
+            if changed != *player.config() {
                 player.reconfigure(changed);
             }
-            let inputs = run_inputs(message, player.config());
+            let inputs = RunInputs {
+                skipped: message.skipped_steps.saturating_sub(base.skipped),
+                ..run_inputs(message, player.config())
+            };
             player.apply(&inputs, &changes, index == 0)?;
-            let until = self.applied.get(index + 1).map_or(self.last_step, |next| next.step);
-            while player.step() < until && taken < most {
-                player.advance_surely()?;
-                taken += 1;
-                progress.at(taken as f64 * time_step);
+            if message.reset {
+                base.step = 0;
             }
-            if taken >= most {
+            let next = self.applied.get(index + 1).map_or(self.last_step, |next| next.step);
+            if let Some(until) = base.step(next) {
+                pace.advance(&mut player, until)?;
+            }
+            if pace.taken >= pace.most {
                 break;
             }
         }
-        Ok((player, progress))
+        Ok((player, pace.progress))
     }
 
-    /// Model time that the recording spans, over all resets (s).
-    fn total(&self, time_step: f64) -> f64 {
+    /// Steps that the recording spans, over all resets.
+    fn total(&self) -> u64 {
         let before_resets: u64 = self
             .applied
             .iter()
             .filter(|inputs| inputs.reset)
             .map(|inputs| inputs.step)
             .sum();
-        (before_resets + self.last_step) as f64 * time_step
+        let before = match self.applied.first() {
+            Some(first) => first.step,
+            None => 0,
+        };
+        (before_resets + self.last_step).saturating_sub(before)
+    }
+}
+
+/// Where the replay's counting begins in the recording's.
+struct Base {
+    /// Instant of the replay's step 0 (ns since 1970).
+    start: i64,
+    /// Steps taken before it, since the last reset.
+    step: u64,
+    /// Steps skipped before it.
+    skipped: u64,
+}
+
+impl Base {
+    fn of(session: &SessionInfo, first: Option<&AppliedInputs>) -> Self {
+        match first {
+            Some(first) if first.step > 0 || first.reset => Self {
+                start: first.header.stamp.to_nanoseconds(),
+                step: first.step,
+                skipped: first.skipped_steps,
+            },
+            _ => Self {
+                start: session.start.to_nanoseconds(),
+                step: 0,
+                skipped: 0,
+            },
+        }
+    }
+
+    /// A step of the recording as the replay counts it; none of before.
+    fn step(&self, recorded: u64) -> Option<u64> {
+        recorded.checked_sub(self.step)
+    }
+}
+
+/// How far a replay has come.
+struct Pace {
+    /// Steps taken, over all resets.
+    taken: u64,
+    most: u64,
+    time_step: f64,
+    progress: Progress,
+}
+
+impl Pace {
+    fn advance(&mut self, player: &mut Player, until: u64) -> anyhow::Result<()> {
+        while player.step() < until && self.taken < self.most {
+            player.advance_surely()?;
+            self.taken += 1;
+            self.progress.at(self.taken as f64 * self.time_step);
+        }
+        Ok(())
     }
 }
 
@@ -177,21 +298,10 @@ fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]
     let (Some(newest), Some(last)) = (newest, applied.last()) else {
         return 0;
     };
-    let ticks = ((newest - session.start.to_nanoseconds()) as f64 * 1e-9 / session.time_step)
-        .round()
-        .max(0.0) as u64;
-    let before_resets: u64 = applied
-        .iter()
-        .filter(|inputs| inputs.reset)
-        .map(|inputs| inputs.step)
-        .sum();
-    let since = ticks.saturating_sub(before_resets + last.skipped_steps);
+    let before = if last.reset { 0 } else { last.step };
+    let since = (newest - last.header.stamp.to_nanoseconds()) as f64 * 1e-9 / session.time_step;
     // An output older than the last change of inputs says nothing of the steps after it.
-    if since >= last.step || last.reset {
-        since
-    } else {
-        last.step
-    }
+    before + since.round().max(0.0) as u64
 }
 
 fn changes_of(message: &AppliedInputs) -> Vec<ParameterChange> {

@@ -3,11 +3,11 @@
 use std::time::Instant;
 
 use super::board::Board;
+use crate::dds::network::Network;
 use crate::messages::topics;
 use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
 use crate::ros::NodeError;
-use crate::ros::network::Network;
-use crate::ros::subscriber::{Listener, TopicReader};
+use crate::ros::subscriber::{Listener, ListenerBuilder, TopicReader};
 
 pub(super) struct Feed {
     status: TopicReader<TwinStatus>,
@@ -18,13 +18,12 @@ pub(super) struct Feed {
     warning: TopicReader<WhirlWarning>,
     alarms: TopicReader<AlarmList>,
     status_topic: String,
-    // Last: the readers go before the participant they belong to.
     _listener: Listener,
 }
 
 impl Feed {
     pub(super) fn new(network: &Network, namespace: &str) -> Result<Self, NodeError> {
-        let mut listener = Listener::new(network, namespace, "flexdrill_watch")?;
+        let mut listener = ListenerBuilder::new(network, namespace, "flexdrill_watch")?;
         Ok(Self {
             status: listener.subscribe(&topics::STATUS)?,
             bit: listener.subscribe(&topics::BIT_STATE)?,
@@ -34,7 +33,7 @@ impl Feed {
             warning: listener.subscribe(&topics::WHIRL_WARNINGS)?,
             alarms: listener.subscribe(&topics::ALARMS)?,
             status_topic: listener.topic_name(&topics::STATUS)?,
-            _listener: listener,
+            _listener: listener.start()?,
         })
     }
 

@@ -4,13 +4,12 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, PoisonError};
 
-use ros2_client::Node;
-use rustdds::DomainParticipant;
 use tokio::sync::oneshot;
 
 use super::publish::{self, PublisherParts};
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use crate::dds::port::PortBuilder;
 use crate::messages::outputs::Encoded;
 use crate::messages::std_msgs::Header;
 use crate::messages::{
@@ -127,6 +126,7 @@ pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure
     };
     let state = NodeState {
         conditioner: &conditioner,
+        dds: parts.dds.health(),
         now,
         drivers,
         run_state: parts.gauges.run_state(),
@@ -134,6 +134,7 @@ pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure
         real_time_factor,
         recording: parts.recording.as_ref().map(|recording| RecordingState {
             error: recording.health().error(),
+            notice: recording.health().notice(),
             drops: recording.health().drops(),
         }),
     };
@@ -189,17 +190,16 @@ fn log(event: &AlarmEvent) {
 /// Creates `~/acknowledge_alarm`, `~/shelve_alarm` and `~/unshelve_alarm`; `name` makes a private name absolute.
 ///
 /// # Errors
-/// When a service cannot be created.
+/// When a remapped name is wrong.
 pub fn serve(
-    node: &mut Node,
-    participant: &DomainParticipant,
+    port: &mut PortBuilder,
     mapping: ServiceMapping,
     desk: &Sender<Asked>,
     name: impl Fn(&str) -> Result<String, crate::ros::args::ArgsError>,
 ) -> Result<Vec<Task>, NodeError> {
     let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
         let kind = format!("flexdrill/srv/{kind}");
-        ServiceServer::new(node, participant, &name(private)?, &kind, mapping)
+        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
     };
     let ask = |desk: &Sender<Asked>, request| ask(desk.clone(), request);
     let (acknowledge, shelve, unshelve) = (desk.clone(), desk.clone(), desk.clone());

@@ -6,10 +6,10 @@ use std::sync::mpsc::{Sender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use ros2_client::{Node, Parameter, ParameterValue};
-use rustdds::DomainParticipant;
+use ros2_client::{Parameter, ParameterValue};
 
 use super::rig::RigInputs;
+use crate::dds::port::PortBuilder;
 use crate::messages::outputs::{self, ParameterChange};
 use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use crate::ros::NodeError;
@@ -227,22 +227,16 @@ fn answer(result: Result<String, ControlError>) -> TriggerResponse {
 /// Creates `~/reset`, `~/pause` and `~/save_checkpoint`; `name` makes a private name absolute.
 ///
 /// # Errors
-/// When a service cannot be created.
+/// When a remapped name is wrong.
 pub fn serve(
-    node: &mut Node,
-    participant: &DomainParticipant,
+    port: &mut PortBuilder,
     mapping: ServiceMapping,
     control: &Arc<Control>,
     name: impl Fn(&str) -> Result<String, crate::ros::args::ArgsError>,
 ) -> Result<Vec<Task>, NodeError> {
     let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
-        ServiceServer::new(
-            node,
-            participant,
-            &name(private)?,
-            &format!("std_srvs/srv/{kind}"),
-            mapping,
-        )
+        let kind = format!("std_srvs/srv/{kind}");
+        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
     };
     let (reset, pause) = (Arc::clone(control), Arc::clone(control));
     Ok(vec![

@@ -16,9 +16,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{channel, sync_channel};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::Duration;
 
-use ros2_client::{Context, NodeName, NodeOptions};
 use tokio::task::JoinSet;
 
 use self::alarms::AlarmDesk;
@@ -28,17 +27,18 @@ use self::publish::{Publisher, PublisherParts};
 use self::publishers::Publishers;
 use self::rig::{Now, RigInputs, RigTime};
 use super::args::{NodeIdentity, Remapping};
-use super::network::Network;
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
-use super::{DEFAULT_NODE_NAME, NodeError, logging};
+use super::{DEFAULT_NODE_NAME, NodeError, loggers, logging};
 use crate::bag::{Recording, RecordingThread};
+use crate::dds::network::Network;
+use crate::dds::port::PortBuilder;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::{BuildError, Run, Simulation};
-use flexdrill_realtime::clock::{SimulatedClock, WallClock};
+use flexdrill_realtime::clock::{SimulatedClock, WallClock, rig_clock};
 use flexdrill_realtime::link::{Gauges, Targets, link};
 use flexdrill_realtime::monotonic;
 use flexdrill_realtime::{INPUT_PERIOD, RealTimeLoop};
@@ -101,30 +101,18 @@ impl NodeSetup {
 /// # Errors
 /// When DDS, the model or the recording cannot be started, or the recording could not be finished.
 pub async fn run(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result<RunSummary, NodeError> {
-    let context = setup.network.start()?;
-    let result = run_in(&context, setup, shutdown).await;
+    let result = run_until(setup, shutdown).await;
     logging::disconnect();
-    drop(context);
     result
 }
 
-async fn run_in(
-    context: &Context,
-    setup: NodeSetup,
-    shutdown: impl Future<Output = ()>,
-) -> Result<RunSummary, NodeError> {
-    let participant = context.domain_participant();
-    let name = NodeName::new(&setup.identity.namespace, &setup.identity.name)
-        .map_err(|error| NodeError::Stopped(error.to_string()))?;
-    let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
-    let mut node = context
-        .new_node(name, options)
-        .map_err(|error| NodeError::Stopped(error.to_string()))?;
+async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Result<RunSummary, NodeError> {
+    let mut port = PortBuilder::new(&setup.network, &setup.identity.namespace, &setup.identity.name);
     if setup.rosout {
-        logging::connect(&mut node, &participant)?;
+        logging::connect(&mut port, &setup.identity.full_name());
     }
     let config = Arc::new(setup.config.clone());
-    let publishers = Publishers::new(&mut node, &participant, &config, &setup.identity, &setup.remapping)?;
+    let publishers = Publishers::new(&mut port, &config, &setup.identity, &setup.remapping)?;
     let recording = match &setup.record {
         Some(path) => {
             // Names were checked when the publishers were made.
@@ -154,54 +142,55 @@ async fn run_in(
     let store = parameters::declare(&config, &setup.config_file, setup.use_sim_time);
     let acting = Arc::clone(&control);
     let parameters = Parameters::new(
-        &mut node,
-        &participant,
+        &mut port,
+        setup.identity.full_name(),
         store,
         Box::new(move |candidate, changed| acting.act(candidate, changed)),
-    )?;
+    );
 
     let mut tasks = JoinSet::new();
-    for task in parameters::serve(&mut node, &participant, setup.mapping, &parameters)? {
+    for task in parameters::serve(&mut port, setup.mapping, &parameters) {
+        tasks.spawn(task);
+    }
+    for task in loggers::serve(&mut port, setup.mapping, &setup.identity.full_name()) {
         tasks.spawn(task);
     }
     let service_name = |name: &str| setup.remapping.service(&setup.identity, DEFAULT_NODE_NAME, name);
-    for task in control::serve(&mut node, &participant, setup.mapping, &control, service_name)? {
+    for task in control::serve(&mut port, setup.mapping, &control, service_name)? {
         tasks.spawn(task);
     }
     let (asked_sender, asked) = channel();
-    for task in alarms::serve(&mut node, &participant, setup.mapping, &asked_sender, service_name)? {
+    for task in alarms::serve(&mut port, setup.mapping, &asked_sender, service_name)? {
         tasks.spawn(task);
     }
     let (received_sender, received) = sync_channel(RECEIVED);
-    let describe = rig::describe(&participant);
-    let door = || rig::Door {
-        rig: rig_inputs.clone(),
-        describe: Arc::clone(&describe),
-        record: recording.is_some().then(|| received_sender.clone()),
-    };
+    let mut plain = Vec::new();
     for (kind, topic) in [
         (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
         (InputKind::WeightOnBit, &topics::WEIGHT_ON_BIT_KN),
     ] {
-        let subscription = rig::subscribe(&mut node, &participant, &setup.topic_name(topic)?, topic)?;
-        tasks.spawn(rig::receive_plain(door(), kind, subscription));
+        let samples = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
+        plain.push((kind, samples));
     }
     let topic = &topics::RIG_INPUTS;
-    let subscription = rig::subscribe(&mut node, &participant, &setup.topic_name(topic)?, topic)?;
-    tasks.spawn(rig::receive_stamped(door(), subscription));
+    let stamped = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
     if setup.use_sim_time {
-        let subscription = rig::subscribe(
-            &mut node,
-            &participant,
-            &setup.topic_name(&topics::CLOCK)?,
-            &topics::CLOCK,
-        )?;
-        tasks.spawn(rig::follow_clock(
-            rig_inputs.clone(),
-            subscription,
-            Arc::clone(&simulated),
-        ));
+        let name = setup.topic_name(&topics::CLOCK)?;
+        let ticks = port.subscription(&name, topics::CLOCK.kind.dds_type, false);
+        tasks.spawn(rig::follow_clock(rig_inputs.clone(), ticks, Arc::clone(&simulated)));
     }
+    let port = tokio::task::spawn_blocking(move || port.start())
+        .await
+        .map_err(|error| NodeError::Stopped(error.to_string()))??;
+    let door = || rig::Door {
+        rig: rig_inputs.clone(),
+        dds: port.monitor(),
+        record: recording.is_some().then(|| received_sender.clone()),
+    };
+    for (kind, samples) in plain {
+        tasks.spawn(rig::receive_plain(door(), kind, samples));
+    }
+    tasks.spawn(rig::receive_stamped(door(), stamped));
     let (conditioner, intake) = (Arc::clone(&rig_inputs.conditioner), Arc::clone(&rig_inputs.intake));
     tasks.spawn(rig::keep_targets(rig_inputs));
 
@@ -218,7 +207,9 @@ async fn run_in(
         conditioner,
         intake,
         now,
+        use_sim_time: setup.use_sim_time,
         rig_time,
+        dds: port.monitor(),
         node_name: setup.identity.full_name(),
         finish: Arc::clone(&finish),
     })
@@ -262,7 +253,10 @@ async fn run_in(
         .ok_or_else(|| NodeError::Stopped("the publisher's thread ended badly".into()))?;
     drop(parameters);
     logging::disconnect();
-    drop(node);
+    // Leaves the network, after the last status has gone out.
+    tokio::task::spawn_blocking(move || drop(port))
+        .await
+        .map_err(|error| NodeError::Stopped(error.to_string()))?;
     let recording = match recording {
         Some(recording) => Some(
             tokio::task::spawn_blocking(move || recording.finish())
@@ -374,10 +368,6 @@ fn time_of_inputs(simulated: Option<Arc<AtomicU64>>) -> Now {
 fn rig_time(simulated: Option<Arc<AtomicU64>>) -> RigTime {
     match simulated {
         Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as i64),
-        None => Arc::new(|| {
-            SystemTime::now()
-                .duration_since(UNIX_EPOCH)
-                .map_or(0, |since| since.as_nanos() as i64)
-        }),
+        None => Arc::new(|| rig_clock() as i64),
     }
 }

@@ -11,6 +11,7 @@ use super::control::Change;
 use super::publishers::Publishers;
 use super::rig::{Now, Received, RigTime};
 use crate::bag::RecordingThread;
+use crate::dds::port::Monitor;
 use crate::health::diagnostics::{Diagnostics, Evidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
@@ -59,8 +60,12 @@ pub struct PublisherParts {
     pub intake: Arc<Mutex<Intake>>,
     /// Time as the conditioner counts it.
     pub now: Now,
+    /// `/clock` paces the model.
+    pub use_sim_time: bool,
     /// Present instant on the rig's clock (ns since 1970).
     pub rig_time: RigTime,
+    /// DDS.
+    pub dds: Monitor,
     /// Name of the node, for the diagnostics.
     pub node_name: String,
     /// Set when the thread is to write what is left and end.
@@ -147,7 +152,7 @@ impl Publisher {
             self.record_received(received);
         }
         let now = monotonic::now();
-        self.status.note(now, &self.parts.gauges);
+        self.status.note(self.pace_time(), &self.parts.gauges);
         let rates = self.parts.config.outputs.rates;
         if due(&mut self.next_status, now, rates.status) {
             self.send_status();
@@ -156,7 +161,7 @@ impl Publisher {
             self.send_diagnostics();
         }
         if due(&mut self.next_alarms, now, NODE_ALARM_RATE) {
-            let factor = self.status.real_time_factor(now, &self.parts.gauges);
+            let factor = self.status.real_time_factor(self.pace_time(), &self.parts.gauges);
             alarms::judge_node(&mut self.parts, self.evidence.failure, factor);
         }
         let parts = &mut self.parts;
@@ -189,10 +194,10 @@ impl Publisher {
                 self.evidence.motion = MotionEvidence::of(&frame.snapshot);
                 let parts = &self.parts;
                 let began = monotonic::now();
-                let sent = self
-                    .outputs
-                    .as_mut()
-                    .map_or(Ok(()), |outputs| outputs.frame(&frame, |encoded| parts.send(encoded)));
+                let sent = self.outputs.as_mut().map_or(Ok(()), |outputs| {
+                    outputs.frame(&frame, |encoded| parts.send(encoded))?;
+                    outputs.repeat_applied(&frame, |encoded| parts.send(encoded))
+                });
                 self.status.add_publishing(monotonic::now().saturating_sub(began));
                 if let Some(outputs) = self.outputs.as_ref().filter(|_| frame.due.has(Output::Alarms)) {
                     let stamp = outputs.instant(frame.ticks);
@@ -286,9 +291,11 @@ impl Publisher {
             conditioner: &conditioner,
             intake: &intake,
             now: (parts.now)(),
-            wall: monotonic::now(),
+            pace_time: self.pace_time(),
             outputs: &outputs,
             recording: parts.recording.as_ref(),
+            dds: &parts.dds.health(),
+            namesakes: &parts.dds.namesakes(),
         };
         let status = self.status.status(header, &sources);
         self.parts.send_message(&topics::STATUS, &status, self.instant());
@@ -322,6 +329,17 @@ impl Publisher {
                 .judge(&self.parts.node_name, &self.newest_status, &self.evidence),
         };
         self.parts.send_message(&topics::DIAGNOSTICS, &message, self.instant());
+    }
+
+    /// Time that the model is to keep up with (ns). Under `/clock`, which jumps and may stand still, it is what the model
+    /// has gone through or given up.
+    fn pace_time(&self) -> u64 {
+        if self.parts.use_sim_time {
+            let ticks = self.parts.gauges.ticks.load(Ordering::Relaxed);
+            (ticks as f64 * self.parts.config.solver.time_step * 1e9) as u64
+        } else {
+            monotonic::now()
+        }
     }
 
     /// The present instant of the run (ns since 1970).

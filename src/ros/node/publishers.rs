@@ -2,14 +2,12 @@
 
 use std::sync::atomic::Ordering;
 
-use ros2_client::Node;
-use rustdds::DomainParticipant;
-
+use crate::dds::plan::Offer;
+use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::health::status::OutputCount;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::ros::NodeError;
 use crate::ros::args::{NodeIdentity, Remapping};
-use crate::ros::publisher::{Offer, TopicPublisher};
 use flexdrill_config::Config;
 
 /// Rate for which topics that are sent on change are sized (Hz).
@@ -33,10 +31,9 @@ impl Publishers {
     /// Creates every topic that the node publishes.
     ///
     /// # Errors
-    /// When a remapped name is wrong or DDS refuses a topic.
+    /// When a remapped name is wrong.
     pub fn new(
-        node: &mut Node,
-        participant: &DomainParticipant,
+        port: &mut PortBuilder,
         config: &Config,
         identity: &NodeIdentity,
         remapping: &Remapping,
@@ -49,17 +46,20 @@ impl Publishers {
                 latched: topic.qos.transient_local,
                 depth: topic.qos.depth as i32,
                 rate: rate(config, topic).max(CHANGES_RATE),
+                lifespan: None,
             };
-            let publisher = TopicPublisher::new(node, participant, &name, topic.kind.ros_type, offer)?;
+            let publisher = port.publisher(&name, topic.kind.dds_type, offer);
             entries.push(Entry { topic, name, publisher });
         }
         Ok(Self { entries })
     }
 
-    /// Publishes CDR with its header. False when there was no room.
-    pub fn publish(&self, topic: &TopicInfo, cdr: &[u8]) -> bool {
+    /// Publishes CDR with its header.
+    pub fn publish(&self, topic: &TopicInfo, cdr: &[u8]) {
         let body = cdr.get(CDR_HEADER..).unwrap_or_default();
-        self.entry(topic).is_some_and(|entry| entry.publisher.publish(body))
+        if let Some(entry) = self.entry(topic) {
+            entry.publisher.publish(body.to_vec());
+        }
     }
 
     /// The absolute name of a topic.

@@ -2,33 +2,24 @@
 //! [`crate::rig_inputs`]; here is their way from the network.
 
 use std::collections::HashMap;
-use std::net::SocketAddr;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::SyncSender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use futures::StreamExt;
-use ros2_client::{Node, Subscription};
-use rustdds::policy::{Durability, History, Reliability};
-use rustdds::{DomainParticipant, QosPolicyBuilder, TopicKind};
-use serde::de::DeserializeOwned;
-
+use crate::dds::plan::Guid;
+use crate::dds::port::{Inbox, Monitor, Sample};
 use crate::messages::RigInputs as RigInputsMessage;
 use crate::messages::rosgraph_msgs::Clock;
 use crate::messages::std_msgs::Float64;
-use crate::messages::topics::TopicInfo;
+use crate::messages::{Message, from_cdr_body};
 use crate::rig_inputs::{Announcement, Driver, DriverId, Intake, RigSample, SampleRefused, Sent, stamped};
-use crate::ros::NodeError;
-use crate::ros::publisher::dds_topic_name;
 use crate::told::{Throttle, Throttles};
 use flexdrill_config::InputsConfig;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Stamp};
 use flexdrill_realtime::link::Targets;
 use flexdrill_realtime::monotonic;
 
-/// Samples kept for a moment in which the node is busy; each is conditioned in turn, so the newest wins.
-const DEPTH: i32 = 10;
 /// How often the targets follow the ages of the inputs.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(10);
 /// Least time between two log lines about samples of one input (s).
@@ -44,8 +35,6 @@ const LONGEST_SOURCE: usize = 64;
 pub type Now = Arc<dyn Fn() -> f64 + Send + Sync>;
 /// Present instant on the rig's clock (ns since 1970).
 pub type RigTime = Arc<dyn Fn() -> i64 + Send + Sync>;
-/// What discovery knows of a publisher.
-pub type Describe = Arc<dyn Fn(DriverId) -> Driver + Send + Sync>;
 
 /// A sample as received, for the recording.
 #[derive(Debug, Clone)]
@@ -59,36 +48,6 @@ pub enum Received {
     },
     /// With stamp, quality and source.
     Stamped(RigInputsMessage),
-}
-
-/// Subscribes to a topic, best effort, so that any publisher matches.
-///
-/// # Errors
-/// When DDS refuses the topic or the reader.
-pub fn subscribe<M: DeserializeOwned + 'static>(
-    node: &mut Node,
-    participant: &DomainParticipant,
-    name: &str,
-    topic: &TopicInfo,
-) -> Result<Subscription<M>, NodeError> {
-    let failed = |source| NodeError::Topic {
-        topic: name.to_owned(),
-        source,
-    };
-    let policies = QosPolicyBuilder::new()
-        .reliability(Reliability::BestEffort)
-        .durability(Durability::Volatile)
-        .history(History::KeepLast { depth: DEPTH })
-        .build();
-    let handle = participant
-        .create_topic(
-            dds_topic_name(name),
-            topic.kind.dds_type.to_owned(),
-            &policies,
-            TopicKind::NoKey,
-        )
-        .map_err(|error| failed(error.into()))?;
-    node.create_subscription(&handle, None).map_err(failed)
 }
 
 /// Where the samples of the rig go: conditioned into the targets of the solver.
@@ -194,22 +153,17 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What discovery knows of publishers: the machine that they are on.
-pub fn describe(participant: &DomainParticipant) -> Describe {
-    let participant = participant.clone();
-    Arc::new(move |id| {
-        let writers = participant.discovered_writers();
-        let writer = (writers.iter()).find(|writer| writer.writer_proxy.remote_writer_guid.to_bytes() == id.0);
-        let host = writer.and_then(|writer| {
-            let locators = &writer.writer_proxy.unicast_locator_list;
-            let udp = locators.iter().find(|locator| locator.is_udp())?;
-            Some(SocketAddr::from(*udp).ip().to_string())
-        });
-        Driver {
-            host,
-            ..Driver::unknown(id)
-        }
-    })
+/// What discovery knows of a publisher.
+fn describe(dds: &Monitor, id: DriverId) -> Driver {
+    let peer = dds.writers().into_iter().flatten().find(|peer| peer.id == id.0);
+    peer.map_or_else(
+        || Driver::unknown(id),
+        |peer| Driver {
+            id,
+            node: peer.node,
+            host: peer.address,
+        },
+    )
 }
 
 /// The way of the samples of one topic.
@@ -217,7 +171,7 @@ pub struct Door {
     /// Where they go.
     pub rig: RigInputs,
     /// Who knows the publishers.
-    pub describe: Describe,
+    pub dds: Monitor,
     /// Takes a copy for the recording, if there is one.
     pub record: Option<SyncSender<Received>>,
 }
@@ -234,7 +188,7 @@ impl Door {
             asked.clear();
         }
         asked.insert(id, now);
-        let driver = (self.describe)(id);
+        let driver = describe(&self.dds, id);
         locked(&self.rig.intake).drivers.describe(driver);
     }
 
@@ -251,23 +205,21 @@ const MOST_ASKED: usize = 64;
 
 /// Takes the samples of one topic for as long as it is polled; `take` judges one and says what was refused, `kinds` are
 /// the inputs that it carries.
-async fn receive<M>(
+async fn receive<M: Message>(
     door: Door,
     topic: &'static str,
     kinds: &'static [InputKind],
-    subscription: Subscription<M>,
+    samples: &Inbox<Sample>,
     take: impl Fn(&Door, M, DriverId) -> Vec<SampleRefused>,
-) where
-    M: DeserializeOwned + 'static,
-{
-    let mut samples = Box::pin(subscription.async_stream());
+) {
     let mut refused_lines = Throttles::new(LOG_INTERVAL);
     let mut unreadable_lines = Throttle::new(LOG_INTERVAL);
     let mut asked = HashMap::new();
-    while let Some(sample) = samples.next().await {
+    loop {
+        let sample = samples.next().await;
         let clock = monotonic::now() as f64 * 1e-9;
-        let (message, id) = match sample {
-            Ok((message, info)) => (message, DriverId(info.publisher_gid().to_bytes16())),
+        let (message, id) = match decode(sample) {
+            Ok((message, writer)) => (message, DriverId(writer)),
             Err(error) => {
                 locked(&door.rig.intake).count_unreadable(kinds);
                 if let Some(more) = unreadable_lines.ending(clock) {
@@ -289,8 +241,18 @@ async fn receive<M>(
     }
 }
 
+/// A sample as its message, and who wrote it.
+fn decode<M: Message>(sample: Sample) -> Result<(M, Guid), String> {
+    match sample {
+        Sample::Body { writer, body } => from_cdr_body(&body)
+            .map(|(message, _)| (message, writer))
+            .map_err(|error| error.to_string()),
+        Sample::Unreadable(why) => Err(why),
+    }
+}
+
 /// Conditions the samples of one input for as long as it is polled.
-pub async fn receive_plain(door: Door, kind: InputKind, subscription: Subscription<Float64>) {
+pub async fn receive_plain(door: Door, kind: InputKind, samples: Arc<Inbox<Sample>>) {
     let kinds = match kind {
         InputKind::RotarySpeed => &InputKind::ALL[..1],
         InputKind::WeightOnBit => &InputKind::ALL[1..],
@@ -299,7 +261,7 @@ pub async fn receive_plain(door: Door, kind: InputKind, subscription: Subscripti
         door,
         kind.topic(),
         kinds,
-        subscription,
+        &samples,
         move |door, Float64 { data: value }, id| {
             door.record(Received::Plain { kind, value });
             door.rig.take_plain(kind, value, id)
@@ -309,12 +271,12 @@ pub async fn receive_plain(door: Door, kind: InputKind, subscription: Subscripti
 }
 
 /// Conditions the samples of `rig/inputs` for as long as it is polled.
-pub async fn receive_stamped(door: Door, subscription: Subscription<RigInputsMessage>) {
+pub async fn receive_stamped(door: Door, samples: Arc<Inbox<Sample>>) {
     receive(
         door,
         InputRoute::STAMPED_TOPIC,
         &InputKind::ALL,
-        subscription,
+        &samples,
         |door, message, id| {
             let refused = door.rig.take_stamped(&message, id);
             door.record(Received::Stamped(message));
@@ -336,10 +298,11 @@ pub async fn keep_targets(rig: RigInputs) {
 }
 
 /// Follows `/clock`; `newest` is in ns.
-pub async fn follow_clock(rig: RigInputs, subscription: Subscription<Clock>, newest: Arc<AtomicU64>) {
-    let mut ticks = Box::pin(subscription.async_stream());
-    while let Some(tick) = ticks.next().await {
-        let Ok((Clock { clock }, _)) = tick else { continue };
+pub async fn follow_clock(rig: RigInputs, ticks: Arc<Inbox<Sample>>, newest: Arc<AtomicU64>) {
+    loop {
+        let Ok((Clock { clock }, _)) = decode::<Clock>(ticks.next().await) else {
+            continue;
+        };
         let time = clock.to_nanoseconds().max(0) as u64;
         let before = newest.swap(time, Ordering::AcqRel);
         if time < before {

@@ -67,8 +67,9 @@ pub fn apply_overrides(config: &Config, overrides: &[Override]) -> Result<Starte
         match (name.as_str(), value) {
             (USE_SIM_TIME, ParameterValue::Boolean(on)) => use_sim_time = *on,
             (USE_SIM_TIME, _) => return Err(wrong("use true or false")),
-            (CONFIG_FILE, _) => return Err(wrong("use the option --config")),
-            // rclcpp puts such parameters into every file that `ros2 param dump` writes.
+            // `ros2 param dump` writes them all: which file it was is told by the option --config alone, and rclcpp's own are
+            // in every file.
+            (CONFIG_FILE, _) => {}
             (name, _) if name.starts_with("qos_overrides.") || name == "start_type_description_service" => {}
             (key, value) => values.push((
                 key.to_owned(),

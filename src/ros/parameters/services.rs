@@ -11,16 +11,15 @@ use ros2_client::rcl_interfaces::{
     GetParametersRequest, GetParametersResponse, ListParametersRequest, ListParametersResponse,
     SetParametersAtomicallyResponse, SetParametersRequest, SetParametersResponse,
 };
-use ros2_client::{Node, Parameter, ParameterValue};
-use rustdds::DomainParticipant;
+use ros2_client::{Parameter, ParameterValue};
 
 use super::refusal::Refusal;
 use super::store::ParameterStore;
+use crate::dds::plan::{Offer, dds_type_name};
+use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
 use crate::rig_inputs::DriverId;
-use crate::ros::NodeError;
 use crate::ros::args::value::show;
-use crate::ros::publisher::{Offer, TopicPublisher};
 use crate::ros::service::{self, ServiceMapping, ServiceServer, at_once};
 
 /// A server's work, to be run as a task.
@@ -67,37 +66,28 @@ pub struct Parameters {
 impl Parameters {
     /// Takes over a store. `act` is called with each set of values while no other change can come between.
     /// `/parameter_events` carries all parameters now, and every change later.
-    ///
-    /// # Errors
-    /// When the events' topic cannot be created.
-    pub fn new(
-        node: &mut Node,
-        participant: &DomainParticipant,
-        store: ParameterStore,
-        act: Box<Act>,
-    ) -> Result<Arc<Self>, NodeError> {
+    pub fn new(port: &mut PortBuilder, node_name: String, store: ParameterStore, act: Box<Act>) -> Arc<Self> {
         let offer = Offer {
             reliable: true,
             latched: false,
             depth: 1000,
             rate: 10.0,
+            lifespan: None,
         };
-        let events = TopicPublisher::new(
-            node,
-            participant,
+        let events = port.publisher(
             "/parameter_events",
-            "rcl_interfaces/msg/ParameterEvent",
+            &dds_type_name("rcl_interfaces/msg/ParameterEvent"),
             offer,
-        )?;
+        );
         let parameters = Self {
             store: Mutex::new(store),
             act,
             events,
-            node_name: node.fully_qualified_name(),
+            node_name,
         };
         let all = parameters.with(ParameterStore::all);
         parameters.publish(all, Vec::new());
-        Ok(Arc::new(parameters))
+        Arc::new(parameters)
     }
 
     /// Reads the values.
@@ -132,7 +122,7 @@ impl Parameters {
             deleted_parameters: Vec::new(),
         };
         if let Ok(body) = to_cdr_body(&event) {
-            self.events.publish(&body);
+            self.events.publish(body);
         }
     }
 
@@ -147,31 +137,17 @@ impl Parameters {
 }
 
 /// Creates the six servers of a node; each is a task to run.
-///
-/// # Errors
-/// When a service cannot be created.
-pub fn serve(
-    node: &mut Node,
-    participant: &DomainParticipant,
-    mapping: ServiceMapping,
-    parameters: &Arc<Parameters>,
-) -> Result<Vec<Task>, NodeError> {
-    let node_name = node.fully_qualified_name();
+pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<Parameters>) -> Vec<Task> {
+    let node_name = parameters.node_name.clone();
     let mut server = |name: &str, kind: &str| {
         let service = format!("{node_name}/{name}");
-        ServiceServer::new(
-            node,
-            participant,
-            &service,
-            &format!("rcl_interfaces/srv/{kind}"),
-            mapping,
-        )
+        ServiceServer::new(port, &service, &format!("rcl_interfaces/srv/{kind}"), mapping)
     };
     let shared = || Arc::clone(parameters);
     let (get, types, set, atomic, list, describe) = (shared(), shared(), shared(), shared(), shared(), shared());
-    Ok(vec![
+    vec![
         Box::pin(
-            server("get_parameters", "GetParameters")?.serve(at_once(move |request: GetParametersRequest| {
+            server("get_parameters", "GetParameters").serve(at_once(move |request: GetParametersRequest| {
                 get.with(|store| GetParametersResponse {
                     values: request
                         .names
@@ -181,7 +157,7 @@ pub fn serve(
                 })
             })),
         ),
-        Box::pin(server("get_parameter_types", "GetParameterTypes")?.serve(at_once(
+        Box::pin(server("get_parameter_types", "GetParameterTypes").serve(at_once(
             move |request: GetParameterTypesRequest| {
                 types.with(|store| GetParameterTypesResponse {
                     values: request
@@ -193,7 +169,7 @@ pub fn serve(
             },
         ))),
         Box::pin(
-            server("set_parameters", "SetParameters")?.serve(at_once(move |request: SetParametersRequest| {
+            server("set_parameters", "SetParameters").serve(at_once(move |request: SetParametersRequest| {
                 SetParametersResponse {
                     results: request
                         .parameter
@@ -204,25 +180,25 @@ pub fn serve(
             })),
         ),
         Box::pin(
-            server("set_parameters_atomically", "SetParametersAtomically")?.serve(at_once(
+            server("set_parameters_atomically", "SetParametersAtomically").serve(at_once(
                 move |request: SetParametersRequest| SetParametersAtomicallyResponse {
                     result: atomic.answer_set(request.parameter, Origin::of("set_parameters_atomically")),
                 },
             )),
         ),
         Box::pin(
-            server("list_parameters", "ListParameters")?.serve(at_once(move |request: ListParametersRequest| {
+            server("list_parameters", "ListParameters").serve(at_once(move |request: ListParametersRequest| {
                 list.with(|store| ListParametersResponse {
                     result: store.list(&request.prefixes, request.depth),
                 })
             })),
         ),
-        Box::pin(server("describe_parameters", "DescribeParameters")?.serve(at_once(
+        Box::pin(server("describe_parameters", "DescribeParameters").serve(at_once(
             move |request: DescribeParametersRequest| {
                 describe.with(|store| DescribeParametersResponse {
                     values: request.names.iter().map(|name| store.describe(name)).collect(),
                 })
             },
         ))),
-    ])
+    ]
 }

@@ -134,7 +134,7 @@ impl ParameterStore {
         .into()
     }
 
-    /// Names at or below the prefixes, down to `depth` dots (0: no limit).
+    /// Names at or below the prefixes, down to `depth` levels below each of them (0: no limit), as rclcpp has it.
     pub fn list(&self, prefixes: &[String], depth: u64) -> ListParametersResult {
         let shallow = |rest: &str| depth == 0 || (rest.matches('.').count() as u64) < depth;
         let wanted = |name: &str| {
@@ -145,7 +145,8 @@ impl ParameterStore {
                 name == prefix
                     || name
                         .strip_prefix(prefix.as_str())
-                        .is_some_and(|rest| rest.starts_with('.') && shallow(rest))
+                        .and_then(|rest| rest.strip_prefix('.'))
+                        .is_some_and(shallow)
             })
         };
         let names: Vec<String> = self.names().filter(|name| wanted(name)).map(str::to_owned).collect();
@@ -181,6 +182,10 @@ fn unknown(store: &ParameterStore, name: &str) -> Refusal {
 fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue, Refusal> {
     let name = || entry.name.clone();
     if let Some(why) = &entry.read_only {
+        // So that a file of `ros2 param dump` can be loaded again.
+        if *value == entry.value {
+            return Ok(value.clone());
+        }
         return Err(Refusal::ReadOnly {
             name: name(),
             why: why.clone(),
@@ -308,6 +313,10 @@ mod tests {
             ["friction.inner", "friction.outer"]
         );
         assert_eq!(store.list(&[], 1).names, ["count"]);
+        assert_eq!(
+            store.list(&["friction".into()], 1).names,
+            ["friction.inner", "friction.outer"]
+        );
         let described = store.describe("friction.inner");
         assert_eq!(described.floating_point_range[0].to_value, 1.0);
         assert!(store.describe("tool.links").read_only);

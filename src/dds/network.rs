@@ -4,12 +4,13 @@ use std::net::{IpAddr, Ipv4Addr};
 
 use ros2_client::{Context, CreateError};
 use rustdds::DomainParticipantBuilder;
+use serde::{Deserialize, Serialize};
 
 /// Highest domain whose UDP ports fit (7400 + 250 x domain + ...).
 const MAX_DOMAIN: u16 = 232;
 
 /// How far discovery goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reach {
     /// All interfaces, multicast within the subnet.
     Subnet,
@@ -18,12 +19,14 @@ pub enum Reach {
 }
 
 /// Domain and reach.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Network {
     /// DDS domain, 0 to 232.
     pub domain_id: u16,
     /// How far discovery goes.
     pub reach: Reach,
+    /// Addresses of the interfaces to use; all if there are none.
+    pub interfaces: Vec<IpAddr>,
 }
 
 /// Why the network settings or the DDS participant cannot be used.
@@ -93,10 +96,48 @@ impl Network {
         if variable("ROS_DISCOVERY_SERVER").is_some() {
             notes.push("ROS_DISCOVERY_SERVER is ignored: it belongs to Fast DDS".into());
         }
-        Ok((Self { domain_id, reach }, notes))
+        let network = Self {
+            domain_id,
+            reach,
+            interfaces: Vec::new(),
+        };
+        Ok((network, notes))
     }
 
-    /// Starts DDS.
+    /// As the configuration restricts or widens it.
+    #[must_use]
+    pub fn configured(mut self, network: &flexdrill_config::Network) -> Self {
+        match network.reach {
+            flexdrill_config::Reach::Environment => {}
+            flexdrill_config::Reach::Subnet => self.reach = Reach::Subnet,
+            flexdrill_config::Reach::Localhost => self.reach = Reach::Localhost,
+        }
+        self.interfaces.clone_from(&network.interfaces);
+        self
+    }
+
+    /// Who can reach the node, and what that means.
+    pub fn describe(&self) -> String {
+        let domain = self.domain_id;
+        let interfaces = || {
+            let shown: Vec<String> = self.interfaces.iter().map(ToString::to_string).collect();
+            shown.join(", ")
+        };
+        match (self.reach, self.interfaces.is_empty()) {
+            (Reach::Localhost, _) => format!("domain {domain}, this machine only"),
+            (Reach::Subnet, is_all) => format!(
+                "domain {domain}, {}: any machine there can read the outputs, send inputs and set parameters \
+                 (network.reach: localhost keeps it on this machine)",
+                if is_all {
+                    "all interfaces".to_owned()
+                } else {
+                    interfaces()
+                }
+            ),
+        }
+    }
+
+    /// Starts DDS in this process.
     ///
     /// # Errors
     /// When no participant can be created.
@@ -108,6 +149,8 @@ impl Network {
         let mut builder = DomainParticipantBuilder::new(self.domain_id);
         if self.reach == Reach::Localhost {
             builder = builder.with_only_networks([IpAddr::V4(Ipv4Addr::LOCALHOST)]);
+        } else if !self.interfaces.is_empty() {
+            builder = builder.with_only_networks(self.interfaces.iter().copied());
         }
         let participant = builder.build().map_err(|error| failed(CreateError::from(error)))?;
         Context::from_domain_participant(participant).map_err(failed)
@@ -140,7 +183,8 @@ mod tests {
             read(None, &[]).unwrap().0,
             Network {
                 domain_id: 0,
-                reach: Reach::Subnet
+                reach: Reach::Subnet,
+                interfaces: Vec::new(),
             }
         );
         assert_eq!(read(None, &[("ROS_DOMAIN_ID", "7")]).unwrap().0.domain_id, 7);

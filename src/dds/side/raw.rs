@@ -41,7 +41,11 @@ impl<'de> Deserialize<'de> for RawCdr {
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<RawCdr, A::Error> {
                 let mut bytes = Vec::new();
-                // The end of the input shows as an error of the next element: CDR does not say how long it is.
+                // Words first, so that numbers of eight bytes from a sender with the other byte order come out right. The
+                // end of the input shows as an error of the next element: CDR does not say how long it is.
+                while let Ok(Some(word)) = seq.next_element::<u64>() {
+                    bytes.extend(word.to_le_bytes());
+                }
                 while let Ok(Some(byte)) = seq.next_element() {
                     bytes.push(byte);
                 }

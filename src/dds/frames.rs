@@ -1,0 +1,261 @@
+//! What goes over the socket between the node and its DDS process: a length of four bytes, then a value as postcard.
+
+use std::io::{self, Read, Write};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::plan::{Guid, GuidPrefix, Plan};
+
+/// Longest frame. The longest message of a tool of 200 stations has 80 kB.
+pub const MOST_BYTES: usize = 16 << 20;
+
+/// To the DDS process.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum ToSide {
+    /// Set this up; the first frame.
+    Begin(Plan),
+    /// Publish a CDR body.
+    Publish {
+        /// Number of the writer in the plan.
+        writer: u16,
+        /// Without the CDR header.
+        #[serde(with = "serde_bytes")]
+        body: Vec<u8>,
+    },
+    /// Answer a request.
+    Reply {
+        /// Number of the service in the plan.
+        service: u16,
+        /// As it came with the request.
+        ticket: u64,
+        /// Without the CDR header.
+        #[serde(with = "serde_bytes")]
+        body: Vec<u8>,
+    },
+    /// Leave the network in order, and end.
+    End,
+}
+
+/// From the DDS process.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum FromSide {
+    /// All endpoints exist.
+    Up(GuidPrefix),
+    /// It ends, and why.
+    Failed(String),
+    /// A sample was received.
+    Sample {
+        /// Number of the reader in the plan.
+        reader: u16,
+        /// Who wrote it.
+        writer: Guid,
+        /// The CDR body, as little endian.
+        #[serde(with = "serde_bytes")]
+        body: Vec<u8>,
+    },
+    /// A sample was received that is no sample.
+    Unreadable {
+        /// Number of the reader in the plan.
+        reader: u16,
+        /// Why.
+        why: String,
+    },
+    /// A request was received.
+    Request {
+        /// Number of the service in the plan.
+        service: u16,
+        /// Goes back with the reply.
+        ticket: u64,
+        /// Who asks.
+        client: Guid,
+        /// The CDR body.
+        #[serde(with = "serde_bytes")]
+        body: Vec<u8>,
+    },
+    /// DDS itself is alive: a sample has just gone through it.
+    Beat(Beat),
+    /// Who is out there has changed.
+    Peers(Peers),
+    /// A line for the log.
+    Log {
+        /// How bad.
+        level: LogLevel,
+        /// What.
+        text: String,
+    },
+    /// Readers do not take what they asked for; their topic was offered anew.
+    Stalled(Stall),
+}
+
+/// Severity of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LogLevel {
+    /// Something does not work.
+    Error,
+    /// Something may not work as meant.
+    Warning,
+    /// Good to know.
+    Info,
+    /// For who looks for a cause.
+    Debug,
+}
+
+/// What the DDS process has done since it was started.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Beat {
+    /// Per writer: samples taken by DDS, and samples refused.
+    pub written: Vec<(u64, u64)>,
+    /// Resident memory (bytes).
+    pub memory: u64,
+}
+
+/// Other endpoints on the topics of the node.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Peers {
+    /// Per reader of the plan: who writes.
+    pub writers: Vec<Vec<Peer>>,
+    /// Per writer of the plan: how many read.
+    pub readers: Vec<u32>,
+    /// Other nodes with the very name of ours.
+    pub namesakes: Vec<Peer>,
+}
+
+/// An endpoint of somebody else.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Peer {
+    /// Its id on the network.
+    pub id: Guid,
+    /// The ROS 2 node that it belongs to, where that is known.
+    pub node: Option<String>,
+    /// Where it can be reached, as `192.168.1.7`.
+    pub address: Option<String>,
+}
+
+impl std::fmt::Display for Peer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match &self.node {
+            Some(node) => write!(f, "node {node}")?,
+            None => f.write_str("a DDS program")?,
+        }
+        if let Some(address) = &self.address {
+            write!(f, " at {address}")?;
+        }
+        f.write_str(" (id ")?;
+        for byte in self.id {
+            write!(f, "{byte:02x}")?;
+        }
+        f.write_str(")")
+    }
+}
+
+/// A topic whose readers did not take.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Stall {
+    /// Its absolute name.
+    pub topic: String,
+    /// Who did not take; where that could not be told, all who asked for every sample.
+    pub readers: Vec<Peer>,
+    /// Whether `readers` are those, or those it is one of.
+    pub is_certain: bool,
+}
+
+/// A value as a frame.
+///
+/// # Errors
+/// When it cannot be encoded or is longer than [`MOST_BYTES`].
+pub fn encode<T: Serialize>(value: &T) -> io::Result<Vec<u8>> {
+    let frame = postcard::to_extend(value, vec![0; 4]).map_err(io::Error::other)?;
+    let length = frame.len() - 4;
+    if length > MOST_BYTES {
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            format!("a frame of {length} bytes is longer than {MOST_BYTES}"),
+        ));
+    }
+    let mut frame = frame;
+    frame[..4].copy_from_slice(&(length as u32).to_le_bytes());
+    Ok(frame)
+}
+
+/// Writes a value as a frame.
+///
+/// # Errors
+/// When it cannot be encoded, is too long, or the other side has gone.
+pub fn write<T: Serialize>(to: &mut impl Write, value: &T) -> io::Result<()> {
+    to.write_all(&encode(value)?)
+}
+
+/// Reads the next frame; `None` at the end.
+///
+/// # Errors
+/// When the stream ends within a frame, or the frame is too long or no such value.
+pub fn read<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<Option<T>> {
+    let mut length = [0; 4];
+    match from.read(&mut length[..1])? {
+        0 => return Ok(None),
+        _ => from.read_exact(&mut length[1..])?,
+    }
+    let length = u32::from_le_bytes(length) as usize;
+    if length > MOST_BYTES {
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            format!("a frame of {length} bytes is longer than {MOST_BYTES}"),
+        ));
+    }
+    let mut bytes = vec![0; length];
+    from.read_exact(&mut bytes)?;
+    postcard::from_bytes(&bytes).map(Some).map_err(io::Error::other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_come_out_as_they_went_in_and_long_ones_do_not_go() {
+        let mut pipe = Vec::new();
+        for body in [vec![], vec![7; 1000], vec![9; 100_000]] {
+            write(&mut pipe, &ToSide::Publish { writer: 3, body }).unwrap();
+        }
+        write(&mut pipe, &ToSide::End).unwrap();
+        let mut from = pipe.as_slice();
+        for length in [0, 1000, 100_000] {
+            let Some(ToSide::Publish { writer: 3, body }) = read(&mut from).unwrap() else {
+                panic!("another frame");
+            };
+            assert_eq!(body.len(), length);
+        }
+        assert!(matches!(read(&mut from).unwrap(), Some(ToSide::End)));
+        assert!(read::<ToSide>(&mut from).unwrap().is_none());
+        let too_long = ToSide::Publish {
+            writer: 0,
+            body: vec![0; MOST_BYTES + 1],
+        };
+        assert!(write(&mut Vec::new(), &too_long).is_err());
+    }
+
+    #[test]
+    fn nonsense_is_an_error() {
+        assert!(read::<ToSide>(&mut [255, 255, 255, 255, 0].as_slice()).is_err());
+        assert!(read::<ToSide>(&mut [4, 0, 0, 0, 1].as_slice()).is_err());
+        assert!(read::<ToSide>(&mut [1, 0, 0, 0, 200].as_slice()).is_err());
+    }
+
+    #[test]
+    fn a_peer_is_named_by_what_is_known() {
+        let peer = Peer {
+            id: [1; 16],
+            node: Some("/plot".into()),
+            address: Some("10.0.0.3".into()),
+        };
+        let id = "01".repeat(16);
+        assert_eq!(peer.to_string(), format!("node /plot at 10.0.0.3 (id {id})"));
+        let unknown = Peer {
+            node: None,
+            address: None,
+            ..peer
+        };
+        assert_eq!(unknown.to_string(), format!("a DDS program (id {id})"));
+    }
+}

@@ -1,0 +1,140 @@
+//! What the DDS process is to set up: names, types and qualities of service.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dds::network::Network;
+
+/// Time that a reader may stall before writes are refused (s): longer than the lease after which DDS drops a dead one.
+const STALL_TIME: f64 = 15.0;
+
+/// Bytes of the prefix that all endpoints of a participant share.
+pub type GuidPrefix = [u8; 12];
+/// The global id of an endpoint on the network.
+pub type Guid = [u8; 16];
+
+/// One node with all its endpoints.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Plan {
+    /// Domain and reach.
+    pub network: Network,
+    /// Namespace of the node.
+    pub namespace: String,
+    /// Name of the node.
+    pub node: String,
+    /// Topics to write.
+    pub writers: Vec<WriterPlan>,
+    /// Topics to read.
+    pub readers: Vec<ReaderPlan>,
+    /// Services to serve.
+    pub services: Vec<ServicePlan>,
+    /// Participants that were ours before and may still be known to others.
+    pub former: Vec<GuidPrefix>,
+}
+
+/// A topic that is written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WriterPlan {
+    /// Absolute name.
+    pub topic: String,
+    /// As `std_msgs::msg::dds_::Float64_`.
+    pub dds_type: String,
+    /// How it is offered.
+    pub offer: Offer,
+}
+
+/// A topic that is read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReaderPlan {
+    /// Absolute name.
+    pub topic: String,
+    /// As `std_msgs::msg::dds_::Float64_`.
+    pub dds_type: String,
+    /// Asks for what was written before, and for what was lost.
+    pub latched: bool,
+}
+
+/// A service.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ServicePlan {
+    /// Absolute name.
+    pub name: String,
+    /// As `std_srvs/srv/Trigger`.
+    pub ros_type: String,
+}
+
+/// How a topic is offered.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Offer {
+    /// Resend what was lost.
+    pub reliable: bool,
+    /// Keep the last sample for those who come later.
+    pub latched: bool,
+    /// History depth as announced to readers.
+    pub depth: i32,
+    /// Highest rate of publication (Hz), for the size of the history.
+    pub rate: f64,
+    /// How long a sample is worth receiving (s). Default: for ever.
+    pub lifespan: Option<f64>,
+}
+
+impl Offer {
+    /// Most samples kept for readers that have not acknowledged.
+    pub fn max_samples(&self) -> i32 {
+        if self.latched {
+            // Late joiners are given all that is kept, so keep no more than is meant.
+            self.depth.max(1)
+        } else {
+            ((self.rate * STALL_TIME).ceil() as i32).clamp(32, 8192)
+        }
+    }
+
+    /// Whether its newest sample is a state that a new start must tell again.
+    pub fn is_state(&self) -> bool {
+        self.latched && self.depth == 1
+    }
+}
+
+/// The DDS name of an absolute ROS topic: `/a/b` is `rt/a/b`.
+pub fn dds_topic_name(topic: &str) -> String {
+    format!("rt{topic}")
+}
+
+/// The DDS name of a ROS message type: `std_msgs/msg/Float64` is `std_msgs::msg::dds_::Float64_`.
+pub fn dds_type_name(ros_type: &str) -> String {
+    let (package, name) = ros_type.split_once('/').unwrap_or((ros_type, ""));
+    let name = name.rsplit('/').next().unwrap_or_default();
+    format!("{package}::msg::dds_::{name}_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_on_the_wire() {
+        assert_eq!(dds_topic_name("/rig_7/twin/status"), "rt/rig_7/twin/status");
+        assert_eq!(
+            dds_type_name("flexdrill/msg/TwinStatus"),
+            "flexdrill::msg::dds_::TwinStatus_"
+        );
+    }
+
+    #[test]
+    fn history_outlasts_a_stall_and_latched_topics_keep_one() {
+        let offer = Offer {
+            reliable: true,
+            latched: false,
+            depth: 10,
+            rate: 50.0,
+            lifespan: None,
+        };
+        assert_eq!(offer.max_samples(), 750);
+        let state = Offer {
+            latched: true,
+            depth: 1,
+            ..offer
+        };
+        assert_eq!(state.max_samples(), 1);
+        assert!(state.is_state() && !offer.is_state());
+    }
+}

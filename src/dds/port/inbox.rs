@@ -1,0 +1,106 @@
+//! What came from the network, until the part of the node that it is for has time.
+
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use tokio::sync::Notify;
+
+use crate::dds::plan::Guid;
+
+/// A sample.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Sample {
+    /// As received.
+    Body {
+        /// Who wrote it.
+        writer: Guid,
+        /// CDR without its header.
+        body: Vec<u8>,
+    },
+    /// No sample of the topic's encoding.
+    Unreadable(String),
+}
+
+/// A request to a service.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Request {
+    /// Which life of the DDS process it came through.
+    pub(super) life: u64,
+    pub(super) ticket: u64,
+    /// Who asks.
+    pub client: Guid,
+    /// CDR without its header.
+    pub body: Vec<u8>,
+}
+
+/// A bounded queue. When it is full the oldest goes: of an input only the newest counts, and a client whose request is
+/// that old has given up.
+pub struct Inbox<T> {
+    queue: Mutex<VecDeque<T>>,
+    most: usize,
+    came: Notify,
+}
+
+impl<T> Inbox<T> {
+    pub(super) fn new(most: usize) -> Self {
+        Self {
+            queue: Mutex::default(),
+            most,
+            came: Notify::new(),
+        }
+    }
+
+    pub(super) fn put(&self, item: T) {
+        {
+            let mut queue = self.lock();
+            if queue.len() == self.most {
+                queue.pop_front();
+            }
+            queue.push_back(item);
+        }
+        self.came.notify_one();
+    }
+
+    /// The oldest one, if there is any.
+    pub fn take(&self) -> Option<T> {
+        self.lock().pop_front()
+    }
+
+    /// Waits for the next one.
+    pub async fn next(&self) -> T {
+        loop {
+            if let Some(item) = self.take() {
+                return item;
+            }
+            // One that came since is remembered by the notification.
+            self.came.notified().await;
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, VecDeque<T>> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_newest_stay_in_order() {
+        let inbox = Inbox::new(3);
+        for item in 0..5 {
+            inbox.put(item);
+        }
+        let left: Vec<i32> = std::iter::from_fn(|| inbox.take()).collect();
+        assert_eq!(left, [2, 3, 4]);
+    }
+
+    #[tokio::test]
+    async fn what_is_there_is_not_waited_for() {
+        let inbox = Inbox::new(3);
+        inbox.put(1);
+        inbox.put(2);
+        assert_eq!((inbox.next().await, inbox.next().await), (1, 2));
+    }
+}

@@ -1,0 +1,362 @@
+//! The DDS process: joins the network as one node, writes what it is given, hands over what it hears.
+//!
+//! It keeps no state that matters. Whatever is wrong with DDS in it, it ends, and the node starts another one.
+
+mod backlog;
+mod limits;
+mod logs;
+mod outlet;
+mod peers;
+mod pulse;
+mod raw;
+mod replies;
+mod topic_writer;
+
+use std::io::{self, BufReader};
+use std::os::fd::AsFd as _;
+use std::os::unix::net::UnixStream;
+use std::process::ExitCode;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use futures::StreamExt as _;
+use futures::stream::FuturesUnordered;
+use ros2_client::{Context, Node, NodeName, NodeOptions, Subscription};
+use rustdds::policy::{Durability, History, Reliability};
+use rustdds::{DomainParticipant, QosPolicyBuilder, StatusEvented as _, TopicKind};
+use tokio::sync::{Notify, mpsc};
+
+use self::outlet::Outlet;
+use self::peers::PeerBook;
+use self::pulse::Pulse;
+use self::raw::RawCdr;
+use self::replies::{Answer, ServiceServer};
+use self::topic_writer::TopicWriter;
+use super::frames::{self, Beat, FromSide, LogLevel, ToSide};
+use super::plan::{Plan, ReaderPlan, dds_topic_name};
+use crate::dds::network::NetworkError;
+
+/// Name of the subcommand that the node starts itself with.
+pub const SUBCOMMAND: &str = "dds-side";
+
+/// Samples kept for a moment in which the process is busy.
+const DEPTH: i32 = 64;
+/// How often refused samples are tried again.
+const TICK: Duration = Duration::from_millis(10);
+/// How often the node is told that DDS is alive.
+const BEAT: Duration = Duration::from_millis(200);
+/// How often it is looked who else is out there.
+const LOOK: Duration = Duration::from_millis(500);
+/// Broken announcements together from which on discovery may be jammed; a few can be on one network that mixes versions.
+const MOST_BROKEN: u32 = 10;
+/// How long they must have ended: while they come a fresh start jams too.
+const CALM: Duration = Duration::from_millis(500);
+/// Replies that may wait for their client to be known.
+const REPLIES: usize = 256;
+
+/// Why the process ends.
+#[derive(Debug, thiserror::Error)]
+enum SideError {
+    #[error("the node's socket: {0}")]
+    Socket(#[from] io::Error),
+    #[error("the first frame says nothing to set up")]
+    NoPlan,
+    #[error(transparent)]
+    Network(#[from] NetworkError),
+    #[error("node {node}: {why}")]
+    Node { node: String, why: String },
+    #[error("topic {topic}: {why}")]
+    Topic { topic: String, why: String },
+    #[error("service {service}: {why}")]
+    Service { service: String, why: String },
+    #[error("{0}")]
+    Sick(String),
+}
+
+/// Runs until the node says so or goes, or DDS is not well. Its standard input is a socket to the node.
+pub fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}; this subcommand is for flexdrill's own use");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), SideError> {
+    let socket = UnixStream::from(io::stdin().as_fd().try_clone_to_owned()?);
+    let mut from = BufReader::new(socket.try_clone()?);
+    let Some(ToSide::Begin(plan)) = frames::read(&mut from)? else {
+        return Err(SideError::NoPlan);
+    };
+    limits::set();
+    let outlet = Outlet::start(socket)?;
+    logs::start(&outlet);
+    serve(&plan, from, &outlet).inspect_err(|error| {
+        outlet.send(FromSide::Failed(error.to_string()));
+    })?;
+    outlet.finish();
+    Ok(())
+}
+
+fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<(), SideError> {
+    let context = plan.network.start()?;
+    let participant = context.domain_participant();
+    let mut node = create_node(&context, plan)?;
+    let mut subscriptions = Vec::new();
+    for reader in &plan.readers {
+        subscriptions.push(subscribe(&mut node, &participant, reader)?);
+    }
+    let mut servers = Vec::new();
+    for service in &plan.services {
+        let failed = |why| SideError::Service {
+            service: service.name.clone(),
+            why,
+        };
+        servers.push(ServiceServer::new(&mut node, &participant, service).map_err(failed)?);
+    }
+    let mut writers = Vec::new();
+    for writer in &plan.writers {
+        let failed = |why| SideError::Topic {
+            topic: writer.topic.clone(),
+            why,
+        };
+        writers.push(TopicWriter::new(&mut node, &participant, writer.clone()).map_err(failed)?);
+    }
+    let book = PeerBook::new(&mut node, &participant, plan).map_err(|why| SideError::Topic {
+        topic: peers::DISCOVERY_TOPIC.to_owned(),
+        why,
+    })?;
+    let pulse = Pulse::new(&participant).map_err(|why| SideError::Sick(format!("the pulse: {why}")))?;
+    outlet.send(FromSide::Up(participant_prefix(&participant)));
+
+    let writers = Arc::new(Mutex::new(writers));
+    let (answers, answered) = mpsc::channel(REPLIES);
+    let end = Arc::new(Notify::new());
+    let inlet = Inlet {
+        writers: Arc::clone(&writers),
+        answers,
+        end: Arc::clone(&end),
+    };
+    std::thread::Builder::new()
+        .name("from the node".into())
+        .spawn(move || inlet.run(from))?;
+    let minder = Minder {
+        writers,
+        node,
+        participant: participant.clone(),
+        book,
+        pulse,
+        outlet: outlet.clone(),
+    };
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build()?;
+    let result = runtime.block_on(async {
+        let mut listening: FuturesUnordered<_> = subscriptions
+            .iter()
+            .enumerate()
+            .map(|(index, subscription)| hear(index as u16, subscription, outlet))
+            .collect();
+        let serving = replies::serve(&servers, answered, outlet);
+        tokio::select! {
+            () = end.notified() => Ok(()),
+            sick = minder.mind() => Err(sick),
+            Some(()) = listening.next() => Err(SideError::Sick("a subscription ended".into())),
+            () = serving => Err(SideError::Sick("a service ended".into())),
+        }
+    });
+    if let Err(error) = &result {
+        outlet.send(FromSide::Failed(error.to_string()));
+        outlet.finish();
+        // DDS that is sick cannot leave the network in order, and would hang or complain of each endpoint.
+        std::process::exit(1);
+    }
+    // The subscriptions and servers go before the participant that they belong to.
+    drop((subscriptions, servers));
+    drop(context);
+    result
+}
+
+fn create_node(context: &Context, plan: &Plan) -> Result<Node, SideError> {
+    let failed = |why: String| SideError::Node {
+        node: format!("{}/{}", plan.namespace.trim_end_matches('/'), plan.node),
+        why,
+    };
+    let name = NodeName::new(&plan.namespace, &plan.node).map_err(|error| failed(error.to_string()))?;
+    let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
+    context
+        .new_node(name, options)
+        .map_err(|error| failed(error.to_string()))
+}
+
+fn participant_prefix(participant: &DomainParticipant) -> super::plan::GuidPrefix {
+    use rustdds::RTPSEntity as _;
+    let mut prefix = [0; 12];
+    prefix.copy_from_slice(&participant.guid().to_bytes()[..12]);
+    prefix
+}
+
+/// Reads best effort, so that any writer matches; a latched topic reliably and from its newest sample on.
+fn subscribe(
+    node: &mut Node,
+    participant: &DomainParticipant,
+    plan: &ReaderPlan,
+) -> Result<Subscription<RawCdr>, SideError> {
+    let failed = |why: String| SideError::Topic {
+        topic: plan.topic.clone(),
+        why,
+    };
+    let policies = QosPolicyBuilder::new()
+        .reliability(if plan.latched {
+            Reliability::Reliable {
+                max_blocking_time: rustdds::Duration::ZERO,
+            }
+        } else {
+            Reliability::BestEffort
+        })
+        .durability(if plan.latched {
+            Durability::TransientLocal
+        } else {
+            Durability::Volatile
+        })
+        .history(History::KeepLast { depth: DEPTH })
+        .build();
+    let handle = participant
+        .create_topic(
+            dds_topic_name(&plan.topic),
+            plan.dds_type.clone(),
+            &policies,
+            TopicKind::NoKey,
+        )
+        .map_err(|error| failed(error.to_string()))?;
+    node.create_subscription(&handle, None)
+        .map_err(|error| failed(error.to_string()))
+}
+
+/// Hands over all that a subscription hears.
+async fn hear(reader: u16, subscription: &Subscription<RawCdr>, outlet: &Outlet) {
+    let mut samples = Box::pin(subscription.async_stream());
+    while let Some(sample) = samples.next().await {
+        outlet.send(match sample {
+            Ok((RawCdr(body), info)) => FromSide::Sample {
+                reader,
+                writer: info.publisher_gid().to_bytes16(),
+                body,
+            },
+            Err(error) => FromSide::Unreadable {
+                reader,
+                why: error.to_string(),
+            },
+        });
+    }
+}
+
+/// What the node says.
+struct Inlet {
+    writers: Arc<Mutex<Vec<TopicWriter>>>,
+    answers: mpsc::Sender<Answer>,
+    end: Arc<Notify>,
+}
+
+impl Inlet {
+    fn run(self, mut from: BufReader<UnixStream>) {
+        // The end of the node and nonsense from it are the end here too.
+        while let Ok(Some(frame)) = frames::read(&mut from) {
+            match frame {
+                ToSide::Publish { writer, body } => {
+                    let mut writers = self.writers.lock().unwrap_or_else(PoisonError::into_inner);
+                    if let Some(writer) = writers.get_mut(usize::from(writer)) {
+                        writer.publish(body);
+                    }
+                }
+                ToSide::Reply { service, ticket, body } => {
+                    // More than that at once: the client asks again.
+                    let _ = self.answers.try_send(Answer { service, ticket, body });
+                }
+                ToSide::Begin(_) | ToSide::End => break,
+            }
+        }
+        self.end.notify_one();
+    }
+}
+
+/// What is done at regular times.
+struct Minder {
+    writers: Arc<Mutex<Vec<TopicWriter>>>,
+    node: Node,
+    participant: DomainParticipant,
+    book: PeerBook,
+    pulse: Pulse,
+    outlet: Outlet,
+}
+
+impl Minder {
+    /// Runs until DDS is sick; why.
+    async fn mind(mut self) -> SideError {
+        let mut tick = tokio::time::interval(TICK);
+        tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+        let (mut next_beat, mut next_look) = (Instant::now(), Instant::now());
+        let events = self.participant.status_listener();
+        loop {
+            tick.tick().await;
+            let now = Instant::now();
+            self.tend_writers(now);
+            while let Some(event) = events.try_recv_status() {
+                if let Some(text) = peers::incompatible(&event, &self.participant) {
+                    self.outlet.log(LogLevel::Warning, text);
+                }
+            }
+            if now >= next_beat {
+                next_beat = now + BEAT;
+                if let Err(why) = self.beat(now) {
+                    return SideError::Sick(why);
+                }
+            }
+            if now >= next_look {
+                next_look = now + LOOK;
+                if let Some(peers) = self.book.look(&self.participant) {
+                    self.outlet.send(FromSide::Peers(peers));
+                }
+            }
+        }
+    }
+
+    fn tend_writers(&mut self, now: Instant) {
+        let mut writers = self.writers.lock().unwrap_or_else(PoisonError::into_inner);
+        for writer in writers.iter_mut() {
+            let stalled = writer.tend(now, &mut self.node, &self.participant, &self.book);
+            if let Some(stall) = stalled {
+                self.outlet.send(FromSide::Stalled(stall));
+            }
+        }
+    }
+
+    fn beat(&mut self, now: Instant) -> Result<(), String> {
+        self.pulse.check(now)?;
+        let memory = limits::resident();
+        limits::judge(memory)?;
+        if let Some((broken, calm)) = logs::broken_announcements(now)
+            && broken >= MOST_BROKEN
+            && calm >= CALM
+        {
+            return Err(format!(
+                "{broken} broken announcements came together: the library's discovery jams on them and would hear of \
+                 nobody new"
+            ));
+        }
+        let renewals: u32 = self.with_writers(|writer| writer.renewals()).iter().sum();
+        if renewals > topic_writer::MOST_RENEWALS {
+            return Err(format!(
+                "its writers were made anew {renewals} times for readers that do not take; it begins afresh"
+            ));
+        }
+        let written = self.with_writers(TopicWriter::written);
+        self.outlet.send(FromSide::Beat(Beat { written, memory }));
+        Ok(())
+    }
+
+    fn with_writers<T>(&self, what: impl Fn(&TopicWriter) -> T) -> Vec<T> {
+        let writers = self.writers.lock().unwrap_or_else(PoisonError::into_inner);
+        writers.iter().map(what).collect()
+    }
+}

@@ -1,0 +1,300 @@
+//! Who else is on the topics of the node: from DDS's discovery, and from what ROS 2 nodes say of themselves.
+
+use std::collections::BTreeMap;
+use std::net::{IpAddr, SocketAddr};
+
+use ros2_client::{Gid, Node, Publisher, Subscription};
+use rustdds::policy::{Durability, History, Reliability};
+use rustdds::{DomainParticipant, DomainParticipantStatusEvent, GUID, QosPolicyBuilder, RTPSEntity as _, TopicKind};
+use serde::{Deserialize, Serialize};
+
+use super::backlog;
+use super::logs::RepairWatch;
+use super::raw::RawCdr;
+use crate::dds::frames::{Peer, Peers};
+use crate::dds::plan::{Guid, GuidPrefix, Plan, dds_topic_name};
+
+/// Where ROS 2 nodes say which endpoints are theirs.
+pub(super) const DISCOVERY_TOPIC: &str = "ros_discovery_info";
+const DISCOVERY_TYPE: &str = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
+/// Most participants remembered: made-up ones must not pile up.
+const MOST_PARTICIPANTS: usize = 1024;
+
+/// `rmw_dds_common/msg/ParticipantEntitiesInfo`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Participant {
+    gid: Gid,
+    nodes: Vec<Entities>,
+}
+
+/// `rmw_dds_common/msg/NodeEntitiesInfo`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Entities {
+    namespace: String,
+    name: String,
+    readers: Vec<Gid>,
+    writers: Vec<Gid>,
+}
+
+impl Entities {
+    fn full_name(&self) -> String {
+        format!("{}/{}", self.namespace.trim_end_matches('/'), self.name)
+    }
+}
+
+/// What is known of others.
+pub(super) struct PeerBook {
+    announced: Subscription<Participant>,
+    nodes: BTreeMap<GuidPrefix, Vec<Entities>>,
+    own: GuidPrefix,
+    former: Vec<GuidPrefix>,
+    own_name: String,
+    read: Vec<String>,
+    written: Vec<String>,
+    told: Option<Peers>,
+}
+
+impl PeerBook {
+    pub(super) fn new(node: &mut Node, participant: &DomainParticipant, plan: &Plan) -> Result<Self, String> {
+        let policies = QosPolicyBuilder::new()
+            .reliability(Reliability::Reliable {
+                max_blocking_time: rustdds::Duration::ZERO,
+            })
+            .durability(Durability::TransientLocal)
+            .history(History::KeepLast { depth: 64 })
+            .build();
+        let topic = participant
+            .create_topic(
+                DISCOVERY_TOPIC.to_owned(),
+                DISCOVERY_TYPE.to_owned(),
+                &policies,
+                TopicKind::NoKey,
+            )
+            .map_err(|error| error.to_string())?;
+        let announced = node
+            .create_subscription(&topic, None)
+            .map_err(|error| error.to_string())?;
+        Ok(Self {
+            announced,
+            nodes: BTreeMap::new(),
+            own: prefix(&participant.guid()),
+            former: plan.former.clone(),
+            own_name: format!("{}/{}", plan.namespace.trim_end_matches('/'), plan.node),
+            read: plan.readers.iter().map(|plan| dds_topic_name(&plan.topic)).collect(),
+            written: plan.writers.iter().map(|plan| dds_topic_name(&plan.topic)).collect(),
+            told: None,
+        })
+    }
+
+    /// Who is there; `None` when nothing has changed since it was last asked.
+    pub(super) fn look(&mut self, participant: &DomainParticipant) -> Option<Peers> {
+        while let Ok(Some((announced, _))) = self.announced.take() {
+            let from = prefix(&GUID::from(announced.gid));
+            if self.nodes.len() < MOST_PARTICIPANTS || self.nodes.contains_key(&from) {
+                self.nodes.insert(from, announced.nodes);
+            }
+        }
+        let written = participant.discovered_writers();
+        let present: Vec<GuidPrefix> = written
+            .iter()
+            .map(|writer| prefix(&writer.writer_proxy.remote_writer_guid))
+            .collect();
+        // A node writes at least its list of endpoints.
+        self.nodes.retain(|from, _| present.contains(from));
+        let writers = self.read.iter().map(|topic| {
+            written
+                .iter()
+                .filter(|writer| writer.publication_topic_data.topic_name == *topic)
+                .filter(|writer| self.is_other(&writer.writer_proxy.remote_writer_guid))
+                .map(|writer| {
+                    self.peer(
+                        &writer.writer_proxy.remote_writer_guid,
+                        &writer.writer_proxy.unicast_locator_list,
+                    )
+                })
+                .collect()
+        });
+        let reading = participant.discovered_readers();
+        let readers = self.written.iter().map(|topic| {
+            let readers = reading
+                .iter()
+                .filter(|reader| reader.subscription_topic_data.topic_name == *topic)
+                .filter(|reader| self.is_other(&reader.reader_proxy.remote_reader_guid));
+            readers.count() as u32
+        });
+        let namesakes = self.nodes.iter().filter(|(from, nodes)| {
+            **from != self.own
+                && !self.former.contains(from)
+                && nodes.iter().any(|node| node.full_name() == self.own_name)
+        });
+        let peers = Peers {
+            writers: writers.collect(),
+            readers: readers.collect(),
+            namesakes: namesakes
+                .map(|(from, _)| {
+                    let mut id = [0; 16];
+                    id[..12].copy_from_slice(from);
+                    Peer {
+                        id,
+                        node: Some(self.own_name.clone()),
+                        address: written
+                            .iter()
+                            .find(|writer| prefix(&writer.writer_proxy.remote_writer_guid) == *from)
+                            .and_then(|writer| address(&writer.writer_proxy.unicast_locator_list)),
+                    }
+                })
+                .collect(),
+        };
+        if self.told.as_ref() == Some(&peers) {
+            return None;
+        }
+        self.told = Some(peers.clone());
+        Some(peers)
+    }
+
+    /// The readers for which a writer refuses: those to which samples were sent again meanwhile or whose socket on this
+    /// machine piles up, else all that asked for every sample. Whether it is these for certain.
+    pub(super) fn stalled(
+        &self,
+        publisher: &Publisher<RawCdr>,
+        topic: &str,
+        participant: &DomainParticipant,
+        watch: &RepairWatch,
+    ) -> (Vec<Peer>, bool) {
+        let topic = dds_topic_name(topic);
+        let readers: Vec<_> = participant
+            .discovered_readers()
+            .into_iter()
+            .filter(|reader| reader.subscription_topic_data.topic_name == topic)
+            .filter(|reader| reader.subscription_topic_data.qos().is_reliable())
+            .filter(|reader| prefix(&reader.reader_proxy.remote_reader_guid) != prefix(&publisher.guid()))
+            .collect();
+        let describe = |reader: &rustdds::discovery::DiscoveredReaderData| {
+            self.peer(
+                &reader.reader_proxy.remote_reader_guid,
+                &reader.reader_proxy.unicast_locator_list,
+            )
+        };
+        let lags = |reader: &&rustdds::discovery::DiscoveredReaderData| {
+            watch.has_seen(&format!("{:?}", reader.reader_proxy.remote_reader_guid))
+                || backlog::piles_up(&sockets(&reader.reader_proxy.unicast_locator_list))
+        };
+        let lagging: Vec<Peer> = readers.iter().filter(lags).map(describe).collect();
+        if !lagging.is_empty() {
+            return (lagging, true);
+        }
+        (readers.iter().map(describe).collect(), readers.len() == 1)
+    }
+
+    fn is_other(&self, guid: &GUID) -> bool {
+        prefix(guid) != self.own
+    }
+
+    fn peer(&self, guid: &GUID, locators: &[impl Clone + Into<SocketAddr>]) -> Peer {
+        let id: Guid = guid.to_bytes();
+        let node = self.nodes.get(&prefix(guid)).and_then(|nodes| {
+            let has = |gids: &[Gid]| gids.iter().any(|gid| gid.to_bytes16() == id);
+            nodes
+                .iter()
+                .find(|node| has(&node.writers) || has(&node.readers))
+                .or_else(|| nodes.first().filter(|_| nodes.len() == 1))
+        });
+        Peer {
+            id,
+            node: node.map(Entities::full_name),
+            address: address(locators),
+        }
+    }
+}
+
+/// What is to be said when an endpoint and ours do not match for their qualities of service.
+pub(super) fn incompatible(event: &DomainParticipantStatusEvent, participant: &DomainParticipant) -> Option<String> {
+    match event {
+        DomainParticipantStatusEvent::RemoteReaderQosIncompatible {
+            remote_reader,
+            requested_qos,
+            offered_qos,
+            ..
+        } => {
+            let readers = participant.discovered_readers();
+            let reader = readers
+                .iter()
+                .find(|reader| reader.reader_proxy.remote_reader_guid == *remote_reader)?;
+            Some(format!(
+                "a reader of {} (id {}) gets nothing: it asks for {}, offered is {}",
+                ros_name(&reader.subscription_topic_data.topic_name),
+                hexadecimal(&remote_reader.to_bytes()),
+                qualities(requested_qos),
+                qualities(offered_qos)
+            ))
+        }
+        DomainParticipantStatusEvent::RemoteWriterQosIncompatible {
+            remote_writer,
+            requested_qos,
+            offered_qos,
+            ..
+        } => {
+            let writers = participant.discovered_writers();
+            let writer = writers
+                .iter()
+                .find(|writer| writer.writer_proxy.remote_writer_guid == *remote_writer)?;
+            Some(format!(
+                "a writer of {} (id {}) is not heard: it offers {}, asked for is {}",
+                ros_name(&writer.publication_topic_data.topic_name),
+                hexadecimal(&remote_writer.to_bytes()),
+                qualities(offered_qos),
+                qualities(requested_qos)
+            ))
+        }
+        _ => None,
+    }
+}
+
+fn ros_name(dds_name: &str) -> &str {
+    dds_name.strip_prefix("rt").unwrap_or(dds_name)
+}
+
+fn qualities(qos: &rustdds::QosPolicies) -> String {
+    let reliability = match qos.reliability() {
+        Some(Reliability::Reliable { .. }) => "reliable",
+        _ => "best effort",
+    };
+    let durability = match qos.durability() {
+        None | Some(Durability::Volatile) => "volatile",
+        Some(Durability::TransientLocal) => "transient local",
+        Some(Durability::Transient) => "transient",
+        Some(Durability::Persistent) => "persistent",
+    };
+    format!("{reliability}, {durability}")
+}
+
+fn hexadecimal(id: &Guid) -> String {
+    use std::fmt::Write as _;
+    id.iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string does not fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+fn prefix(guid: &GUID) -> GuidPrefix {
+    let mut prefix = [0; 12];
+    prefix.copy_from_slice(&guid.to_bytes()[..12]);
+    prefix
+}
+
+fn sockets(locators: &[impl Clone + Into<SocketAddr>]) -> Vec<SocketAddr> {
+    let sockets = locators.iter().map(|locator| locator.clone().into());
+    // What is no address of UDP comes out as one without a port.
+    sockets.filter(|socket: &SocketAddr| socket.port() != 0).collect()
+}
+
+/// The first address that is not of this machine only, else the first.
+fn address(locators: &[impl Clone + Into<SocketAddr>]) -> Option<String> {
+    let addresses: Vec<IpAddr> = sockets(locators).iter().map(SocketAddr::ip).collect();
+    addresses
+        .iter()
+        .find(|address| !address.is_loopback())
+        .or(addresses.first())
+        .map(ToString::to_string)
+}

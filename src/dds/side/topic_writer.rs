@@ -1,0 +1,183 @@
+//! A topic that is written, and readers that do not take.
+//!
+//! RustDDS keeps a reliable writer's samples until the slowest reader has acknowledged them, whatever the history depth
+//! says; a full history refuses the newest sample, for all readers. A topic here has a resource limit and never waits. When
+//! it refuses, the writer is made anew: those who take go on with the new one within moments, and who does not take has
+//! lost what it left lying.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use ros2_client::{Node, Publisher, WriteError};
+use rustdds::policy::{Durability, History, Lifespan, Reliability, ResourceLimits};
+use rustdds::{DomainParticipant, QosPolicies, QosPolicyBuilder, TopicKind};
+
+use super::logs::RepairWatch;
+use super::peers::PeerBook;
+use super::raw::RawCdr;
+use crate::dds::frames::Stall;
+use crate::dds::plan::{Offer, WriterPlan, dds_topic_name};
+
+/// How long a writer may refuse before it is made anew. Others wait as long; a healthy reader acknowledges within 0.1 s.
+const PATIENCE: Duration = Duration::from_millis(400);
+/// States of a latched topic that may wait for the one before to be acknowledged.
+const WAITING: usize = 16;
+/// A node's list of endpoints grows with each new writer, so after this many the process begins afresh.
+pub(super) const MOST_RENEWALS: u32 = 200;
+
+/// Writes one topic.
+pub(super) struct TopicWriter {
+    plan: WriterPlan,
+    publisher: Publisher<RawCdr>,
+    waiting: VecDeque<Vec<u8>>,
+    refusing: Option<Refusing>,
+    sent: u64,
+    dropped: u64,
+    renewals: u32,
+}
+
+/// A writer that refuses, and what is learned meanwhile.
+struct Refusing {
+    since: Instant,
+    watch: RepairWatch,
+}
+
+impl TopicWriter {
+    pub(super) fn new(node: &mut Node, participant: &DomainParticipant, plan: WriterPlan) -> Result<Self, String> {
+        let publisher = create(node, participant, &plan)?;
+        Ok(Self {
+            plan,
+            publisher,
+            waiting: VecDeque::new(),
+            refusing: None,
+            sent: 0,
+            dropped: 0,
+            renewals: 0,
+        })
+    }
+
+    /// Samples taken by DDS, and samples refused.
+    pub(super) fn written(&self) -> (u64, u64) {
+        (self.sent, self.dropped)
+    }
+
+    /// How often the writer was made anew.
+    pub(super) fn renewals(&self) -> u32 {
+        self.renewals
+    }
+
+    /// Publishes; the newest state of a latched topic waits until there is room.
+    pub(super) fn publish(&mut self, body: Vec<u8>) {
+        if self.plan.offer.latched {
+            if self.waiting.len() == WAITING {
+                self.waiting.pop_front();
+                self.dropped += 1;
+            }
+            self.waiting.push_back(body);
+            self.flush();
+        } else {
+            self.dropped += u64::from(self.write(body).is_err());
+        }
+    }
+
+    /// Writes what waits and, when readers have not taken for too long, makes the writer anew.
+    pub(super) fn tend(
+        &mut self,
+        now: Instant,
+        node: &mut Node,
+        participant: &DomainParticipant,
+        book: &PeerBook,
+    ) -> Option<Stall> {
+        self.flush();
+        let refusing = self.refusing.take_if(|refusing| now >= refusing.since + PATIENCE)?;
+        let (readers, is_certain) = book.stalled(&self.publisher, &self.plan.topic, participant, &refusing.watch);
+        // A new writer that cannot be made leaves the old one, to be tried again.
+        self.publisher = create(node, participant, &self.plan).ok()?;
+        self.renewals += 1;
+        // Of states only the newest counts.
+        while self.waiting.len() > 1 {
+            self.waiting.pop_front();
+            self.dropped += 1;
+        }
+        self.flush();
+        Some(Stall {
+            topic: self.plan.topic.clone(),
+            readers,
+            is_certain,
+        })
+    }
+
+    fn flush(&mut self) {
+        while let Some(body) = self.waiting.pop_front() {
+            if let Err(refused) = self.write(body) {
+                self.waiting.push_front(refused);
+                return;
+            }
+        }
+    }
+
+    /// # Errors
+    /// Gives the body back when there is no room for it.
+    fn write(&mut self, body: Vec<u8>) -> Result<(), Vec<u8>> {
+        match self.publisher.publish(RawCdr(body)) {
+            Ok(()) => {
+                self.sent += 1;
+                self.refusing = None;
+                Ok(())
+            }
+            Err(WriteError::WouldBlock { data }) => {
+                self.refusing.get_or_insert_with(|| Refusing {
+                    since: Instant::now(),
+                    watch: RepairWatch::begin(),
+                });
+                Err(data.0)
+            }
+            // Of no use to try again.
+            Err(_) => {
+                self.dropped += 1;
+                Ok(())
+            }
+        }
+    }
+}
+
+fn create(node: &mut Node, participant: &DomainParticipant, plan: &WriterPlan) -> Result<Publisher<RawCdr>, String> {
+    let handle = participant
+        .create_topic(
+            dds_topic_name(&plan.topic),
+            plan.dds_type.clone(),
+            &policies(plan.offer),
+            TopicKind::NoKey,
+        )
+        .map_err(|error| error.to_string())?;
+    node.create_publisher(&handle, None).map_err(|error| error.to_string())
+}
+
+fn policies(offer: Offer) -> QosPolicies {
+    let builder = match offer.lifespan {
+        Some(seconds) => QosPolicyBuilder::new().lifespan(Lifespan {
+            duration: rustdds::Duration::from_frac_seconds(seconds),
+        }),
+        None => QosPolicyBuilder::new(),
+    };
+    builder
+        .reliability(if offer.reliable {
+            Reliability::Reliable {
+                max_blocking_time: rustdds::Duration::ZERO,
+            }
+        } else {
+            Reliability::BestEffort
+        })
+        .durability(if offer.latched {
+            Durability::TransientLocal
+        } else {
+            Durability::Volatile
+        })
+        .history(History::KeepLast { depth: offer.depth })
+        .resource_limits(ResourceLimits {
+            max_samples: offer.max_samples(),
+            max_instances: 1,
+            max_samples_per_instance: offer.max_samples(),
+        })
+        .build()
+}
