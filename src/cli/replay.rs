@@ -18,6 +18,7 @@ use super::run::load_config;
 use super::{WrongUse, numbers, source};
 use crate::bag;
 use crate::messages::topics;
+use crate::told::printable;
 
 /// Run a bag or a field log through the model as fast as it goes, into a bag.
 ///
@@ -54,10 +55,10 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         let script = recording::Script::read(&args.input)?;
         let exactness = script.exactness();
         for departure in &exactness.departures {
-            eprintln!("not exact: {departure}");
+            eprintln!("not exact: {}", printable(departure));
         }
         for note in &exactness.notes {
-            eprintln!("{note}");
+            eprintln!("{}", printable(note));
         }
         let done = if script.is_empty() {
             let samples = args.source.read(&args.input).with_context(|| {
@@ -74,7 +75,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         finish(done, args.incidents.as_deref())?;
         match exactness.departures.as_slice() {
             [] => println!("  exact: nothing of what drove the model is missing in the recording"),
-            departures => println!("  not exact: {}", departures.join("; ")),
+            departures => println!("  not exact: {}", printable(&departures.join("; "))),
         }
         return Ok(());
     }

@@ -75,6 +75,8 @@ impl Board {
             &mut status.recording_path,
             &mut status.version,
             &mut status.config_hash,
+            &mut status.dds_restart_cause,
+            &mut status.dds_stalled_reader,
         ] {
             show(text);
         }
@@ -85,6 +87,7 @@ impl Board {
             &mut status.input_source,
             &mut status.output_topic,
             &mut status.phase_name,
+            &mut status.namesake,
         ];
         lists.into_iter().flatten().for_each(show);
         // A heartbeat that counts anew is another run: what is known of the last one no longer holds.
@@ -260,6 +263,7 @@ fn stamp(header: &crate::messages::std_msgs::Header) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::messages::Message;
     use crate::messages::builtin_interfaces::Time;
 
     fn status(sequence: u64) -> TwinStatus {
@@ -301,43 +305,51 @@ mod tests {
         assert!(board.warning().is_none());
     }
 
+    /// A message of which every text would clear the terminal and forge a line.
+    fn evil<M: Message + Default>() -> M {
+        let text = serde_json::json!("\x1b[2J\u{202e}\nalarms     none");
+        let mut message = serde_json::to_value(M::default()).unwrap();
+        let own = M::SCHEMA.split("====").next().unwrap();
+        let fields = own.lines().filter_map(|line| line.split('#').next()?.split_once(' '));
+        let mut set = 0;
+        for (kind, name) in fields {
+            let value = match kind {
+                "string" => text.clone(),
+                "string[]" => serde_json::json!([text]),
+                _ => continue,
+            };
+            set += 1;
+            message[name.trim()] = value;
+        }
+        assert!(set > 0, "{} has texts", M::NAME);
+        serde_json::from_value(message).unwrap()
+    }
+
+    fn is_shown(message: &impl serde::Serialize) {
+        // JSON writes control characters as its own escapes, and each backslash of ours as two.
+        let text = serde_json::to_string(message).unwrap();
+        assert!(text.contains("\\\\u{1b}[2J"), "{text}");
+        assert!(
+            !text.contains("\\u001b") && !text.contains('\u{202e}'),
+            "not escaped: {text}"
+        );
+    }
+
     #[test]
     fn texts_of_others_do_not_act_on_the_terminal() {
         let now = Instant::now();
         let mut board = Board::new(now);
-        let evil = "\x1b[2J\u{202e}\nalarms     none";
-        board.update_status(
-            TwinStatus {
-                model_quality_cause: evil.into(),
-                input_publishers: vec![evil.into()],
-                ..status(1)
-            },
-            now,
-        );
-        board.update_warning(WhirlWarning {
-            message: evil.into(),
-            ..WhirlWarning::default()
-        });
-        board.update_alarms(AlarmList {
-            alarms: vec![crate::messages::Alarm {
-                name: evil.into(),
-                what_to_do: evil.into(),
-                ..Default::default()
-            }],
+        board.update_status(evil(), now);
+        board.update_warning(evil());
+        let list = AlarmList {
+            alarms: vec![evil()],
             ..AlarmList::default()
-        });
-        let alarm = &board.alarms().unwrap().alarms[0];
-        let status = board.status().unwrap();
-        let texts = [
-            &status.model_quality_cause,
-            &status.input_publishers[0],
-            &board.warning().unwrap().message,
-            &alarm.name,
-            &alarm.what_to_do,
-        ];
-        for text in texts {
-            assert_eq!(text, "\\u{1b}[2J\\u{202e}\\nalarms     none");
-        }
+        };
+        board.update_alarms(list);
+        is_shown(board.status().unwrap());
+        // The frame's name stands in no picture.
+        is_shown(&board.warning().unwrap().message);
+        is_shown(&board.alarms().unwrap().alarms[0]);
     }
 
     #[test]

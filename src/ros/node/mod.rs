@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{channel, sync_channel};
-use std::time::Duration;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use tokio::task::JoinSet;
 
@@ -124,12 +124,13 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
 
     let simulated = Arc::new(AtomicU64::new(0));
     let now: Now = time_of_inputs(setup.use_sim_time.then(|| Arc::clone(&simulated)));
+    let stamp_time = stamp_time(setup.use_sim_time.then(|| Arc::clone(&simulated)));
     let rig_time = rig_time(setup.use_sim_time.then(|| Arc::clone(&simulated)));
     let settings = config.simulation();
     let targets = Targets::new(settings.initial_inputs);
     let gauges = Arc::new(Gauges::default());
     let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
-    let rig_inputs = RigInputs::new(&config.inputs, targets, Arc::clone(&now), Arc::clone(&rig_time));
+    let rig_inputs = RigInputs::new(&config.inputs, targets, Arc::clone(&now), stamp_time);
 
     let (change_sender, changes) = channel();
     let control = Control::new(
@@ -362,6 +363,19 @@ fn time_of_inputs(simulated: Option<Arc<AtomicU64>>) -> Now {
     match simulated {
         Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as f64 * 1e-9),
         None => Arc::new(|| monotonic::now() as f64 * 1e-9),
+    }
+}
+
+/// The clock that stamps of others are held against. Ours keep to the clock as it was at the start; theirs follow the
+/// system's clock, also when that is set.
+fn stamp_time(simulated: Option<Arc<AtomicU64>>) -> RigTime {
+    match simulated {
+        Some(cell) => Arc::new(move || cell.load(Ordering::Acquire) as i64),
+        None => Arc::new(|| {
+            SystemTime::now()
+                .duration_since(UNIX_EPOCH)
+                .map_or(0, |since| since.as_nanos() as i64)
+        }),
     }
 }
 

@@ -59,19 +59,19 @@ pub struct RigInputs {
     pub intake: Arc<Mutex<Intake>>,
     targets: Arc<Targets>,
     now: Now,
-    rig_time: RigTime,
+    stamp_time: RigTime,
     max_skew: f64,
 }
 
 impl RigInputs {
-    /// Judges by a configuration; `now` gives the time of arrival, `rig_time` the same instant on the clock of stamps.
-    pub fn new(inputs: &InputsConfig, targets: Arc<Targets>, now: Now, rig_time: RigTime) -> Self {
+    /// Judges by a configuration; `now` gives the time of arrival, `stamp_time` the same instant on the clock of stamps.
+    pub fn new(inputs: &InputsConfig, targets: Arc<Targets>, now: Now, stamp_time: RigTime) -> Self {
         Self {
             conditioner: Arc::new(Mutex::new(Conditioner::new(inputs.rules()))),
             intake: Arc::new(Mutex::new(Intake::new(inputs))),
             targets,
             now,
-            rig_time,
+            stamp_time,
             max_skew: inputs.stamp.max_skew,
         }
     }
@@ -103,7 +103,7 @@ impl RigInputs {
             source: message.source.chars().take(LONGEST_SOURCE).collect(),
             suspect: stamped::is_suspect(message),
         };
-        let given = stamped::values(message, (self.rig_time)(), self.max_skew);
+        let given = stamped::values(message, (self.stamp_time)(), self.max_skew);
         let samples = InputKind::ALL.into_iter().zip(given);
         self.take(
             samples.filter_map(|(kind, given)| given.map(|(value, stamp)| (kind, value, Some((stamp, sent.clone()))))),
