@@ -11,7 +11,7 @@
 mod common;
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use common::{Network, Program};
 use flexdrill::bag;
@@ -152,5 +152,8 @@ fn it_can_be_left_running() {
         .count();
     // At 50 Hz, less what a busy machine made it skip.
     let skipped = status["steps_skipped"].as_u64().unwrap() / 40;
-    assert!(counted as u64 + skipped + 50 >= (elapsed * 50.0) as u64, "{counted} frames in {elapsed} s");
+    assert!(
+        counted as u64 + skipped + 50 >= (elapsed * 50.0) as u64,
+        "{counted} frames in {elapsed} s"
+    );
 }
