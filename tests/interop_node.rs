@@ -253,6 +253,53 @@ fn parameters_and_services_answer_both_kinds_of_clients() {
 }
 
 #[test]
+fn a_managed_node_follows_its_transitions() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&["--lifecycle"]);
+    twin.wait_for("model time runs");
+    peer.subscribe(STATUS.0, STATUS.1, "reliable");
+    peer.subscribe(
+        "/flexdrill/transition_event",
+        "lifecycle_msgs/msg/TransitionEvent",
+        "reliable",
+    );
+    let paused = peer.status_with(STATUS.0, |status| status["state"] == 2);
+    assert_eq!(paused["step_count"], 0, "it begins unconfigured, at its start");
+    let change = |peer: &mut common::Peer, label: &str| {
+        let request = json!({"transition": {"id": 0, "label": label}});
+        peer.call("/flexdrill/change_state", "lifecycle_msgs/srv/ChangeState", request)["success"] == true
+    };
+    assert!(!change(&mut peer, "activate"), "there is no such way from unconfigured");
+    assert!(change(&mut peer, "configure"));
+    let possible = peer.call(
+        "/flexdrill/get_available_transitions",
+        "lifecycle_msgs/srv/GetAvailableTransitions",
+        json!({}),
+    );
+    assert_eq!(
+        length(&possible, "available_transitions"),
+        3,
+        "cleanup, activate, shutdown"
+    );
+    assert!(change(&mut peer, "activate"));
+    let state = peer.call("/flexdrill/get_state", "lifecycle_msgs/srv/GetState", json!({}));
+    assert_eq!(state["current_state"]["label"], "active");
+    peer.status_with(STATUS.0, |status| {
+        status["state"] == 1 && status["step_count"].as_u64() > Some(0)
+    });
+    assert!(change(&mut peer, "deactivate"));
+    peer.status_with(STATUS.0, |status| status["state"] == 2);
+    assert!(change(&mut peer, "cleanup"));
+    peer.status_with(STATUS.0, |status| status["step_count"] == 0);
+    let events = peer.take("/flexdrill/transition_event", 4, 2.0);
+    let goals: Vec<&Value> = events.iter().map(|event| &event["goal_state"]["label"]).collect();
+    assert_eq!(goals, ["inactive", "active", "inactive", "unconfigured"]);
+    assert!(change(&mut peer, "shutdown"));
+    assert_eq!(twin.end(), Some(0));
+}
+
+#[test]
 fn bad_and_missing_inputs_are_told_and_survived() {
     let Some(network) = Network::new() else { return };
     let Some(mut peer) = network.peer() else { return };

@@ -275,14 +275,16 @@ impl World {
                     self.publisher.empty.push(frame).unwrap();
                 }
                 LoopEvent::Applied { inputs, ticks, .. } => {
-                    for (kind, value) in InputKind::ALL.iter().zip([
-                        inputs.inputs.rotary_speed,
-                        inputs.inputs.weight_on_bit,
-                    ]) {
+                    for (kind, value) in InputKind::ALL
+                        .iter()
+                        .zip([inputs.inputs.rotary_speed, inputs.inputs.weight_on_bit])
+                    {
                         assert!(value.is_finite(), "{kind:?}: {value} was applied");
                     }
                     let outputs = self.outputs.as_mut().unwrap();
-                    outputs.applied(&inputs, &[], ticks, |encoded| keep(&mut sent, encoded)).unwrap();
+                    outputs
+                        .applied(&inputs, &[], ticks, |encoded| keep(&mut sent, encoded))
+                        .unwrap();
                 }
                 LoopEvent::Failed(failure, _) => self.status.fail(failure),
                 LoopEvent::Recovered => {}
@@ -303,7 +305,10 @@ impl World {
                 (*topic).to_owned()
             };
             let before = self.stamps.insert(of, *stamp);
-            assert!(before.is_none_or(|before| before <= *stamp), "{topic}: a stamp went back");
+            assert!(
+                before.is_none_or(|before| before <= *stamp),
+                "{topic}: a stamp went back"
+            );
             *self.counts.entry(topic).or_default() += 1;
             (topic, stamp, bytes).hash(&mut self.digest);
         }
@@ -360,8 +365,8 @@ impl World {
         assert_eq!(status.dds_up, self.dds.is_up);
         // What was due is taken, given up or still to come; the loop says which.
         let gauges = &self.gauges;
-        let [ticks, taken, skipped] = [&gauges.ticks, &gauges.steps_taken, &gauges.steps_skipped]
-            .map(|gauge| gauge.load(Ordering::Relaxed));
+        let [ticks, taken, skipped] =
+            [&gauges.ticks, &gauges.steps_taken, &gauges.steps_skipped].map(|gauge| gauge.load(Ordering::Relaxed));
         assert_eq!(ticks, taken + skipped, "ticks");
     }
 
@@ -404,7 +409,11 @@ impl World {
                 let stale = self.stale_since[kind.index()];
                 if stale.is_some_and(|since| self.now - since > 3 * SECOND) {
                     assert!(alarm.state != Alarm::NORMAL, "{id}: stale and silent");
-                    assert!(alarm.priority >= Alarm::MEDIUM, "{id}: stale at priority {}", alarm.priority);
+                    assert!(
+                        alarm.priority >= Alarm::MEDIUM,
+                        "{id}: stale at priority {}",
+                        alarm.priority
+                    );
                 }
             }
         }
@@ -497,7 +506,11 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
     world.publish();
     world.tell_status();
     assert_ne!(gauges.run_state(), RunState::Starting);
-    assert_eq!(gauges.events_lost.load(Ordering::Relaxed), 0, "no event found the ring full");
+    assert_eq!(
+        gauges.events_lost.load(Ordering::Relaxed),
+        0,
+        "no event found the ring full"
+    );
     world.digest.finish()
 }
 

@@ -45,6 +45,9 @@ pub(super) struct RunArgs {
     /// How services are answered: auto (each client as it asks), enhanced (rmw_fastrtps) or cyclone (rmw_cyclonedds).
     #[arg(long, value_name = "MAPPING", default_value = "auto")]
     service_mapping: ServiceMapping,
+    /// Be a managed node of ROS 2: begin unconfigured, model time standing still, and follow ~/change_state.
+    #[arg(long)]
+    lifecycle: bool,
     /// End after so much model time (s), or when model time has stood still for so long, as without /clock.
     #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
@@ -88,6 +91,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         rosout: ros_args.rosout.unwrap_or(true),
         checkpoint: args.checkpoint.clone(),
         alarm_state,
+        lifecycle: args.lifecycle,
         duration: args.duration.or(config.run.duration),
     };
     print_banner(&setup)?;

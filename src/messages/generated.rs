@@ -1313,6 +1313,282 @@ pub mod geometry_msgs {
     }
 }
 
+/// Messages of the ROS package `lifecycle_msgs`.
+pub mod lifecycle_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `lifecycle_msgs/msg/State`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct State {
+        pub id: u8,
+        pub label: std::string::String,
+    }
+
+    impl State {
+        pub const PRIMARY_STATE_UNKNOWN: u8 = 0;
+        pub const PRIMARY_STATE_UNCONFIGURED: u8 = 1;
+        pub const PRIMARY_STATE_INACTIVE: u8 = 2;
+        pub const PRIMARY_STATE_ACTIVE: u8 = 3;
+        pub const PRIMARY_STATE_FINALIZED: u8 = 4;
+        pub const TRANSITION_STATE_CONFIGURING: u8 = 10;
+        pub const TRANSITION_STATE_CLEANINGUP: u8 = 11;
+        pub const TRANSITION_STATE_SHUTTINGDOWN: u8 = 12;
+        pub const TRANSITION_STATE_ACTIVATING: u8 = 13;
+        pub const TRANSITION_STATE_DEACTIVATING: u8 = 14;
+        pub const TRANSITION_STATE_ERRORPROCESSING: u8 = 15;
+    }
+
+    impl Message for State {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "State";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/msg/State";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::State_";
+        const RIHS01: &'static str = "RIHS01_dd2d02b82f3ebc858e53c431b1e6e91f3ffc71436fc81d0715214ac6ee2107a0";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg");
+    }
+
+    /// `lifecycle_msgs/msg/Transition`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Transition {
+        pub id: u8,
+        pub label: std::string::String,
+    }
+
+    impl Transition {
+        pub const TRANSITION_CREATE: u8 = 0;
+        pub const TRANSITION_CONFIGURE: u8 = 1;
+        pub const TRANSITION_CLEANUP: u8 = 2;
+        pub const TRANSITION_ACTIVATE: u8 = 3;
+        pub const TRANSITION_DEACTIVATE: u8 = 4;
+        pub const TRANSITION_UNCONFIGURED_SHUTDOWN: u8 = 5;
+        pub const TRANSITION_INACTIVE_SHUTDOWN: u8 = 6;
+        pub const TRANSITION_ACTIVE_SHUTDOWN: u8 = 7;
+        pub const TRANSITION_DESTROY: u8 = 8;
+        pub const TRANSITION_ON_CONFIGURE_SUCCESS: u8 = 10;
+        pub const TRANSITION_ON_CONFIGURE_FAILURE: u8 = 11;
+        pub const TRANSITION_ON_CONFIGURE_ERROR: u8 = 12;
+        pub const TRANSITION_ON_CLEANUP_SUCCESS: u8 = 20;
+        pub const TRANSITION_ON_CLEANUP_FAILURE: u8 = 21;
+        pub const TRANSITION_ON_CLEANUP_ERROR: u8 = 22;
+        pub const TRANSITION_ON_ACTIVATE_SUCCESS: u8 = 30;
+        pub const TRANSITION_ON_ACTIVATE_FAILURE: u8 = 31;
+        pub const TRANSITION_ON_ACTIVATE_ERROR: u8 = 32;
+        pub const TRANSITION_ON_DEACTIVATE_SUCCESS: u8 = 40;
+        pub const TRANSITION_ON_DEACTIVATE_FAILURE: u8 = 41;
+        pub const TRANSITION_ON_DEACTIVATE_ERROR: u8 = 42;
+        pub const TRANSITION_ON_SHUTDOWN_SUCCESS: u8 = 50;
+        pub const TRANSITION_ON_SHUTDOWN_FAILURE: u8 = 51;
+        pub const TRANSITION_ON_SHUTDOWN_ERROR: u8 = 52;
+        pub const TRANSITION_ON_ERROR_SUCCESS: u8 = 60;
+        pub const TRANSITION_ON_ERROR_FAILURE: u8 = 61;
+        pub const TRANSITION_ON_ERROR_ERROR: u8 = 62;
+        pub const TRANSITION_CALLBACK_SUCCESS: u8 = 97;
+        pub const TRANSITION_CALLBACK_FAILURE: u8 = 98;
+        pub const TRANSITION_CALLBACK_ERROR: u8 = 99;
+    }
+
+    impl Message for Transition {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "Transition";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/msg/Transition";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::Transition_";
+        const RIHS01: &'static str = "RIHS01_c65d7b31ea134cba4f54fc867b817979be799f7452035cd35fac9b7421fb3424";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg");
+    }
+
+    /// `lifecycle_msgs/msg/TransitionDescription`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TransitionDescription {
+        pub transition: Transition,
+        pub start_state: State,
+        pub goal_state: State,
+    }
+
+    impl Message for TransitionDescription {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "TransitionDescription";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/msg/TransitionDescription";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::TransitionDescription_";
+        const RIHS01: &'static str = "RIHS01_c5f1cd4bb1ad2ba0e3329d4ac7015c52a674a72c1faf7974c37a33f4f6048b28";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/TransitionDescription.msg"),
+            "================================================================================\nMSG: lifecycle_msgs/Transition\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
+            "================================================================================\nMSG: lifecycle_msgs/State\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+        );
+    }
+
+    /// `lifecycle_msgs/msg/TransitionEvent`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TransitionEvent {
+        pub timestamp: u64,
+        pub transition: Transition,
+        pub start_state: State,
+        pub goal_state: State,
+    }
+
+    impl Message for TransitionEvent {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "TransitionEvent";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/msg/TransitionEvent";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::TransitionEvent_";
+        const RIHS01: &'static str = "RIHS01_d5f8873a2f0146498f812d7885c7327ce27e463d36811d8792f35ee38c0d6c38";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/TransitionEvent.msg"),
+            "================================================================================\nMSG: lifecycle_msgs/Transition\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
+            "================================================================================\nMSG: lifecycle_msgs/State\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+        );
+    }
+
+    /// `lifecycle_msgs/srv/ChangeState_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ChangeStateRequest {
+        pub transition: Transition,
+    }
+
+    impl Message for ChangeStateRequest {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "ChangeState_Request";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/srv/ChangeState_Request";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::ChangeState_Request_";
+        const RIHS01: &'static str = "RIHS01_d74c6f524e14cade7b67e7297190360ed749264af300524fc1456f27cc2a553a";
+        const SCHEMA: &'static str = concat!(
+            "Transition transition\n",
+            "================================================================================\nMSG: lifecycle_msgs/Transition\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
+        );
+    }
+
+    /// `lifecycle_msgs/srv/ChangeState_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ChangeStateResponse {
+        pub success: bool,
+    }
+
+    impl Message for ChangeStateResponse {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "ChangeState_Response";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/srv/ChangeState_Response";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::ChangeState_Response_";
+        const RIHS01: &'static str = "RIHS01_e1ddfed0271fefe63767aa71561926e4d9eac0f1ddf9e71a8873eb46b36deac2";
+        const SCHEMA: &'static str = "bool success\n";
+    }
+
+    /// `lifecycle_msgs/srv/GetAvailableStates_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetAvailableStatesRequest {
+        /// Carries nothing; DDS has no empty struct.
+        pub structure_needs_at_least_one_member: u8,
+    }
+
+    impl Message for GetAvailableStatesRequest {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "GetAvailableStates_Request";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/srv/GetAvailableStates_Request";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetAvailableStates_Request_";
+        const RIHS01: &'static str = "RIHS01_c2c0c12de6023822f284929577d4ca2862e0501150010966e8a90b632e4424de";
+        const SCHEMA: &'static str = "";
+    }
+
+    /// `lifecycle_msgs/srv/GetAvailableStates_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetAvailableStatesResponse {
+        pub available_states: Vec<State>,
+    }
+
+    impl Message for GetAvailableStatesResponse {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "GetAvailableStates_Response";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/srv/GetAvailableStates_Response";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetAvailableStates_Response_";
+        const RIHS01: &'static str = "RIHS01_223e0dd5bb8a847ebb9532adaf8b5e2a97e6e68e79faeaabd81a45fb32925bd1";
+        const SCHEMA: &'static str = concat!(
+            "State[] available_states\n",
+            "================================================================================\nMSG: lifecycle_msgs/State\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+        );
+    }
+
+    /// `lifecycle_msgs/srv/GetAvailableTransitions_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetAvailableTransitionsRequest {
+        /// Carries nothing; DDS has no empty struct.
+        pub structure_needs_at_least_one_member: u8,
+    }
+
+    impl Message for GetAvailableTransitionsRequest {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "GetAvailableTransitions_Request";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/srv/GetAvailableTransitions_Request";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetAvailableTransitions_Request_";
+        const RIHS01: &'static str = "RIHS01_52a73c0b5d7489bee0df6ddb0aec45c41289d223ff225b58fe11d859ac8109a6";
+        const SCHEMA: &'static str = "";
+    }
+
+    /// `lifecycle_msgs/srv/GetAvailableTransitions_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetAvailableTransitionsResponse {
+        pub available_transitions: Vec<TransitionDescription>,
+    }
+
+    impl Message for GetAvailableTransitionsResponse {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "GetAvailableTransitions_Response";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/srv/GetAvailableTransitions_Response";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetAvailableTransitions_Response_";
+        const RIHS01: &'static str = "RIHS01_4711339461aadf02bcfff797a198de911f885074bd3f2fe9f7b677ef87f0741c";
+        const SCHEMA: &'static str = concat!(
+            "TransitionDescription[] available_transitions\n",
+            "================================================================================\nMSG: lifecycle_msgs/TransitionDescription\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/TransitionDescription.msg"),
+            "================================================================================\nMSG: lifecycle_msgs/Transition\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
+            "================================================================================\nMSG: lifecycle_msgs/State\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+        );
+    }
+
+    /// `lifecycle_msgs/srv/GetState_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetStateRequest {
+        /// Carries nothing; DDS has no empty struct.
+        pub structure_needs_at_least_one_member: u8,
+    }
+
+    impl Message for GetStateRequest {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "GetState_Request";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/srv/GetState_Request";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetState_Request_";
+        const RIHS01: &'static str = "RIHS01_77a9c844e7975f15bc2221e8bbebafc4d118afb78c7f7071eef91f83f940f2f6";
+        const SCHEMA: &'static str = "";
+    }
+
+    /// `lifecycle_msgs/srv/GetState_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetStateResponse {
+        pub current_state: State,
+    }
+
+    impl Message for GetStateResponse {
+        const PACKAGE: &'static str = "lifecycle_msgs";
+        const NAME: &'static str = "GetState_Response";
+        const ROS_TYPE: &'static str = "lifecycle_msgs/srv/GetState_Response";
+        const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetState_Response_";
+        const RIHS01: &'static str = "RIHS01_fe249babab472e42cb5653b5d6a6b0c42a003b0fdfb84851aea3fde08760b4f5";
+        const SCHEMA: &'static str = concat!(
+            "State current_state\n",
+            "================================================================================\nMSG: lifecycle_msgs/State\n",
+            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+        );
+    }
+}
+
 /// Messages of the ROS package `rcl_interfaces`.
 pub mod rcl_interfaces {
     use serde::{Deserialize, Serialize};
@@ -2333,6 +2609,18 @@ pub const TYPES: &[TypeInfo] = &[
     <geometry_msgs::Transform as super::Message>::INFO,
     <geometry_msgs::TransformStamped as super::Message>::INFO,
     <geometry_msgs::Vector3 as super::Message>::INFO,
+    <lifecycle_msgs::State as super::Message>::INFO,
+    <lifecycle_msgs::Transition as super::Message>::INFO,
+    <lifecycle_msgs::TransitionDescription as super::Message>::INFO,
+    <lifecycle_msgs::TransitionEvent as super::Message>::INFO,
+    <lifecycle_msgs::ChangeStateRequest as super::Message>::INFO,
+    <lifecycle_msgs::ChangeStateResponse as super::Message>::INFO,
+    <lifecycle_msgs::GetAvailableStatesRequest as super::Message>::INFO,
+    <lifecycle_msgs::GetAvailableStatesResponse as super::Message>::INFO,
+    <lifecycle_msgs::GetAvailableTransitionsRequest as super::Message>::INFO,
+    <lifecycle_msgs::GetAvailableTransitionsResponse as super::Message>::INFO,
+    <lifecycle_msgs::GetStateRequest as super::Message>::INFO,
+    <lifecycle_msgs::GetStateResponse as super::Message>::INFO,
     <rcl_interfaces::FloatingPointRange as super::Message>::INFO,
     <rcl_interfaces::IntegerRange as super::Message>::INFO,
     <rcl_interfaces::ListParametersResult as super::Message>::INFO,

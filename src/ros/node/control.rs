@@ -1,10 +1,12 @@
 //! What others may ask of the node: parameters, reset, pause, checkpoint.
 
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Sender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ros2_client::{Parameter, ParameterValue};
 
@@ -20,6 +22,8 @@ use flexdrill_core::twin::CheckpointError;
 use flexdrill_realtime::link::{Command, Gauges, RunState, Settings};
 
 /// Longest wait for the solver to hand out its state.
+/// Least time between two checkpoints.
+const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
 const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
 
 /// Parameters that changed with the command of this number.
@@ -50,6 +54,9 @@ pub enum ControlError {
     /// The solver is in a step that takes too long.
     #[error("the solver did not answer in time")]
     NoAnswer,
+    /// Each checkpoint holds the solver up for a moment.
+    #[error("the last checkpoint was asked for {0:.1} s ago; one every {seconds} s is taken", seconds = BETWEEN_CHECKPOINTS.as_secs())]
+    TooOften(f64),
     /// The state could not be put into bytes.
     #[error(transparent)]
     State(#[from] CheckpointError),
@@ -74,6 +81,8 @@ pub struct Control {
     rig_inputs: RigInputs,
     gauges: Arc<Gauges>,
     hard_bounds: HardBounds,
+    /// When one was asked for last.
+    checkpoint: Mutex<Option<Instant>>,
 }
 
 /// What of a configuration acts while the solver runs.
@@ -103,6 +112,7 @@ impl Control {
             changes,
             rig_inputs,
             gauges,
+            checkpoint: Mutex::default(),
         })
     }
 
@@ -159,26 +169,48 @@ impl Control {
         Ok(())
     }
 
-    fn reset(&self) -> TriggerResponse {
+    /// Has the model go back to its state after the start.
+    ///
+    /// # Errors
+    /// When the solver has no room for another command.
+    pub fn go_back(&self) -> Result<(), ControlError> {
         tracing::info!("reset: the model goes back to its state after the start");
-        answer(
-            self.send(Command::Reset)
-                .map(|_| "the model goes back to its state after the start".to_owned()),
-        )
+        self.send(Command::Reset).map(drop)
     }
 
-    fn pause(&self, pause: bool) -> SetBoolResponse {
+    /// Has model time stand still, or go on.
+    ///
+    /// # Errors
+    /// As [`Control::go_back`].
+    pub fn pause(&self, pause: bool) -> Result<(), ControlError> {
         tracing::info!("{}", if pause { "paused" } else { "resumed" });
-        let sent = self
-            .send(Command::Pause(pause))
-            .map(|_| if pause { "paused" } else { "running" }.to_owned());
-        let TriggerResponse { success, message } = answer(sent);
+        self.send(Command::Pause(pause)).map(drop)
+    }
+
+    fn answer_reset(&self) -> TriggerResponse {
+        let done = self.go_back();
+        answer(done.map(|()| "the model goes back to its state after the start".to_owned()))
+    }
+
+    fn answer_pause(&self, pause: bool) -> SetBoolResponse {
+        let said = if pause { "paused" } else { "running" };
+        let TriggerResponse { success, message } = answer(self.pause(pause).map(|()| said.to_owned()));
         SetBoolResponse { success, message }
     }
 
     async fn save_checkpoint(self: Arc<Self>) -> TriggerResponse {
         if self.gauges.run_state() == RunState::Starting {
             return answer(Err(ControlError::Starting));
+        }
+        {
+            let mut last = self.checkpoint.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(passed) = last
+                .map(|at: Instant| at.elapsed())
+                .filter(|passed| *passed < BETWEEN_CHECKPOINTS)
+            {
+                return answer(Err(ControlError::TooOften(passed.as_secs_f64())));
+            }
+            *last = Some(Instant::now());
         }
         let saved = tokio::task::spawn_blocking(move || {
             let (sender, receiver) = sync_channel(1);
@@ -191,7 +223,7 @@ impl Control {
                 "flexdrill_{}_step{step}.checkpoint",
                 &self.config().hash()[..12]
             ));
-            if let Err(source) = std::fs::write(&path, &bytes) {
+            if let Err(source) = write_whole(&path, &bytes) {
                 return Err(ControlError::Write { path, source });
             }
             let shown = std::path::absolute(&path).unwrap_or(path);
@@ -204,6 +236,22 @@ impl Control {
         }
         answer(result)
     }
+}
+
+/// Writes a file that is there as a whole or not at all, on the disk when this returns.
+fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let temporary = path.with_extension("checkpoint.part");
+    let written = File::create(&temporary)
+        .and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.sync_all()
+        })
+        .and_then(|()| std::fs::rename(&temporary, path));
+    if written.is_err() {
+        // What is left of it is of no use; that it cannot be removed adds nothing.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    written
 }
 
 fn number(value: &ParameterValue) -> Option<f64> {
@@ -240,9 +288,10 @@ pub fn serve(
     };
     let (reset, pause) = (Arc::clone(control), Arc::clone(control));
     Ok(vec![
-        Box::pin(server("~/reset", "Trigger")?.serve(at_once(move |_: TriggerRequest| reset.reset()))),
+        Box::pin(server("~/reset", "Trigger")?.serve(at_once(move |_: TriggerRequest| reset.answer_reset()))),
         Box::pin(
-            server("~/pause", "SetBool")?.serve(at_once(move |request: SetBoolRequest| pause.pause(request.data))),
+            server("~/pause", "SetBool")?
+                .serve(at_once(move |request: SetBoolRequest| pause.answer_pause(request.data))),
         ),
         Box::pin(
             server("~/save_checkpoint", "Trigger")?.serve(shared(Arc::clone(control), |control, _: TriggerRequest| {

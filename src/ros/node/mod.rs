@@ -18,6 +18,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{channel, sync_channel};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use tokio::sync::Notify;
 use tokio::task::JoinSet;
 
 use self::alarms::AlarmDesk;
@@ -29,7 +30,7 @@ use self::rig::{Now, RigInputs, RigTime};
 use super::args::{NodeIdentity, Remapping};
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
-use super::{DEFAULT_NODE_NAME, NodeError, loggers, logging};
+use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging};
 use crate::bag::{Recording, RecordingThread};
 use crate::dds::network::Network;
 use crate::dds::port::PortBuilder;
@@ -73,6 +74,8 @@ pub struct NodeSetup {
     pub checkpoint: Option<PathBuf>,
     /// File that the alarms' state is kept in over a restart.
     pub alarm_state: Option<PathBuf>,
+    /// A managed node: it begins unconfigured and follows `~/change_state`.
+    pub lifecycle: bool,
     /// Model time after which it ends, or wall time for which model time may stand still (s).
     pub duration: Option<f64>,
 }
@@ -164,6 +167,12 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     for task in alarms::serve(&mut port, setup.mapping, &asked_sender, service_name)? {
         tasks.spawn(task);
     }
+    let ended = Arc::new(Notify::new());
+    if setup.lifecycle {
+        for task in lifecycle::serve(&mut port, setup.mapping, &control, &ended, service_name)? {
+            tasks.spawn(task);
+        }
+    }
     let (received_sender, received) = sync_channel(RECEIVED);
     let mut plain = Vec::new();
     for (kind, topic) in [
@@ -234,6 +243,12 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         }
     })?;
 
+    let shutdown = async {
+        tokio::select! {
+            () = shutdown => {}
+            () = ended.notified() => {}
+        }
+    };
     let outcome = wait(built, &gauges, settings.time_step, setup.duration, shutdown).await;
 
     // The solver first, so that all it did is published; then the tasks; then what is left is written.

@@ -1,0 +1,238 @@
+//! A managed node (`--lifecycle`): ROS 2's states and transitions, as launch systems and supervisors use them.
+//!
+//! | state | what the twin does |
+//! |---|---|
+//! | unconfigured | the tool is at its start; model time stands still |
+//! | inactive | the same, ready to go on |
+//! | active | model time runs, outputs are published |
+//! | finalized | the node ends in order, as after a signal |
+//!
+//! Status, diagnostics and alarms go on in every state: they say what it is in.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use tokio::sync::Notify;
+
+use super::NodeError;
+use super::args::ArgsError;
+use super::node::control::{Control, ControlError};
+use super::parameters::Task;
+use super::service::{ServiceMapping, ServiceServer, at_once};
+use crate::dds::plan::Offer;
+use crate::dds::port::{PortBuilder, TopicPublisher};
+use crate::messages::lifecycle_msgs::{
+    ChangeStateRequest, ChangeStateResponse, GetAvailableStatesRequest, GetAvailableStatesResponse,
+    GetAvailableTransitionsRequest, GetAvailableTransitionsResponse, GetStateRequest, GetStateResponse, State,
+    Transition, TransitionDescription, TransitionEvent,
+};
+use crate::messages::{Message, to_cdr_body};
+use flexdrill_realtime::clock::rig_clock;
+
+const STATES: [(u8, &str); 4] = [
+    (State::PRIMARY_STATE_UNCONFIGURED, "unconfigured"),
+    (State::PRIMARY_STATE_INACTIVE, "inactive"),
+    (State::PRIMARY_STATE_ACTIVE, "active"),
+    (State::PRIMARY_STATE_FINALIZED, "finalized"),
+];
+
+/// Number, label, from, to: the transitions that can be asked for.
+const TRANSITIONS: [(u8, &str, u8, u8); 7] = [
+    (Transition::TRANSITION_CONFIGURE, "configure", 1, 2),
+    (Transition::TRANSITION_CLEANUP, "cleanup", 2, 1),
+    (Transition::TRANSITION_ACTIVATE, "activate", 2, 3),
+    (Transition::TRANSITION_DEACTIVATE, "deactivate", 3, 2),
+    (Transition::TRANSITION_UNCONFIGURED_SHUTDOWN, "shutdown", 1, 4),
+    (Transition::TRANSITION_INACTIVE_SHUTDOWN, "shutdown", 2, 4),
+    (Transition::TRANSITION_ACTIVE_SHUTDOWN, "shutdown", 3, 4),
+];
+
+/// The state of a managed node.
+pub struct Lifecycle {
+    state: Mutex<u8>,
+    control: Arc<Control>,
+    events: TopicPublisher,
+    ended: Arc<Notify>,
+}
+
+impl Lifecycle {
+    fn state(&self) -> u8 {
+        *self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Carries a transition out, asked for by number or by label. Whether it was.
+    fn change(&self, asked: &Transition) -> bool {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(transition) = find(*state, asked) else {
+            tracing::warn!(
+                "a change of state was refused: from {} there is no transition {} '{}'; see `ros2 lifecycle list`",
+                label(*state),
+                asked.id,
+                asked.label.escape_default()
+            );
+            return false;
+        };
+        let (_, name, from, to) = *transition;
+        if let Err(why) = self.act(name) {
+            tracing::warn!("{name} was refused: {why}");
+            return false;
+        }
+        *state = to;
+        tracing::info!("{name}: the node is {}", label(to));
+        let description = describe(transition);
+        let event = TransitionEvent {
+            timestamp: rig_clock(),
+            transition: description.transition,
+            start_state: described(from),
+            goal_state: described(to),
+        };
+        if let Ok(body) = to_cdr_body(&event) {
+            self.events.publish(body);
+        }
+        true
+    }
+
+    fn act(&self, name: &str) -> Result<(), ControlError> {
+        match name {
+            "activate" => self.control.pause(false),
+            "deactivate" => self.control.pause(true),
+            "cleanup" => self.control.go_back(),
+            "shutdown" => {
+                self.ended.notify_one();
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn label(state: u8) -> &'static str {
+    STATES
+        .iter()
+        .find(|(id, _)| *id == state)
+        .map_or("unknown", |(_, label)| label)
+}
+
+fn described(id: u8) -> State {
+    State {
+        id,
+        label: label(id).to_owned(),
+    }
+}
+
+fn describe(&(id, name, from, to): &(u8, &str, u8, u8)) -> TransitionDescription {
+    TransitionDescription {
+        transition: Transition {
+            id,
+            label: name.to_owned(),
+        },
+        start_state: described(from),
+        goal_state: described(to),
+    }
+}
+
+/// The transition that is asked for, if there is one from this state. A label counts before a number, as in rclcpp.
+fn find(state: u8, asked: &Transition) -> Option<&'static (u8, &'static str, u8, u8)> {
+    TRANSITIONS
+        .iter()
+        .filter(|(_, _, from, _)| *from == state)
+        .find(|(id, name, ..)| {
+            if asked.label.is_empty() {
+                *id == asked.id
+            } else {
+                *name == asked.label
+            }
+        })
+}
+
+/// Makes a node managed: its services as tasks. It begins unconfigured, model time standing still; `ended` is told of a
+/// shutdown. `name` makes a private name absolute.
+///
+/// # Errors
+/// When a remapped name is wrong.
+pub fn serve(
+    port: &mut PortBuilder,
+    mapping: ServiceMapping,
+    control: &Arc<Control>,
+    ended: &Arc<Notify>,
+    name: impl Fn(&str) -> Result<String, ArgsError>,
+) -> Result<Vec<Task>, NodeError> {
+    let offer = Offer {
+        reliable: true,
+        latched: false,
+        depth: 10,
+        rate: 1.0,
+        lifespan: None,
+    };
+    let events = port.publisher(&name("~/transition_event")?, TransitionEvent::DDS_TYPE, offer);
+    control
+        .pause(true)
+        .map_err(|why| NodeError::Stopped(format!("the node cannot begin as a managed one: {why}")))?;
+    let lifecycle = Arc::new(Lifecycle {
+        state: Mutex::new(State::PRIMARY_STATE_UNCONFIGURED),
+        control: Arc::clone(control),
+        events,
+        ended: Arc::clone(ended),
+    });
+    let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
+        let kind = format!("lifecycle_msgs/srv/{kind}");
+        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
+    };
+    let (change, state, possible) = (Arc::clone(&lifecycle), Arc::clone(&lifecycle), lifecycle);
+    Ok(vec![
+        Box::pin(
+            server("~/change_state", "ChangeState")?.serve(at_once(move |request: ChangeStateRequest| {
+                ChangeStateResponse {
+                    success: change.change(&request.transition),
+                }
+            })),
+        ),
+        Box::pin(
+            server("~/get_state", "GetState")?.serve(at_once(move |_: GetStateRequest| GetStateResponse {
+                current_state: described(state.state()),
+            })),
+        ),
+        Box::pin(server("~/get_available_states", "GetAvailableStates")?.serve(at_once(
+            move |_: GetAvailableStatesRequest| GetAvailableStatesResponse {
+                available_states: STATES.map(|(id, _)| described(id)).to_vec(),
+            },
+        ))),
+        Box::pin(
+            server("~/get_available_transitions", "GetAvailableTransitions")?.serve(at_once(
+                move |_: GetAvailableTransitionsRequest| {
+                    let now = possible.state();
+                    let from_here = TRANSITIONS.iter().filter(|(_, _, from, _)| *from == now);
+                    GetAvailableTransitionsResponse {
+                        available_transitions: from_here.map(describe).collect(),
+                    }
+                },
+            )),
+        ),
+        Box::pin(
+            server("~/get_transition_graph", "GetAvailableTransitions")?.serve(at_once(
+                move |_: GetAvailableTransitionsRequest| GetAvailableTransitionsResponse {
+                    available_transitions: TRANSITIONS.iter().map(describe).collect(),
+                },
+            )),
+        ),
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn transitions_are_found_by_number_or_label_from_their_state_only() {
+        let asked = |id: u8, label: &str| Transition {
+            id,
+            label: label.to_owned(),
+        };
+        let to = |state, id, label| find(state, &asked(id, label)).map(|found| found.3);
+        assert_eq!(to(1, 1, ""), Some(2));
+        assert_eq!(to(2, 0, "activate"), Some(3));
+        assert_eq!(to(3, 0, "shutdown"), Some(4));
+        assert_eq!(to(3, 5, ""), None, "the shutdown of another state");
+        assert_eq!(to(1, 3, ""), None);
+        assert_eq!(to(4, 1, ""), None, "nothing leads back");
+    }
+}
