@@ -1,5 +1,5 @@
-//! Ctrl-C and SIGTERM: the first asks for an orderly end, a later one insists. A file size limit is an error of a
-//! write.
+//! Ctrl-C, SIGTERM and a terminal that goes away: the first asks for an orderly end, a later one insists. A file size
+//! limit is an error of a write.
 
 use std::io;
 use std::sync::Arc;
@@ -56,13 +56,29 @@ impl Signals {
     }
 }
 
+/// Signals that ask for the end. That of a terminal that goes away is left alone where it is ignored, as under nohup.
+fn requests() -> Vec<SignalKind> {
+    let mut kinds = vec![SignalKind::interrupt(), SignalKind::terminate()];
+    if !ignores_hangup(&std::fs::read_to_string("/proc/self/status").unwrap_or_default()) {
+        kinds.push(SignalKind::hangup());
+    }
+    kinds
+}
+
+/// Whether a process's status says that it ignores SIGHUP, the first of its mask.
+fn ignores_hangup(status: &str) -> bool {
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .is_some_and(|mask| mask & 1 == 1)
+}
+
 /// Done when the process is first asked to end. After that, another request ends it at once; while it is recording,
 /// once the end of the recording is written or cannot be.
 ///
 /// # Errors
 /// When the handlers cannot be installed.
 pub(super) fn shutdown(recording: bool) -> io::Result<impl Future<Output = ()>> {
-    let mut signals = Signals::listen([SignalKind::interrupt(), SignalKind::terminate()])?;
+    let mut signals = Signals::listen(requests())?;
     Ok(async move {
         signals.next().await;
         let first = Instant::now();
@@ -113,7 +129,7 @@ pub(super) fn stop_flag() -> io::Result<Arc<AtomicBool>> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     let mut signals = {
         let _entered = runtime.enter();
-        Signals::listen([SignalKind::interrupt(), SignalKind::terminate(), SignalKind::hangup()])?
+        Signals::listen(requests())?
     };
     std::thread::spawn(move || {
         runtime.block_on(signals.next());
@@ -125,6 +141,13 @@ pub(super) fn stop_flag() -> io::Result<Arc<AtomicBool>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn under_nohup_a_terminal_that_goes_away_ends_nothing() {
+        assert!(ignores_hangup("Name:\tflexdrill\nSigIgn:\t0000000000001001\n"));
+        assert!(!ignores_hangup("SigIgn:\t0000000000001000\n"));
+        assert!(!ignores_hangup(""));
+    }
 
     #[test]
     fn signals_close_together_are_one_request_and_a_recording_is_always_ended() {
