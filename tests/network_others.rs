@@ -120,3 +120,26 @@ fn two_nodes_of_one_name_are_told() {
         json!(null)
     );
 }
+
+#[test]
+fn on_this_machine_alone_and_without_multicast_it_stays_up() {
+    let Some(network) = Network::new() else { return };
+    assert!(done(&network, &["ip", "route", "del", "224.0.0.0/4", "dev", "lo"]));
+    assert!(done(&network, &["ip", "link", "set", "lo", "multicast", "off"]));
+    let local = |arguments: &[&str]| {
+        let mut command = network.command("env");
+        command.args(["ROS_LOCALHOST_ONLY=1", env!("CARGO_BIN_EXE_flexdrill")]);
+        command.args(arguments);
+        command
+    };
+    let config = common::small_config();
+    let mut twin = common::Program::start(local(&["run", "--config", config.to_str().unwrap()]));
+    twin.wait_for("model time runs");
+    // Longer than any of its patience with DDS.
+    std::thread::sleep(Duration::from_secs(8));
+    let heard = local(&["watch", "--plain", "--duration", "2"]).output().unwrap();
+    assert!(heard.status.success(), "{}", String::from_utf8_lossy(&heard.stderr));
+    assert!(!twin.said().contains("DDS is started again"), "{}", twin.said());
+    twin.signal("INT");
+    assert_eq!(twin.end(), Some(0));
+}
