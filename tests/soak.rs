@@ -130,12 +130,13 @@ fn it_can_be_left_running() {
         assert!(growth < GROWTH, "{name}: {growth} bytes more in {:.0} s", elapsed / 2.0);
     }
     println!(
-        "handles {} to {}, dropped {}, not recorded {}, skipped {} steps",
+        "handles {} to {}, dropped {}, not recorded {}, skipped {} steps, {} snapshots not published",
         handles.iter().min().unwrap(),
         handles.iter().max().unwrap(),
         sum("output_dropped"),
         status["recording_drops"],
-        status["steps_skipped"]
+        status["steps_skipped"],
+        status["frames_dropped"]
     );
     // A file of the recording or a connection more at the moment of a look.
     let (few, many) = (handles[handles.len() / 2], *handles.last().unwrap());

@@ -10,6 +10,8 @@ use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
 pub(super) fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
     let factor = status.real_time_factor;
     let skipped = status.steps_skipped.saturating_sub(previous.steps_skipped);
+    let dropped = status.frames_dropped.saturating_sub(previous.frames_dropped);
+    let lost = status.events_lost.saturating_sub(previous.events_lost);
     let (level, message) = match status.state {
         TwinStatus::STARTING => (DiagnosticStatus::OK, "the tool is being brought to rest".to_owned()),
         TwinStatus::PAUSED => (DiagnosticStatus::WARN, "paused: model time stands still".to_owned()),
@@ -24,6 +26,12 @@ pub(super) fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
             DiagnosticStatus::WARN,
             format!("late: {skipped} steps skipped since the last report, factor {factor:.3}"),
         ),
+        _ if dropped > 0 || lost > 0 => (
+            DiagnosticStatus::WARN,
+            format!(
+                "the publisher's thread got no processor: {dropped} snapshots and {lost} changes of inputs were not published; end other programs"
+            ),
+        ),
         _ => (DiagnosticStatus::OK, "in real time".to_owned()),
     };
     Judgement {
@@ -35,6 +43,8 @@ pub(super) fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
             ("lateness (s)", format!("{:.6}", status.lateness)),
             ("deadline_misses", status.deadline_misses.to_string()),
             ("steps_skipped", status.steps_skipped.to_string()),
+            ("frames_dropped", status.frames_dropped.to_string()),
+            ("events_lost", status.events_lost.to_string()),
             ("step_time_p50 (ms)", milliseconds(status.step_time_p50)),
             ("step_time_p99 (ms)", milliseconds(status.step_time_p99)),
             ("step_time_max (ms)", milliseconds(status.step_time_max)),

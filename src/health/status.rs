@@ -194,6 +194,8 @@ impl StatusKeeper {
             model_quality: self.quality.level as u8,
             model_quality_cause: self.quality.to_string(),
             energy_error_share: self.quality.energy_error_share,
+            frames_dropped: gauges.frames_dropped.load(Ordering::Relaxed),
+            events_lost: gauges.events_lost.load(Ordering::Relaxed),
             config_hash: self.config_hash.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             ..TwinStatus::default()

@@ -842,6 +842,11 @@ pub mod flexdrill {
         pub input_source: Vec<std::string::String>,
         /// Per input: the source has doubts about the newest good sample.
         pub input_suspect: Vec<bool>,
+        /// Snapshots that found the publisher's thread too far behind since the start: the outputs of these instants were neither sent nor
+        /// recorded.
+        pub frames_dropped: u64,
+        /// Changes of the inputs that found it so: a recording of this run cannot be replayed exactly.
+        pub events_lost: u64,
     }
 
     impl TwinStatus {
@@ -883,7 +888,7 @@ pub mod flexdrill {
         const NAME: &'static str = "TwinStatus";
         const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
-        const RIHS01: &'static str = "RIHS01_87ba09797954a0f5bbcfa3433bdbc5037fca7b2e5693a58d704cd5ae8e6e25c6";
+        const RIHS01: &'static str = "RIHS01_840045d43946e8759e92ef8fb672c2de7669ebcb612dfacd97d14370131406fa";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
