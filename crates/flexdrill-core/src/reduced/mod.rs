@@ -35,6 +35,9 @@ use crate::elements::joint::Joint;
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
 
+#[cfg(test)]
+mod tests;
+
 use operator::Operator;
 use single::SingleSweep;
 use slaving::{Link, LinkMatrices};

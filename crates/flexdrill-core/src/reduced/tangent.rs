@@ -127,10 +127,22 @@ impl Contacts<'_> {
         let radius = self.model.guide_radii[usize::from(!inner)];
         let mut on_guide = at_radius(x, radius);
         if inner {
-            let pipe = on_ends::<V>(&rows[0], &[x[0], x[1], x[2], x[3], x[4], x[5]]);
+            on_guide.iter_mut().for_each(|x| *x = -*x);
+        }
+        let pipe = [x[0], x[1], x[2], x[3], x[4], x[5]];
+        if i == self.by.per {
+            // A station at a node moves with that node only.
+            if inner {
+                let bottom = on_bottom::<V>(&rows[0], &pipe);
+                out.bottom[..6].copy_from_slice(&bottom[..6]);
+            }
+            out.bottom[GUIDE..GUIDE + 6].copy_from_slice(&on_guide);
+            return out;
+        }
+        if inner {
+            let pipe = on_ends::<V>(&rows[0], &pipe);
             out.top[U..U + 6].copy_from_slice(&pipe[..6]);
             out.bottom[..6].copy_from_slice(&pipe[8..14]);
-            on_guide.iter_mut().for_each(|x| *x = -*x);
         }
         let guide = on_ends::<V>(&rows[1], &on_guide);
         out.top[GUIDE..GUIDE + 6].copy_from_slice(&guide[..6]);
@@ -149,20 +161,20 @@ impl Contacts<'_> {
             (on_top[n], on_bottom[n]) = (load(&on.top), load(&on.bottom));
             (by_top[n], by_bottom[n]) = (by.top, by.bottom);
         }
-        // The guide's columns come last in every list of twelve.
-        let first = if inner { 0 } else { 6 };
+        // The guide's columns come last in every list of twelve, its rows in the second half.
+        let (first, half) = if inner { (0, 0) } else { (6, 1) };
         let per = self.by.per;
         let additions = &mut self.by.additions;
         if i < per {
             let block = additions.block(l);
             for &j in &TOP[first..] {
-                add_to::<V>(&mut block[j], &on_top, &by_top, j);
+                add_to::<V>(&mut block[j], &on_top, &by_top, (j, half));
             }
         }
         if i > 0 {
             let block = additions.block(l + 1);
             for &j in &BOTTOM[first..] {
-                add_to::<V>(&mut block[j], &on_bottom, &by_bottom, j);
+                add_to::<V>(&mut block[j], &on_bottom, &by_bottom, (j, half));
             }
         }
         if i > 0 && i < per {
@@ -173,8 +185,8 @@ impl Contacts<'_> {
             }
             *crossing = (*crossing).max(if inner { Crossing::Both } else { Crossing::Guide });
             for c in first..12 {
-                add_to::<V>(&mut coupling.upper[c], &on_top, &by_bottom, BOTTOM[c]);
-                add_to::<V>(&mut coupling.lower[c], &on_bottom, &by_top, TOP[c]);
+                add_to::<V>(&mut coupling.upper[c], &on_top, &by_bottom, (BOTTOM[c], half));
+                add_to::<V>(&mut coupling.lower[c], &on_bottom, &by_top, (TOP[c], half));
             }
         }
     }
@@ -193,9 +205,22 @@ pub(super) fn on_ends<V: Vector>(rows: &[EndColumn; 6], x: &[f64; 6]) -> EndColu
     out
 }
 
-/// column += on by^T, for one column of the product.
+/// The same on the bottom end only.
 #[inline(always)]
-fn add_to<V: Vector>(column: &mut [f64; NODE], on: &[[V; 2]; 4], by: &[[f64; NODE]; 4], j: usize) {
+fn on_bottom<V: Vector>(rows: &[EndColumn; 6], x: &[f64; 6]) -> [f64; 8] {
+    let (mut even, mut odd) = (V::splat(0.0), V::splat(0.0));
+    for k in 0..3 {
+        even = even.plus_product(load::<V>(&rows[2 * k])[1], V::splat(x[2 * k]));
+        odd = odd.plus_product(load::<V>(&rows[2 * k + 1])[1], V::splat(x[2 * k + 1]));
+    }
+    let mut out = [0.0; 8];
+    even.plus(odd).store(&mut out);
+    out
+}
+
+/// column += on by^T, for column `j` of the product and the halves from `first` on.
+#[inline(always)]
+fn add_to<V: Vector>(column: &mut [f64; NODE], on: &[[V; 2]; 4], by: &[[f64; NODE]; 4], (j, first): (usize, usize)) {
     let x = [
         V::splat(by[0][j]),
         V::splat(by[1][j]),
@@ -203,7 +228,7 @@ fn add_to<V: Vector>(column: &mut [f64; NODE], on: &[[V; 2]; 4], by: &[[f64; NOD
         V::splat(by[3][j]),
     ];
     let mut sum = load::<V>(column);
-    for (half, sum) in sum.iter_mut().enumerate() {
+    for (half, sum) in sum.iter_mut().enumerate().skip(first) {
         let even = sum.plus_product(on[0][half], x[0]).plus_product(on[1][half], x[1]);
         let odd = on[2][half].times(x[2]).plus_product(on[3][half], x[3]);
         *sum = even.plus(odd);
