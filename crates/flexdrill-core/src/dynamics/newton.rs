@@ -167,7 +167,8 @@ pub(crate) fn step(
             let unknown = worst_unknown(residuals, weights);
             return Err((iterations, failure(FailureCause::NotFinite, f64::NAN, unknown)));
         }
-        if ratio <= 1.0 {
+        // Motion is not left to the predictor: what a small step leaves of its forces is of one sign, step after step.
+        if ratio <= 1.0 && (iterations > 0 || accuracy == Accuracy::Rest) {
             return match equations.out_of_range(model, to) {
                 Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
                 None => {

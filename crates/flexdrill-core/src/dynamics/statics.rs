@@ -52,6 +52,7 @@ impl Stepper {
     /// # Errors
     /// [`StartError::Singular`].
     pub fn start_as_given(&mut self, weight_on_bit: f64, h: f64) -> Result<(), StartError> {
+        self.leave_joints();
         let conditions = self.conditions(0.0, weight_on_bit);
         let (model, newton, state, _) = self.parts();
         let d = &model.description;

@@ -222,6 +222,15 @@ impl Stepper {
         self.live = live;
     }
 
+    /// Goes back to the stations, where a start is found; [`Stepper::prepare`] then decides anew.
+    pub(crate) fn leave_joints(&mut self) {
+        if self.over_joints {
+            self.over_joints = false;
+            self.condensed_for = 0.0;
+            self.track = Track::new(&self.model, State::at_rest(&self.model));
+        }
+    }
+
     /// What the static start works on, station by station.
     pub(crate) fn parts(&mut self) -> (&Model, &mut Newton, &mut State, &mut State) {
         (

@@ -26,6 +26,8 @@ mod single;
 mod slaving;
 mod solve;
 mod tangent;
+#[cfg(test)]
+mod tests;
 
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
@@ -34,9 +36,6 @@ use crate::dynamics::newton::Tolerances;
 use crate::elements::joint::Joint;
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
-
-#[cfg(test)]
-mod tests;
 
 use operator::Operator;
 use single::SingleSweep;

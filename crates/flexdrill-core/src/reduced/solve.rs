@@ -1,13 +1,14 @@
 //! Newton's equations over the joints, and their solution: blocks of 16 eliminated from the top down.
 
 use super::operator::{Block, Operator};
+use super::residual::{load, plus_column, store};
 use super::single::SingleElimination;
 use super::tangent::{Additions, Crossing};
-use super::{BOTTOM, GUIDE, MULTIPLIER, NODE, Reduced, SINGLE_CORRECTIONS, TOP, U};
+use super::{BOTTOM, GUIDE, Link, MULTIPLIER, NODE, Reduced, SINGLE_CORRECTIONS, TOP, U};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{Accuracy, Equations, LARGEST_DISPLACEMENT, Stride};
+use crate::dynamics::newton::{Accuracy, Equations, LARGEST_DISPLACEMENT, Stride, correct, worst};
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
 use crate::elements::bit::BitTorque;
@@ -17,8 +18,6 @@ use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 use crate::tool::description::Body;
-
-use super::residual::{load, plus_column, store};
 
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
@@ -43,8 +42,7 @@ struct Elimination<'a> {
     operator: &'a Operator,
     additions: &'a Additions,
     joints: &'a [JointIncrement],
-    /// Kind of each span.
-    kinds: &'a [super::Link],
+    links: &'a [Link],
     rows: &'a [Option<[f64; NODE]>],
     /// The right-hand side, which becomes the solution.
     values: &'a mut [f64],
@@ -70,7 +68,7 @@ impl Elimination<'_> {
     /// Coupling of span `l`: (rows of the node above, rows of the node below), and what crosses.
     #[inline(always)]
     fn coupling<V: Vector>(&self, l: usize, upper: &mut [[f64; NODE]], lower: &mut [[f64; NODE]; 12]) -> Crossing {
-        let base = &self.operator.couplings[self.kinds[l].kind];
+        let base = &self.operator.couplings[self.links[l].kind];
         upper[..12].copy_from_slice(&base.upper);
         *lower = base.lower;
         let crossing = self.additions.crossing[l];
@@ -232,7 +230,7 @@ impl Reduced {
                 operator,
                 additions,
                 joints,
-                kinds: links,
+                links,
                 rows,
                 values,
             })
@@ -267,7 +265,6 @@ impl ReducedEquations<'_> {
         scratch: &mut State,
         conditions: &Conditions,
     ) {
-        use crate::dynamics::newton::{correct, worst};
         let factors = TangentFactors {
             stiffness: 1.0,
             damping: 0.0,

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{MULTIPLIER, NODE, Reduced, ReducedEquations, equations};
+use super::{MULTIPLIER, NODE, Reduced, equations};
 use crate::Instructions;
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
@@ -114,7 +114,6 @@ fn check(tool: &ToolDescription, h: f64, seed: u64) {
         }
 
         let mut assembler = Assembler::new(&model, instructions);
-        let ReducedEquations { .. } = equations(&mut reduced, &mut assembler);
         equations(&mut reduced, &mut assembler).evaluate(&model, &mut state, &conditions, true);
         let mut full = State::at_rest(&model);
         reduced.show(&model, &state, &mut full);

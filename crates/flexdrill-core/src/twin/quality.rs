@@ -363,7 +363,7 @@ mod tests {
         let mut watch = QualityWatch::default();
         let mut audit = EnergyAudit::default();
         for _ in 0..(11.0 / DT) as u32 {
-            audit.axial_foresight += 0.55 * TAKEN * DT;
+            audit.axial_foresight += 0.502 * TAKEN * DT;
             audit.contact_damping += TAKEN * DT;
             watch.push(DT, &audit);
         }
@@ -388,7 +388,7 @@ mod tests {
             (QualityLevel::Degraded, Some(QualityCause::EnergyError))
         );
         assert_eq!(
-            level(0.25, 0.52),
+            level(0.25, 0.502),
             (QualityLevel::Degraded, Some(QualityCause::EnergyError))
         );
     }
