@@ -118,7 +118,10 @@ struct Pivots<S> {
 }
 
 /// Takes the pivots `K` and `K + 1` out of the columns after them and out of the first `active` of `b` and its last.
-#[expect(clippy::needless_range_loop, reason = "columns by number, so that they stay in registers")]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "columns by number, so that they stay in registers"
+)]
 #[inline(always)]
 fn pair<S: Single, const K: usize, const NEXT: usize>(
     a: &mut [S; NODE],
@@ -254,7 +257,10 @@ impl Kernel for SingleElimination<'_> {
     }
 }
 
-#[expect(clippy::needless_range_loop, reason = "columns by number, so that they stay in registers")]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "columns by number, so that they stay in registers"
+)]
 #[inline(always)]
 fn run<S: Single>(by: SingleElimination<'_>) -> bool {
     let SingleElimination {
