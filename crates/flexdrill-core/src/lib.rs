@@ -67,6 +67,7 @@ pub mod inputs;
 mod linear;
 mod model;
 pub mod motion;
+mod reduced;
 mod simd;
 pub mod tool;
 pub mod twin;

@@ -15,35 +15,34 @@ use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::joint_rotations;
 use crate::dynamics::state::{State, motion};
 use crate::elements::element_form::{add, load};
-use crate::model::Model;
+use crate::model::{Model, Places};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
-use crate::tool::description::Direction;
 
 /// Forces and energies at one end of a step that the trapezoid rule needs at the other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyPoint {
     /// Friction of both layers on every unknown (N, N m).
-    friction: Vec<f64>,
+    pub(crate) friction: Vec<f64>,
     /// Geometric-stiffness force N G q with the axial force in use.
-    geometric: Vec<f64>,
+    pub(crate) geometric: Vec<f64>,
     /// Rayleigh damping's force C v.
-    damping: Vec<f64>,
+    pub(crate) damping: Vec<f64>,
     /// Inertia force M a (N, N m).
-    inertia: Vec<f64>,
+    pub(crate) inertia: Vec<f64>,
     /// Value of each point load (N, N m).
     loads: Vec<f64>,
     /// Kinetic, elastic, geometric, contact and stop energy (J).
     stored: f64,
     /// Part of `stored` that is kinetic.
-    kinetic: f64,
+    pub(crate) kinetic: f64,
     /// Part of `stored` in the geometric stiffness.
-    geometric_energy: f64,
+    pub(crate) geometric_energy: f64,
     /// Power of the geometric stiffness with the axial force in use, less that with the axial force of the
     /// displacements (W).
-    foresight: f64,
+    pub(crate) foresight: f64,
     /// Power of contact and stop damping (W).
-    contact_dissipation: f64,
+    pub(crate) contact_dissipation: f64,
     /// Torque of the drive (N m).
     pub drive_torque: f64,
     bit_torque: f64,
@@ -51,13 +50,13 @@ pub struct EnergyPoint {
 }
 
 impl EnergyPoint {
-    /// Room for `model`.
-    pub fn new(model: &Model) -> Self {
+    /// Room for `model` in a numbering of so many unknowns.
+    pub fn new(model: &Model, unknowns: usize) -> Self {
         Self {
-            friction: vec![0.0; model.unknowns()],
-            geometric: vec![0.0; model.unknowns()],
-            damping: vec![0.0; model.unknowns()],
-            inertia: vec![0.0; model.unknowns()],
+            friction: vec![0.0; unknowns],
+            geometric: vec![0.0; unknowns],
+            damping: vec![0.0; unknowns],
+            inertia: vec![0.0; unknowns],
             loads: vec![0.0; model.loads.len()],
             stored: 0.0,
             kinetic: 0.0,
@@ -111,17 +110,7 @@ impl EnergyPoint {
             state,
             conditions,
         });
-        for point in &model.masses {
-            let (alpha, moving) = (conditions.rayleigh.alpha, motion(state, point.unknown));
-            self.kinetic += point.body.kinetic_energy(moving);
-            let inertia = point.body.coupled_forces(moving, 0.0, [0.0; 3]);
-            let damped = point.body.coupled_forces(moving, alpha, [0.0; 3]);
-            for (k, mass) in point.body.diagonal().into_iter().enumerate() {
-                let u = point.unknown + k;
-                self.inertia[u] += mass * state.a[u] + inertia[k];
-                self.damping[u] += alpha * mass * state.v[u] + (damped[k] - inertia[k]);
-            }
-        }
+        self.add_masses(&model.places, model, state, conditions);
         stored += self.kinetic;
         self.friction.fill(0.0);
         self.contact_dissipation = 0.0;
@@ -142,6 +131,36 @@ impl EnergyPoint {
                 self.contact_dissipation += touch.dissipation;
             }
         }
+        self.finish(stored, &model.places, model, conditions, assembler, &assembler.residual);
+    }
+
+    /// Adds kinetic energy, inertia and damping of point masses, in the numbering of `places`.
+    pub(crate) fn add_masses(&mut self, places: &Places, model: &Model, state: &State, conditions: &Conditions) {
+        let alpha = conditions.rayleigh.alpha;
+        for (point, places) in model.masses.iter().zip(&places.masses) {
+            let moving = motion(state, places);
+            let moving = moving.as_node();
+            self.kinetic += point.body.kinetic_energy(moving);
+            let inertia = point.body.coupled_forces(moving, 0.0, [0.0; 3]);
+            let damped = point.body.coupled_forces(moving, alpha, [0.0; 3]);
+            for (k, mass) in point.body.diagonal().into_iter().enumerate() {
+                let u = places[k];
+                self.inertia[u] += mass * state.a[u] + inertia[k];
+                self.damping[u] += alpha * mass * state.v[u] + (damped[k] - inertia[k]);
+            }
+        }
+    }
+
+    /// Adds joints, loads, drive and bit to what elements, masses and contacts have `stored` (J).
+    pub(crate) fn finish(
+        &mut self,
+        mut stored: f64,
+        places: &Places,
+        model: &Model,
+        conditions: &Conditions,
+        assembler: &Assembler,
+        residual: &[f64],
+    ) {
         for joint in &assembler.joints {
             stored += joint.energy;
             self.contact_dissipation += joint.dissipation;
@@ -150,7 +169,7 @@ impl EnergyPoint {
             *value = load.load.history.at(conditions.time);
         }
         self.stored = stored;
-        self.drive_torque = model.driven.map_or(0.0, |driven| assembler.residual[driven]);
+        self.drive_torque = places.driven.map_or(0.0, |driven| residual[driven]);
         self.bit_torque = assembler.bit.torque;
         self.weight_on_bit = conditions.weight_on_bit;
     }
@@ -255,7 +274,7 @@ impl EnergyAudit {
     /// Adds the step of size `h` from `(s0, e0)` to `(s1, e1)`. `room` holds a value per unknown and is overwritten.
     pub(crate) fn add_step(
         &mut self,
-        model: &Model,
+        (model, places, weight): (&Model, &Places, &[f64]),
         h: f64,
         (s0, e0): (&State, &EnergyPoint),
         (s1, e1): (&State, &EnergyPoint),
@@ -266,22 +285,24 @@ impl EnergyAudit {
         }
         let moved = &*room;
         let mean = |a: f64, b: f64| 0.5 * (a + b);
-        if let Some(driven) = model.driven {
+        if let Some(driven) = places.driven {
             self.drive += mean(e0.drive_torque, e1.drive_torque) * moved[driven];
         }
-        let bottom = &model.stations[model.last()];
-        self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved[bottom.guide];
-        self.bit += mean(e0.bit_torque, e1.bit_torque) * moved[bottom.pipe_above + Direction::Psi as usize];
-        for (k, load) in model.loads.iter().enumerate() {
-            self.loads += mean(e0.loads[k], e1.loads[k]) * moved[load.unknown];
+        self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved[places.guide_end];
+        self.bit += mean(e0.bit_torque, e1.bit_torque) * moved[places.bit_spin];
+        for (k, &load) in places.loads.iter().enumerate() {
+            self.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];
         }
         self.friction -= mean_work(moved, &e0.friction, &e1.friction);
         self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
-        self.gravity += mean_work(moved, &model.weight, &model.weight);
-        for point in &model.masses {
-            let (before, after) = (motion(s0, point.unknown).q, motion(s1, point.unknown).q);
-            let (r0, r1) = (point.body.offset(before), point.body.offset(after));
-            let down = (0..3).map(|k| point.gravity[k] * (moved[point.unknown + k] + (r1[k] - r0[k])));
+        self.gravity += mean_work(moved, weight, weight);
+        for (point, places) in model.masses.iter().zip(&places.masses) {
+            let (before, after) = (motion(s0, places), motion(s1, places));
+            let (r0, r1) = (
+                point.body.offset(before.as_node().q),
+                point.body.offset(after.as_node().q),
+            );
+            let down = (0..3).map(|k| point.gravity[k] * (moved[places[k]] + (r1[k] - r0[k])));
             self.gravity += point.body.mass * down.sum::<f64>();
         }
         self.rayleigh_damping += mean_work(moved, &e0.damping, &e1.damping);

@@ -5,7 +5,7 @@ use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, translation};
 use crate::elements::joint::group::{JointGroup, Lane};
 use crate::linear::JointIncrement;
-use crate::model::Model;
+use crate::model::{JointPlaces, Model};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 
@@ -14,11 +14,25 @@ impl Assembler {
     /// linearises the rotational rows and stops.
     pub(super) fn joint_forces(&mut self, model: &Model, state: &State) {
         self.translational_rows(model, state);
+        let mut residual = std::mem::take(&mut self.residual);
+        self.rotational_rows(&mut residual, &model.places.joints, model, state);
+        self.residual = residual;
+    }
+
+    /// Rotational rows and stops, in the numbering of `places`.
+    pub(crate) fn rotational_rows(
+        &mut self,
+        residual: &mut [f64],
+        places: &[JointPlaces],
+        model: &Model,
+        state: &State,
+    ) {
         self.instructions.run(RotationalRows {
-            residual: &mut self.residual,
+            residual,
             reports: &mut self.joints,
             groups: &mut self.groups,
-            model,
+            places,
+            scale: model.moment_scale,
             state,
         });
     }
@@ -41,7 +55,13 @@ impl Assembler {
     }
 
     /// Fills the joints' part of the tangent increment.
-    pub(super) fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
+    pub(crate) fn joint_tangent(
+        &mut self,
+        places: &[JointPlaces],
+        model: &Model,
+        state: &State,
+        factors: TangentFactors,
+    ) {
         for (change, report) in self.increment.joints.iter_mut().zip(&self.joints) {
             for (to, from) in change.rows.iter_mut().zip(&report.rows) {
                 for (to, from) in to.iter_mut().zip(from) {
@@ -52,21 +72,22 @@ impl Assembler {
         self.instructions.run(RotationalTangents {
             increment: &mut self.increment.joints,
             groups: &self.groups,
-            model,
+            places,
+            scale: model.moment_scale,
             state,
             factors,
         });
     }
 }
 
-/// Multipliers of the rotational rows of eight joints from number `first` on, times their scale (N m); lanes without a
+/// Multipliers of the rotational rows of the first eight joints of `places`, times their scale (N m); lanes without a
 /// joint have none.
 #[inline(always)]
-fn multipliers(model: &Model, state: &State, first: usize, rows: usize) -> [Lane; 2] {
+fn multipliers(places: &[JointPlaces], scale: f64, state: &State, rows: usize) -> [Lane; 2] {
     let mut lambda = [[0.0; 8]; 2];
-    for (lane, j) in (first..model.joints.len()).take(8).enumerate() {
+    for (lane, joint) in places.iter().take(8).enumerate() {
         for (row, lambda) in lambda.iter_mut().enumerate().take(rows) {
-            lambda[lane] = model.moment_scale * state.q[model.multipliers(j) + 3 + row];
+            lambda[lane] = scale * state.q[joint.row + row];
         }
     }
     lambda
@@ -77,7 +98,8 @@ struct RotationalRows<'a> {
     residual: &'a mut [f64],
     reports: &'a mut [JointReport],
     groups: &'a mut [JointGroup],
-    model: &'a Model,
+    places: &'a [JointPlaces],
+    scale: f64,
     state: &'a State,
 }
 
@@ -90,36 +112,36 @@ impl Kernel for RotationalRows<'_> {
             residual,
             reports,
             groups,
-            model,
+            places,
+            scale,
             state,
         } = self;
         for (g, group) in groups.iter_mut().enumerate() {
             let first = 8 * g;
-            let count = (model.joints.len() - first).min(8);
+            let places = &places[first..];
+            let count = places.len().min(8);
             let (mut q, mut rate) = ([[0.0; 8]; 6], [[0.0; 8]; 6]);
             for lane in 0..8 {
-                let j = first + lane.min(count - 1);
-                let station = &model.stations[model.joint_stations[j]];
+                let joint = &places[lane.min(count - 1)];
                 for k in 0..3 {
-                    q[k][lane] = state.q[station.pipe_above + 3 + k];
-                    q[3 + k][lane] = state.q[station.pipe_below + 3 + k];
-                    rate[k][lane] = state.v[station.pipe_above + 3 + k];
-                    rate[3 + k][lane] = state.v[station.pipe_below + 3 + k];
+                    q[k][lane] = state.q[joint.above + k];
+                    q[3 + k][lane] = state.q[joint.below + k];
+                    rate[k][lane] = state.v[joint.above + k];
+                    rate[3 + k][lane] = state.v[joint.below + k];
                 }
             }
-            let lambda = multipliers(model, state, first, group.rows().len());
+            let lambda = multipliers(places, scale, state, group.rows().len());
             let moments = group.evaluate::<V>(&q, &rate, &lambda);
             let stop = group.stop();
             for lane in 0..count {
-                let station = &model.stations[model.joint_stations[first + lane]];
-                let multiplier = model.multipliers(first + lane) + 3;
+                let joint = &places[lane];
                 for k in 0..3 {
-                    residual[station.pipe_above + 3 + k] += moments[k][lane];
-                    residual[station.pipe_below + 3 + k] += moments[3 + k][lane];
+                    residual[joint.above + k] += moments[k][lane];
+                    residual[joint.below + k] += moments[3 + k][lane];
                 }
                 let report = &mut reports[first + lane];
                 for (r, row) in group.rows().iter().enumerate() {
-                    residual[multiplier + r] = model.moment_scale * row.value[lane];
+                    residual[joint.row + r] = scale * row.value[lane];
                     for (to, from) in report.rows[r].iter_mut().zip(&row.gradient) {
                         *to = from[lane];
                     }
@@ -136,7 +158,8 @@ impl Kernel for RotationalRows<'_> {
 struct RotationalTangents<'a> {
     increment: &'a mut [JointIncrement],
     groups: &'a [JointGroup],
-    model: &'a Model,
+    places: &'a [JointPlaces],
+    scale: f64,
     state: &'a State,
     factors: TangentFactors,
 }
@@ -149,14 +172,15 @@ impl Kernel for RotationalTangents<'_> {
         let Self {
             increment,
             groups,
-            model,
+            places,
+            scale,
             state,
             factors,
         } = self;
         let mut tangent = [[[0.0; 8]; 6]; 6];
         for (g, group) in groups.iter().enumerate() {
             let first = 8 * g;
-            let lambda = multipliers(model, state, first, group.rows().len());
+            let lambda = multipliers(&places[first..], scale, state, group.rows().len());
             group.tangent::<V>(&lambda, factors.stiffness, factors.damping, &mut tangent);
             for (lane, change) in increment[first..].iter_mut().enumerate().take(8) {
                 for (to, from) in change.rotations.iter_mut().zip(&tangent) {

@@ -7,8 +7,9 @@ use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::phases::Phase;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
+use crate::elements::bit::BitTorque;
 use crate::elements::joint::rotation::LARGEST_TILT;
-use crate::linear::{CondensedElimination, CondensedSystem, LinearSolver};
+use crate::linear::{CondensedElimination, CondensedSystem, LinearSolver, Singular};
 use crate::model::Model;
 use crate::simd::Instructions;
 use crate::tool::description::Body;
@@ -16,10 +17,14 @@ use crate::tool::description::Body;
 /// When an iterate is accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
-    /// Largest unbalanced force on a node (N).
+    /// Largest unbalanced force on a node at rest (N).
     pub force: f64,
-    /// Largest unbalanced moment on a node (N m).
+    /// Largest unbalanced moment on a node at rest (N m).
     pub moment: f64,
+    /// The same in motion, as a part of the weight of both pipes, and at most this force (N).
+    pub moving_force: (f64, f64),
+    /// Moment per force in motion (m).
+    pub moving_moment: f64,
     /// Largest opening of a joint (m) and largest value of a rotational row (-).
     pub constraint: f64,
     /// Corrections after which a sub-step counts as not converged.
@@ -27,21 +32,238 @@ pub struct Tolerances {
 }
 
 impl Default for Tolerances {
-    /// 10 mN and 1 mN m: a millionth of a weight on bit of 10 kN and a hundred-thousandth of its torque, three orders
-    /// below what the step itself leaves, five above the rounding of the stiffest element. Rows to 1e-10 m, a tenth of
-    /// what is promised.
+    /// 10 mN and 1 mN m at rest: a millionth of a weight on bit of 10 kN and a hundred-thousandth of its torque, five
+    /// orders above the rounding of the stiffest element. In motion 1 N and 0.1 N m: a hundredth of the RMS forces of
+    /// the contacts, below what the step itself leaves, and statistics do not tell it from a hundredth of it; lighter
+    /// tools than one of 2 kN have smaller forces. Rows to 1e-10 m, a tenth of what is promised.
     fn default() -> Self {
         Self {
             force: 1e-2,
             moment: 1e-3,
+            moving_force: (5e-4, 1.0),
+            moving_moment: 0.1,
             constraint: 1e-10,
             max_iterations: 15,
         }
     }
 }
 
+impl Tolerances {
+    /// Largest unbalanced force on a node of `model` in motion (N).
+    pub(crate) fn moving_force(&self, model: &Model) -> f64 {
+        let (part, most) = self.moving_force;
+        (part * model.mass() * 9.81).clamp(self.force.min(most), most)
+    }
+}
+
+/// How closely a step's equations are to be solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Accuracy {
+    /// As the static start needs it.
+    Rest,
+    /// As motion needs it.
+    Motion,
+}
+
+/// What a step is taken by.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stride {
+    /// The time scheme.
+    pub scheme: Scheme,
+    /// Step size (s).
+    pub h: f64,
+    /// How far ahead the axial forces are foreseen (s): the step size in motion, 0 for those of the step's start.
+    pub foresight: f64,
+    /// How closely it is solved.
+    pub accuracy: Accuracy,
+}
+
+/// The equations of a step in some numbering of the unknowns, with the room that Newton's iteration needs.
+pub(crate) trait Equations {
+    /// Begins a step: axial forces of `to` are those foreseen from `from`.
+    fn begin(&mut self, model: &Model, stride: Stride, from: &State, to: &mut State);
+    /// Evaluates the residual at `to`, Eq. 35, after `iterations` corrections by
+    /// [`Equations::solve`] with `factors`.
+    fn residual(
+        &mut self,
+        model: &Model,
+        to: &mut State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+        iterations: u32,
+    );
+    /// Solves K_T dq = -R, Eq. 40 and 43, into the correction.
+    ///
+    /// # Errors
+    /// When the tangent has no inverse.
+    fn solve(
+        &mut self,
+        model: &Model,
+        to: &State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+    ) -> Result<(), Singular>;
+    /// The residual.
+    fn residuals(&self) -> &[f64];
+    /// One over the limit on each residual, zero where there is no equation.
+    fn weights(&self, accuracy: Accuracy) -> &[f64];
+    /// The last correction, and per unknown 1, or 0 for multipliers.
+    fn correction(&self) -> (&[f64], &[f64]);
+    /// The torque on the bit.
+    fn bit(&mut self) -> &mut BitTorque;
+    /// Unknowns that the drive prescribes and that the bit turns by.
+    fn driven_and_bit(&self, model: &Model) -> (Option<usize>, usize);
+    /// The first unknown beyond what is possible, with its value.
+    fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)>;
+    /// Station and pipe of an unknown.
+    fn locate(&self, model: &Model, unknown: usize) -> (usize, Body);
+}
+
+/// Solves the step that ends under `conditions`, Eq. 40 to 44. `to` holds the new state on success, the equations its
+/// residual with the reactions.
+///
+/// # Errors
+/// Why and where no iterate was accepted; the iterations made are in the first field.
+pub(crate) fn step(
+    equations: &mut impl Equations,
+    model: &Model,
+    (stride, most_iterations): (Stride, u32),
+    conditions: &Conditions,
+    from: &State,
+    to: &mut State,
+) -> Result<u32, (u32, StepFailure)> {
+    let Stride {
+        scheme, h, accuracy, ..
+    } = stride;
+    equations.bit().begin();
+    equations.begin(model, stride, from, to);
+    scheme.predict(h, from, to);
+    to.time = conditions.time;
+    let drive_angle = conditions.drive_angle;
+    to.drive_angle = drive_angle;
+    let (driven, spin) = equations.driven_and_bit(model);
+    if let Some(driven) = driven {
+        to.q[driven] = drive_angle;
+        (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
+    }
+    let factors = scheme.factors(h);
+    let mut iterations = 0;
+    loop {
+        equations.residual(model, to, conditions, factors, iterations);
+        let (residuals, weights) = (equations.residuals(), equations.weights(accuracy));
+        let ratio = worst(residuals, weights);
+        let failure = |cause, value: f64, unknown: usize| {
+            let (station, body) = equations.locate(model, unknown);
+            StepFailure {
+                cause,
+                time: from.time,
+                step: h,
+                station,
+                body,
+                value,
+            }
+        };
+        if ratio.is_nan() {
+            let unknown = worst_unknown(residuals, weights);
+            return Err((iterations, failure(FailureCause::NotFinite, f64::NAN, unknown)));
+        }
+        // Motion is not left to the predictor: what a small step leaves of its forces is of one sign, step after step.
+        if ratio <= 1.0 && (iterations > 0 || accuracy == Accuracy::Rest) {
+            return match equations.out_of_range(model, to) {
+                Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
+                None => {
+                    scheme.finish(h, from, to);
+                    Ok(iterations)
+                }
+            };
+        }
+        if iterations == most_iterations {
+            let unknown = worst_unknown(residuals, weights);
+            let value = residuals[unknown];
+            return Err((iterations, failure(FailureCause::NotConverged, value, unknown)));
+        }
+        iterations += 1;
+        if let Err(singular) = equations.solve(model, to, conditions, factors) {
+            let failure = StepFailure {
+                cause: FailureCause::Singular,
+                time: from.time,
+                step: h,
+                station: singular.station,
+                body: Body::Pipe,
+                value: singular.pivot,
+            };
+            return Err((iterations, failure));
+        }
+        correct(equations, to, conditions, factors, spin);
+    }
+}
+
+/// Moves `to` by the last correction, velocities and accelerations with it.
+pub(crate) fn correct(
+    equations: &mut impl Equations,
+    to: &mut State,
+    conditions: &Conditions,
+    factors: TangentFactors,
+    spin: usize,
+) {
+    let by = factors.damping * equations.correction().0[spin];
+    equations.bit().corrected(conditions.bit_torque, by);
+    let (correction, moving) = equations.correction();
+    let rates = to.v.iter_mut().zip(&mut to.a);
+    for ((q, (v, a)), (dq, moving)) in to.q.iter_mut().zip(rates).zip(correction.iter().zip(moving)) {
+        *q += dq;
+        let dq = dq * moving;
+        *v += factors.damping * dq;
+        *a += factors.mass * dq;
+    }
+}
+
+/// The largest residual relative to its limit, or NaN.
+pub(crate) fn worst(residuals: &[f64], weights: &[f64]) -> f64 {
+    // Eight running maxima, so that the compiler can use vectors; the place is only looked for when it is asked for.
+    const LANES: usize = 8;
+    let mut worst = [0.0_f64; LANES];
+    let mut sum = [0.0_f64; LANES];
+    let (residuals, rest) = residuals.as_chunks::<LANES>();
+    let (weights, rest_weights) = weights.as_chunks::<LANES>();
+    for (r, w) in residuals.iter().zip(weights) {
+        for k in 0..LANES {
+            let ratio = r[k].abs() * w[k];
+            // A maximum passes over a number that is not one; the sum does not.
+            worst[k] = if ratio > worst[k] { ratio } else { worst[k] };
+            sum[k] += ratio;
+        }
+    }
+    let mut ratio = 0.0_f64;
+    let mut total = 0.0;
+    for k in 0..LANES {
+        ratio = ratio.max(worst[k]);
+        total += sum[k];
+    }
+    for (r, w) in rest.iter().zip(rest_weights) {
+        ratio = ratio.max(r.abs() * w);
+        total += r.abs() * w;
+    }
+    if total.is_nan() { f64::NAN } else { ratio }
+}
+
+/// The unknown whose residual is worst, or the first that is not a number.
+fn worst_unknown(residuals: &[f64], weights: &[f64]) -> usize {
+    let mut worst = (0.0, 0);
+    for (unknown, (r, w)) in residuals.iter().zip(weights).enumerate() {
+        let ratio = r.abs() * w;
+        if ratio.is_nan() {
+            return unknown;
+        }
+        if ratio > worst.0 {
+            worst = (ratio, unknown);
+        }
+    }
+    worst.1
+}
+
 /// Displacements (m) beyond which something has come apart: far outside any bore.
-const LARGEST_DISPLACEMENT: f64 = 1.0;
+pub(crate) const LARGEST_DISPLACEMENT: f64 = 1.0;
 
 /// Newton's iteration and the room it needs.
 pub struct Newton {
@@ -54,11 +276,16 @@ pub struct Newton {
     /// Solves with the condensed tangent: steps in motion.
     condensed: Option<CondensedTangents>,
     correction: Vec<f64>,
-    /// One over the limit on the residual, per unknown; zero where there is no equation.
-    weights: Vec<f64>,
+    /// One over the limit on the residual at rest, per unknown; zero where there is no equation.
+    rest_weights: Vec<f64>,
+    /// The same in motion.
+    moving_weights: Vec<f64>,
     multiplier: Vec<bool>,
     /// 0 for multipliers, else 1.
     moving: Vec<f64>,
+    /// Axial forces of pipe and guide foreseen for the end of the step, and what part of them counts.
+    foreseen: (Vec<f64>, Vec<f64>),
+    foreseen_part: f64,
 }
 
 /// The condensed step-constant tangents, one per step size, and what solves with them. Geometric stiffness is left out,
@@ -84,12 +311,15 @@ impl Newton {
         instructions: Instructions,
     ) -> Self {
         let n = model.unknowns();
-        let mut limits = vec![0.0; n];
+        let moving_force = tolerances.moving_force(model);
+        let (mut limits, mut moving_limits) = (vec![0.0; n], vec![0.0; n]);
         let mut multiplier = vec![false; n];
         for station in &model.stations {
             for node in [station.pipe_above, station.pipe_below, station.guide] {
                 limits[node..node + 3].fill(tolerances.force);
                 limits[node + 3..node + 6].fill(tolerances.moment);
+                moving_limits[node..node + 3].fill(moving_force);
+                moving_limits[node + 3..node + 6].fill(moving_force * tolerances.moving_moment);
             }
         }
         for joint in 0..model.joints.len() {
@@ -103,17 +333,24 @@ impl Newton {
             multiplier[tie] = true;
         }
         for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
-            limits[unknown] = f64::INFINITY;
+            (limits[unknown], moving_limits[unknown]) = (f64::INFINITY, f64::INFINITY);
         }
+        for unknown in (0..n).filter(|&unknown| multiplier[unknown]) {
+            moving_limits[unknown] = limits[unknown];
+        }
+        let inverse = |limits: &[f64]| limits.iter().map(|limit| 1.0 / limit).collect();
         Self {
             assembler: Assembler::new(model, instructions),
             solver,
             tolerances,
             condensed: None,
             correction: vec![0.0; n],
-            weights: limits.iter().map(|limit| 1.0 / limit).collect(),
+            rest_weights: inverse(&limits),
+            moving_weights: inverse(&moving_limits),
             moving: multiplier.iter().map(|&m| if m { 0.0 } else { 1.0 }).collect(),
             multiplier,
+            foreseen: (vec![0.0; model.pipe.len()], vec![0.0; model.guide.len()]),
+            foreseen_part: 0.0,
         }
     }
 
@@ -136,123 +373,6 @@ impl Newton {
         condensed.systems.push((key, system));
     }
 
-    /// Solves the step of size `h` that ends under `conditions`, Eq. 40 to 44. `to` comes with the axial forces to use
-    /// and holds the new state on success; the assembler holds its residual with the reactions.
-    ///
-    /// # Errors
-    /// Why and where no iterate was accepted; the iterations made are in the first field.
-    pub fn step(
-        &mut self,
-        model: &Model,
-        scheme: Scheme,
-        h: f64,
-        conditions: &Conditions,
-        from: &State,
-        to: &mut State,
-    ) -> Result<u32, (u32, StepFailure)> {
-        self.assembler.bit.begin();
-        scheme.predict(h, from, to);
-        to.time = conditions.time;
-        let drive_angle = conditions.drive_angle;
-        to.drive_angle = drive_angle;
-        if let Some(driven) = model.driven {
-            to.q[driven] = drive_angle;
-            (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
-        }
-        let factors = scheme.factors(h);
-        let mut iterations = 0;
-        loop {
-            self.assembler.residual(model, to, conditions);
-            let ratio = self.worst();
-            let failure = |cause, value: f64, unknown: usize| {
-                let (station, body) = locate(model, unknown);
-                StepFailure {
-                    cause,
-                    time: from.time,
-                    step: h,
-                    station,
-                    body,
-                    value,
-                }
-            };
-            if ratio.is_nan() {
-                return Err((
-                    iterations,
-                    failure(FailureCause::NotFinite, f64::NAN, self.worst_unknown()),
-                ));
-            }
-            if ratio <= 1.0 {
-                return match out_of_range(model, to) {
-                    Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
-                    None => {
-                        scheme.finish(h, from, to);
-                        Ok(iterations)
-                    }
-                };
-            }
-            if iterations == self.tolerances.max_iterations {
-                let unknown = self.worst_unknown();
-                let value = self.assembler.residual[unknown];
-                return Err((iterations, failure(FailureCause::NotConverged, value, unknown)));
-            }
-            iterations += 1;
-            if let Err(singular) = self.correct(model, to, conditions, factors) {
-                let failure = StepFailure {
-                    cause: FailureCause::Singular,
-                    time: from.time,
-                    step: h,
-                    station: singular.station,
-                    body: Body::Pipe,
-                    value: singular.pivot,
-                };
-                return Err((iterations, failure));
-            }
-        }
-    }
-
-    /// One correction K_T dq = -R, Eq. 40 and 43.
-    fn correct(
-        &mut self,
-        model: &Model,
-        to: &mut State,
-        conditions: &Conditions,
-        factors: TangentFactors,
-    ) -> Result<(), crate::linear::Singular> {
-        self.assembler.drop_reactions(model);
-        for (c, r) in self.correction.iter_mut().zip(&self.assembler.residual) {
-            *c = -r;
-        }
-        let key = key(factors, conditions);
-        let condensed = self.condensed.as_mut().and_then(|condensed| {
-            let (_, system) = condensed.systems.iter().find(|(known, _)| *known == key)?;
-            Some((&mut condensed.elimination, system))
-        });
-        if let Some((elimination, system)) = condensed {
-            self.assembler.stopwatch.lap(Phase::Assembly);
-            self.assembler.linearise(model, to, conditions, factors);
-            let solved = elimination.solve(system, &self.assembler.increment, &mut self.correction);
-            self.assembler.stopwatch.lap(Phase::Solve);
-            solved?;
-        } else {
-            self.assembler.tangent(model, to, conditions, factors);
-            let solved = self.solver.solve(&self.assembler.system, &mut self.correction);
-            self.assembler.stopwatch.lap(Phase::Solve);
-            solved?;
-        }
-        let spin = model.bit_spin();
-        self.assembler
-            .bit
-            .corrected(conditions.bit_torque, factors.damping * self.correction[spin]);
-        let rates = to.v.iter_mut().zip(&mut to.a);
-        for ((q, (v, a)), (dq, moving)) in to.q.iter_mut().zip(rates).zip(self.correction.iter().zip(&self.moving)) {
-            *q += dq;
-            let dq = dq * moving;
-            *v += factors.damping * dq;
-            *a += factors.mass * dq;
-        }
-        Ok(())
-    }
-
     /// Accelerations and multipliers in balance with the forces at `state`, Eq. 17: M a + Phi_q^T lambda = F.
     ///
     /// With `h` (s) above 0 as far as steps of that size can follow them: (M + h C + h^2 K) a + Phi_q^T lambda = F, the
@@ -267,7 +387,7 @@ impl Newton {
         state: &mut State,
         conditions: &Conditions,
         h: f64,
-    ) -> Result<(), crate::linear::Singular> {
+    ) -> Result<(), Singular> {
         state.a.fill(0.0);
         self.assembler.residual(model, state, conditions);
         self.assembler.drop_reactions(model);
@@ -307,15 +427,16 @@ impl Newton {
         };
         self.assembler.bit.begin();
         self.assembler.residual(model, state, conditions);
-        let mut best = self.worst();
+        let mut best = worst(&self.assembler.residual, &self.rest_weights);
         for _ in 0..self.tolerances.max_iterations {
             scratch.copy_from(state);
-            if self.correct(model, scratch, conditions, factors).is_err() {
+            if self.solve(model, scratch, conditions, factors).is_err() {
                 return;
             }
+            correct(self, scratch, conditions, factors, model.bit_spin());
             scratch.update_axial(model);
             self.assembler.residual(model, scratch, conditions);
-            let ratio = self.worst();
+            let ratio = worst(&self.assembler.residual, &self.rest_weights);
             if ratio.is_nan() || ratio >= best || out_of_range(model, scratch).is_some() {
                 return;
             }
@@ -323,50 +444,78 @@ impl Newton {
             state.copy_from(scratch);
         }
     }
+}
 
-    /// The largest residual relative to its limit, or NaN.
-    fn worst(&self) -> f64 {
-        // Eight running maxima, so that the compiler can use vectors; the place is only looked for when it is asked
-        // for.
-        const LANES: usize = 8;
-        let mut worst = [0.0_f64; LANES];
-        let mut sum = [0.0_f64; LANES];
-        let (residual, rest) = self.assembler.residual.as_chunks::<LANES>();
-        let (weights, rest_weights) = self.weights.as_chunks::<LANES>();
-        for (r, w) in residual.iter().zip(weights) {
-            for k in 0..LANES {
-                let ratio = r[k].abs() * w[k];
-                // A maximum passes over a number that is not one; the sum does not.
-                worst[k] = if ratio > worst[k] { ratio } else { worst[k] };
-                sum[k] += ratio;
-            }
-        }
-        let mut ratio = 0.0_f64;
-        let mut total = 0.0;
-        for k in 0..LANES {
-            ratio = ratio.max(worst[k]);
-            total += sum[k];
-        }
-        for (r, w) in rest.iter().zip(rest_weights) {
-            ratio = ratio.max(r.abs() * w);
-            total += r.abs() * w;
-        }
-        if total.is_nan() { f64::NAN } else { ratio }
+impl Equations for Newton {
+    fn begin(&mut self, model: &Model, stride: Stride, from: &State, to: &mut State) {
+        to.predict_axial(model, from, stride.foresight);
+        self.foreseen.0.copy_from_slice(&to.pipe_axial);
+        self.foreseen.1.copy_from_slice(&to.guide_axial);
+        self.foreseen_part = stride.scheme.foreseen_part();
     }
 
-    /// The unknown whose residual is worst, or the first that is not a number.
-    fn worst_unknown(&self) -> usize {
-        let mut worst = (0.0, 0);
-        for (unknown, (r, w)) in self.assembler.residual.iter().zip(&self.weights).enumerate() {
-            let ratio = r.abs() * w;
-            if ratio.is_nan() {
-                return unknown;
-            }
-            if ratio > worst.0 {
-                worst = (ratio, unknown);
-            }
+    fn residual(&mut self, model: &Model, to: &mut State, conditions: &Conditions, _: TangentFactors, _: u32) {
+        to.blend_axial(model, self.foreseen_part, &self.foreseen);
+        self.assembler.residual(model, to, conditions);
+    }
+
+    fn solve(
+        &mut self,
+        model: &Model,
+        to: &State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+    ) -> Result<(), Singular> {
+        self.assembler.drop_reactions(model);
+        for (c, r) in self.correction.iter_mut().zip(&self.assembler.residual) {
+            *c = -r;
         }
-        worst.1
+        let key = key(factors, conditions);
+        let condensed = self.condensed.as_mut().and_then(|condensed| {
+            let (_, system) = condensed.systems.iter().find(|(known, _)| *known == key)?;
+            Some((&mut condensed.elimination, system))
+        });
+        let solved = if let Some((elimination, system)) = condensed {
+            self.assembler.stopwatch.lap(Phase::Assembly);
+            self.assembler.linearise(model, to, conditions, factors);
+            elimination.solve(system, &self.assembler.increment, &mut self.correction)
+        } else {
+            self.assembler.tangent(model, to, conditions, factors);
+            self.solver.solve(&self.assembler.system, &mut self.correction)
+        };
+        self.assembler.stopwatch.lap(Phase::Solve);
+        solved
+    }
+
+    fn residuals(&self) -> &[f64] {
+        &self.assembler.residual
+    }
+
+    fn weights(&self, accuracy: Accuracy) -> &[f64] {
+        match accuracy {
+            Accuracy::Rest => &self.rest_weights,
+            Accuracy::Motion => &self.moving_weights,
+        }
+    }
+
+    fn correction(&self) -> (&[f64], &[f64]) {
+        (&self.correction, &self.moving)
+    }
+
+    fn bit(&mut self) -> &mut BitTorque {
+        &mut self.assembler.bit
+    }
+
+    fn driven_and_bit(&self, model: &Model) -> (Option<usize>, usize) {
+        (model.driven, model.bit_spin())
+    }
+
+    fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)> {
+        out_of_range(model, state)
+    }
+
+    fn locate(&self, model: &Model, unknown: usize) -> (usize, Body) {
+        locate(model, unknown)
     }
 }
 

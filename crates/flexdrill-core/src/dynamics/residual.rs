@@ -5,10 +5,9 @@ use crate::dynamics::conditions::Conditions;
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::{State, motion};
 use crate::elements::element_form::{add, load};
-use crate::model::Model;
+use crate::model::{Model, Places};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
-use crate::tool::description::Direction;
 
 impl Assembler {
     /// Evaluates the residual of Eq. 35 at `state`, in a step the R of Eq. 40 with the F of Eq. 42; with the rock's
@@ -22,38 +21,38 @@ impl Assembler {
             state,
             conditions,
         });
-        for point in &model.masses {
-            let alpha = conditions.rayleigh.alpha;
-            for (k, inertia) in point.body.diagonal().into_iter().enumerate() {
-                let u = point.unknown + k;
-                let gravity = if k < 3 { point.gravity[k] } else { 0.0 };
-                self.residual[u] += inertia * (state.a[u] + alpha * state.v[u] - gravity);
-            }
-            if point.body.is_coupled() {
-                let forces = point
-                    .body
-                    .coupled_forces(motion(state, point.unknown), alpha, point.gravity.into());
-                self.scatter(point.unknown, &forces);
-            }
-        }
+        mass_forces(&mut self.residual, &model.places, model, state, conditions);
         self.stopwatch.lap(Phase::Assembly);
         self.contact_forces(model, state, conditions);
         self.stopwatch.lap(Phase::Contact);
         self.joint_forces(model, state);
-        let bottom = &model.stations[model.last()];
-        if let Some(tie) = model.tie {
+        let mut residual = std::mem::take(&mut self.residual);
+        self.end_forces(&mut residual, &model.places, model, state, conditions);
+        self.residual = residual;
+    }
+
+    /// Axial tie, weight on bit, the rock's torque and loads, in the numbering of `places`.
+    pub(crate) fn end_forces(
+        &mut self,
+        residual: &mut [f64],
+        places: &Places,
+        model: &Model,
+        state: &State,
+        conditions: &Conditions,
+    ) {
+        if let Some(tie) = places.tie {
             let scale = model.force_scale;
-            self.residual[bottom.pipe_above] += scale * state.q[tie];
-            self.residual[bottom.guide] -= scale * state.q[tie];
-            self.residual[tie] = scale * (state.q[bottom.pipe_above] - state.q[bottom.guide]);
+            residual[places.pipe_end] += scale * state.q[tie];
+            residual[places.guide_end] -= scale * state.q[tie];
+            residual[tie] = scale * (state.q[places.pipe_end] - state.q[places.guide_end]);
         }
-        self.residual[bottom.guide] += conditions.weight_on_bit;
-        let spin = bottom.pipe_above + Direction::Psi as usize;
+        residual[places.guide_end] += conditions.weight_on_bit;
+        let spin = places.bit_spin;
         self.bit
             .evaluate(conditions.bit_torque, state.v[spin], conditions.bit_slip_rate);
-        self.residual[spin] += self.bit.torque;
-        for load in &model.loads {
-            self.residual[load.unknown] -= load.load.history.at(conditions.time);
+        residual[spin] += self.bit.torque;
+        for (load, &unknown) in model.loads.iter().zip(&places.loads) {
+            residual[unknown] -= load.load.history.at(conditions.time);
         }
     }
 
@@ -68,6 +67,29 @@ impl Assembler {
     pub(super) fn scatter(&mut self, first: usize, force: &[f64]) {
         for (r, f) in self.residual[first..first + 6].iter_mut().zip(force) {
             *r += f;
+        }
+    }
+}
+
+/// Adds the forces of point masses, in the numbering of `places`.
+pub(crate) fn mass_forces(
+    residual: &mut [f64],
+    places: &Places,
+    model: &Model,
+    state: &State,
+    conditions: &Conditions,
+) {
+    let alpha = conditions.rayleigh.alpha;
+    for (point, places) in model.masses.iter().zip(&places.masses) {
+        for (k, inertia) in point.body.diagonal().into_iter().enumerate() {
+            let u = places[k];
+            let gravity = if k < 3 { point.gravity[k] } else { 0.0 };
+            residual[u] += inertia * (state.a[u] + alpha * state.v[u] - gravity);
+        }
+        if point.body.is_coupled() {
+            let moving = motion(state, places);
+            let forces = point.body.coupled_forces(moving.as_node(), alpha, point.gravity.into());
+            places.iter().zip(forces).for_each(|(&u, force)| residual[u] += force);
         }
     }
 }

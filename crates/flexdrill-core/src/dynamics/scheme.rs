@@ -73,6 +73,19 @@ impl Scheme {
         }
     }
 
+    /// Part of the axial force in the geometric stiffness that is foreseen from the start of a step (0 to 1); the rest
+    /// is that of the displacements at its end.
+    ///
+    /// To an oscillation of frequency omega, q0 + h v0 is q1 (1 + (omega h)^2 / 2): a foreseen force is too large by
+    /// that. What moves by inertia answers a force by -a / omega^2 (1 - (beta' - 1/12) (omega h)^2) with beta' = beta -
+    /// (alpha_f - alpha_m) alpha_f: too little by that. Lateral motion under a changing axial force has the error of
+    /// the product, which is of fourth order where the part is 2 beta' - 1/6: 0.55 at rho_infinity 0.45, 1/2 at 1/2,
+    /// 1/3 at 1.
+    pub(crate) fn foreseen_part(&self) -> f64 {
+        let beta = self.beta - (self.alpha_f - self.alpha_m) * self.alpha_f;
+        (2.0 * beta - 1.0 / 6.0).clamp(0.0, 1.0)
+    }
+
     /// Whether the lagged acceleration is another than that of the forces.
     fn lags(&self) -> bool {
         self.alpha_m != 0.0 || self.alpha_f != 0.0
@@ -245,6 +258,53 @@ mod tests {
             (first - 1.0).abs() < 0.2,
             "Newmark above 1/2 is of first order: {first}"
         );
+    }
+
+    /// Error of the amplitude with which a free mass follows the force cos t, foreseen in part, with `n` steps a period.
+    fn response_error(scheme: Scheme, part: f64, n: usize) -> f64 {
+        let h = std::f64::consts::TAU / n as f64;
+        let factors = scheme.factors(h);
+        let mut mass = Oscillator::new(scheme, 0.0, 0.0, 0.0).state;
+        let (mut got, mut exact, mut last) = (0.0, 0.0, [0.0; 2]);
+        for step in 0..5 * n {
+            let t = step as f64 * h;
+            let force = part * (t.cos() - h * t.sin()) + (1.0 - part) * (t + h).cos();
+            let mut to = mass.clone();
+            scheme.predict(h, &mass, &mut to);
+            let dq = (force - to.a[0]) / factors.mass;
+            to.q[0] += dq;
+            to.v[0] += factors.damping * dq;
+            to.a[0] += factors.mass * dq;
+            scheme.finish(h, &mass, &mut to);
+            // Second differences, which a drift does not reach; those of -cos t are 2 (1 - cos h) cos t. The first
+            // period is left to what the start excites.
+            if step >= n {
+                got += (to.q[0] - 2.0 * last[0] + last[1]) * t.cos();
+                exact += 2.0 * (1.0 - h.cos()) * t.cos().powi(2);
+            }
+            last = [to.q[0], last[0]];
+            mass = to;
+        }
+        got / exact - 1.0
+    }
+
+    #[test]
+    fn inertia_follows_a_partly_foreseen_force_to_fourth_order() {
+        for scheme in [
+            Scheme::newmark(0.5),
+            Scheme::hht(0.8),
+            Scheme::generalised_alpha(0.45),
+            Scheme::generalised_alpha(0.8),
+        ] {
+            let order = |part: f64| (response_error(scheme, part, 64) / response_error(scheme, part, 128)).log2();
+            // The next term, of relative size (omega h)^2 = 0.01, shows in the second digit.
+            let (with, without) = (order(scheme.foreseen_part()), order(0.0));
+            assert!((with.abs() - 4.0).abs() < 0.2, "{scheme:?}: order {with}");
+            assert!(
+                (without - 2.0).abs() < 0.2,
+                "{scheme:?}: order {without} without foresight"
+            );
+        }
     }
 
     #[test]

@@ -24,7 +24,8 @@ pub struct State {
     pub lagged: Vec<f64>,
     /// Step size (s) that `lagged` is for; 0 before the first step.
     pub scheme_step: f64,
-    /// Axial force of each pipe element as foreseen for the last step (N): the N of the geometric stiffness.
+    /// Axial force of each pipe element (N) that its geometric stiffness has, partly foreseen: see
+    /// [`Scheme`](crate::dynamics::scheme::Scheme).
     pub pipe_axial: Vec<f64>,
     /// The same for the guide.
     pub guide_axial: Vec<f64>,
@@ -70,6 +71,16 @@ impl State {
         self.set_axial(model, |unknown| from.q[unknown] + h * from.v[unknown]);
     }
 
+    /// Sets the axial forces to those of the displacements but for a part of the difference to `foreseen` ones, (pipe,
+    /// guide).
+    pub(crate) fn blend_axial(&mut self, model: &Model, part: f64, foreseen: &(Vec<f64>, Vec<f64>)) {
+        self.update_axial(model);
+        let forces = self.pipe_axial.iter_mut().chain(&mut self.guide_axial);
+        for (force, foreseen) in forces.zip(foreseen.0.iter().chain(&foreseen.1)) {
+            *force += part * (foreseen - *force);
+        }
+    }
+
     /// Sets the axial forces to those of the displacements.
     pub(crate) fn update_axial(&mut self, model: &Model) {
         let q = std::mem::take(&mut self.q);
@@ -106,14 +117,31 @@ pub fn translation(values: &[f64], first: usize) -> Vector3<f64> {
     Vector3::new(values[first], values[first + 1], values[first + 2])
 }
 
-/// How the node that begins at `first` moves.
+/// Displacements, velocities and accelerations of a node.
+pub struct Motion {
+    q: [f64; 6],
+    v: [f64; 6],
+    a: [f64; 6],
+}
+
+impl Motion {
+    /// As a body on the node sees them.
+    pub fn as_node(&self) -> NodeMotion<'_> {
+        NodeMotion {
+            q: &self.q,
+            v: &self.v,
+            a: &self.a,
+        }
+    }
+}
+
+/// How the node with the unknowns `places` moves.
 #[inline]
-pub fn motion(state: &State, first: usize) -> NodeMotion<'_> {
-    let node = first..first + 6;
-    NodeMotion {
-        q: &state.q[node.clone()],
-        v: &state.v[node.clone()],
-        a: &state.a[node],
+pub fn motion(state: &State, places: &[usize; 6]) -> Motion {
+    Motion {
+        q: places.map(|unknown| state.q[unknown]),
+        v: places.map(|unknown| state.v[unknown]),
+        a: places.map(|unknown| state.a[unknown]),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The start: the tool as given, or at rest under gravity and weight on bit.
 
 use crate::dynamics::conditions::Conditions;
+use crate::dynamics::newton::{self, Accuracy, Stride};
 use crate::dynamics::outcome::StepFailure;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::stepper::Stepper;
@@ -51,6 +52,7 @@ impl Stepper {
     /// # Errors
     /// [`StartError::Singular`].
     pub fn start_as_given(&mut self, weight_on_bit: f64, h: f64) -> Result<(), StartError> {
+        self.leave_joints();
         let conditions = self.conditions(0.0, weight_on_bit);
         let (model, newton, state, _) = self.parts();
         let d = &model.description;
@@ -90,15 +92,20 @@ impl Stepper {
         self.start_as_given(weight_on_bit, 0.0)?;
         let conditions = settling(self.conditions(0.0, weight_on_bit));
         let (model, newton, state, trial) = self.parts();
-        let scheme = Scheme::newmark(1.0);
         let mut h = STEPS[0];
         let mut speed = f64::INFINITY;
         let mut at_largest = 0;
         let mut steps = 0;
         while steps < MOST_STEPS {
             steps += 1;
-            trial.predict_axial(model, state, 0.0);
-            match newton.step(model, scheme, h, &conditions, state, trial) {
+            let stride = Stride {
+                scheme: Scheme::newmark(1.0),
+                h,
+                foresight: 0.0,
+                accuracy: Accuracy::Rest,
+            };
+            let most = newton.tolerances.max_iterations;
+            match newton::step(newton, model, (stride, most), &conditions, state, trial) {
                 Ok(iterations) => {
                     std::mem::swap(state, trial);
                     speed = state.v.iter().fold(0.0, |worst: f64, v| worst.max(v.abs()));

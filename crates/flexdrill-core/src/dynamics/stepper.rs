@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
-use crate::dynamics::newton::{Newton, Tolerances};
+use crate::dynamics::newton::{self, Accuracy, Newton, Stride, Tolerances};
 use crate::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::scheme::Scheme;
@@ -16,6 +16,7 @@ use crate::dynamics::sub_steps::{SubSteps, most_attempts};
 use crate::linear::SparseReference;
 use crate::linear::{BlockLu, LinearSolver};
 use crate::model::Model;
+use crate::reduced::{self, Reduced};
 use crate::simd::Instructions;
 use crate::tool::description::{Direction, LiveParameters, ToolDescription};
 use crate::validation::ValidationError;
@@ -32,8 +33,10 @@ pub struct Forcing {
 /// Which linear solver to use.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum SolverKind {
-    /// Block elimination along the stations.
+    /// Over the joints where the tool can be reduced to them, else along the stations.
     #[default]
+    Joints,
+    /// Block elimination along the stations.
     Stations,
     /// faer's sparse LU, to hold the other against.
     #[cfg(feature = "reference")]
@@ -73,13 +76,8 @@ pub struct StepperCheckpoint {
 /// the forces however long the tool runs.
 const UNWIND_TURNS: f64 = 1000.0;
 
-/// Model, state and solver.
-pub struct Stepper {
-    model: Model,
-    newton: Newton,
-    scheme: Scheme,
-    max_halvings: u32,
-    live: LiveParameters,
+/// Where the motion is, in the numbering in which steps are taken, with the room that a step needs.
+struct Track {
     state: State,
     trial: State,
     before_step: State,
@@ -88,6 +86,35 @@ pub struct Stepper {
     energy_before_step: EnergyPoint,
     /// Room for the displacements of a step.
     moved: Vec<f64>,
+}
+
+impl Track {
+    fn new(model: &Model, state: State) -> Self {
+        let energy = EnergyPoint::new(model, state.q.len());
+        Self {
+            trial: state.clone(),
+            before_step: state.clone(),
+            trial_energy: energy.clone(),
+            energy_before_step: energy.clone(),
+            moved: vec![0.0; state.q.len()],
+            state,
+            energy,
+        }
+    }
+}
+
+/// Model, state and solver.
+pub struct Stepper {
+    model: Model,
+    newton: Newton,
+    scheme: Scheme,
+    max_halvings: u32,
+    live: LiveParameters,
+    track: Track,
+    /// The tool over its joints, if it has that form, and the state as the model numbers it.
+    reduced: Option<(Reduced, State)>,
+    /// Whether steps are taken over the joints.
+    over_joints: bool,
     audit: EnergyAudit,
     counters: Counters,
     /// Whole turns taken off the spins so far.
@@ -115,31 +142,28 @@ impl Stepper {
     ) -> Result<Self, ValidationError> {
         let model = Model::new(description)?;
         let solver: Box<dyn LinearSolver> = match kind {
-            SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
+            SolverKind::Joints | SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
             #[cfg(feature = "reference")]
             SolverKind::Reference => Box::new(SparseReference::default()),
         };
-        let newton = Newton::new(&model, solver, tolerances, instructions);
         let state = State::at_rest(&model);
-        let energy = EnergyPoint::new(&model);
+        let reduced = (kind == SolverKind::Joints)
+            .then(|| Reduced::of(&model, &tolerances, instructions))
+            .flatten();
         Ok(Self {
-            newton,
+            newton: Newton::new(&model, solver, tolerances, instructions),
             scheme,
             max_halvings,
             live: LiveParameters::of(description),
-            trial: state.clone(),
-            before_step: state.clone(),
-            trial_energy: energy.clone(),
-            energy_before_step: energy.clone(),
-            moved: vec![0.0; model.unknowns()],
+            reduced: reduced.map(|reduced| (reduced, state.clone())),
+            over_joints: false,
+            track: Track::new(&model, state),
             audit: EnergyAudit::default(),
             counters: Counters::default(),
             turns: 0.0,
             weight_on_bit: 0.0,
-            condense: kind == SolverKind::Stations,
+            condense: matches!(kind, SolverKind::Joints | SolverKind::Stations),
             condensed_for: 0.0,
-            state,
-            energy,
             model,
         })
     }
@@ -151,7 +175,10 @@ impl Stepper {
 
     /// State at the end of the last step.
     pub fn state(&self) -> &State {
-        &self.state
+        match &self.reduced {
+            Some((_, shown)) if self.over_joints => shown,
+            _ => &self.track.state,
+        }
     }
 
     /// Newton's parts: the assembler holds the forces of the present state.
@@ -182,7 +209,7 @@ impl Stepper {
 
     /// Torque of the drive at the end of the last step (N m).
     pub fn drive_torque(&self) -> f64 {
-        self.energy.drive_torque
+        self.track.energy.drive_torque
     }
 
     /// Live parameters in force.
@@ -195,8 +222,23 @@ impl Stepper {
         self.live = live;
     }
 
+    /// Goes back to the stations, where a start is found; [`Stepper::prepare`] then decides anew.
+    pub(crate) fn leave_joints(&mut self) {
+        if self.over_joints {
+            self.over_joints = false;
+            self.condensed_for = 0.0;
+            self.track = Track::new(&self.model, State::at_rest(&self.model));
+        }
+    }
+
+    /// What the static start works on, station by station.
     pub(crate) fn parts(&mut self) -> (&Model, &mut Newton, &mut State, &mut State) {
-        (&self.model, &mut self.newton, &mut self.state, &mut self.trial)
+        (
+            &self.model,
+            &mut self.newton,
+            &mut self.track.state,
+            &mut self.track.trial,
+        )
     }
 
     /// Conditions at `time` under `weight_on_bit`.
@@ -206,30 +248,71 @@ impl Stepper {
 
     /// Takes `state` as the present one, with the audit starting at zero. The accelerations must balance the forces.
     pub fn start_from(&mut self, state: &State, weight_on_bit: f64) {
-        self.state.copy_from(state);
-        if self.state.scheme_step == 0.0 {
-            self.state.lagged.copy_from_slice(&state.a);
+        let conditions = self.conditions(state.time, weight_on_bit);
+        if let (true, Some((reduced, shown))) = (self.over_joints, &mut self.reduced) {
+            let track = &mut self.track;
+            shown.copy_from(state);
+            reduced.numbering.gather(state, &mut track.state);
+            let mut equations = reduced::equations(reduced, &mut self.newton.assembler);
+            let (to, scratch) = (&mut track.state, &mut track.trial);
+            // The stations' balance is not quite the joints'.
+            let at_rest = to.v.iter().all(|&v| v == 0.0);
+            if at_rest {
+                equations.polish_rest(&self.model, to, scratch, &conditions);
+            }
+            let h = if at_rest { 0.0 } else { self.condensed_for };
+            scratch.copy_from(to);
+            if equations
+                .balance_accelerations(&self.model, scratch, &conditions, h)
+                .is_ok()
+            {
+                to.copy_from(scratch);
+            }
+        } else {
+            self.track.state.copy_from(state);
         }
-        let conditions = self.conditions(self.state.time, weight_on_bit);
-        self.newton.assembler.residual(&self.model, &self.state, &conditions);
-        self.energy
-            .evaluate(&self.model, &self.state, &conditions, &self.newton.assembler);
+        if state.scheme_step == 0.0 {
+            let State { a, lagged, .. } = &mut self.track.state;
+            lagged.copy_from_slice(a);
+        }
+        self.evaluate(&conditions, !self.over_joints);
         self.audit = EnergyAudit::default();
         self.counters = Counters::default();
         self.turns = 0.0;
         self.weight_on_bit = weight_on_bit;
     }
 
+    /// Evaluates forces and energies of the present state, with the axial forces that it holds or, without
+    /// `keep_axial`, those of its displacements.
+    fn evaluate(&mut self, conditions: &Conditions, keep_axial: bool) {
+        let Self {
+            model,
+            newton,
+            reduced,
+            track,
+            ..
+        } = self;
+        let assembler = &mut newton.assembler;
+        if let (true, Some((reduced, shown))) = (self.over_joints, reduced) {
+            reduced::equations(reduced, assembler).evaluate(model, &mut track.state, conditions, keep_axial);
+            reduced.energy(&mut track.energy, model, &track.state, conditions, assembler);
+            reduced.show(model, &track.state, shown);
+        } else {
+            assembler.residual(model, &track.state, conditions);
+            track.energy.evaluate(model, &track.state, conditions, assembler);
+        }
+    }
+
     /// Angle of the drive since the start (rad).
     pub fn drive_angle(&self) -> f64 {
-        self.state.drive_angle + self.turns * TAU
+        self.track.state.drive_angle + self.turns * TAU
     }
 
     /// What it takes to go on from here.
     pub fn checkpoint(&self) -> StepperCheckpoint {
         StepperCheckpoint {
-            state: self.state.clone(),
-            energy: self.energy.clone(),
+            state: self.track.state.clone(),
+            energy: self.track.energy.clone(),
             audit: self.audit,
             counters: self.counters,
             live: self.live,
@@ -240,33 +323,43 @@ impl Stepper {
 
     /// Goes on from a checkpoint of the same model; `false`, and nothing done, if its sizes are another model's.
     pub fn restore(&mut self, checkpoint: &StepperCheckpoint) -> bool {
-        let same = checkpoint.state.q.len() == self.state.q.len()
-            && checkpoint.state.pipe_axial.len() == self.state.pipe_axial.len()
-            && checkpoint.energy.fits(&self.energy);
+        let track = &mut self.track;
+        let same = checkpoint.state.q.len() == track.state.q.len()
+            && checkpoint.state.pipe_axial.len() == track.state.pipe_axial.len()
+            && checkpoint.energy.fits(&track.energy);
         if !same {
             return false;
         }
         self.live = checkpoint.live;
-        self.start_from(&checkpoint.state, checkpoint.weight_on_bit);
-        self.energy.copy_from(&checkpoint.energy);
+        track.state.copy_from(&checkpoint.state);
+        let conditions = self.conditions(checkpoint.state.time, checkpoint.weight_on_bit);
+        self.evaluate(&conditions, true);
+        self.track.energy.copy_from(&checkpoint.energy);
         self.audit = checkpoint.audit;
         self.counters = checkpoint.counters;
         self.turns = checkpoint.turns;
+        self.weight_on_bit = checkpoint.weight_on_bit;
         true
     }
 
     /// Takes whole turns off the spins of the pipe.
     fn unwind(&mut self) {
-        if self.state.drive_angle.abs() < UNWIND_TURNS * TAU {
+        let state = &mut self.track.state;
+        if state.drive_angle.abs() < UNWIND_TURNS * TAU {
             return;
         }
-        let turns = UNWIND_TURNS.copysign(self.state.drive_angle);
+        let turns = UNWIND_TURNS.copysign(state.drive_angle);
         self.turns += turns;
-        self.state.drive_angle -= turns * TAU;
+        state.drive_angle -= turns * TAU;
+        let mut unwind = |spin: usize| state.q[spin] -= turns * TAU;
+        if let (true, Some((reduced, _))) = (self.over_joints, &self.reduced) {
+            reduced.spins().for_each(unwind);
+            return;
+        }
         for station in &self.model.stations {
-            self.state.q[station.pipe_above + Direction::Psi as usize] -= turns * TAU;
+            unwind(station.pipe_above + Direction::Psi as usize);
             if station.pipe_below != station.pipe_above {
-                self.state.q[station.pipe_below + Direction::Psi as usize] -= turns * TAU;
+                unwind(station.pipe_below + Direction::Psi as usize);
             }
         }
     }
@@ -277,18 +370,29 @@ impl Stepper {
             return;
         }
         let conditions = self.conditions(0.0, 0.0);
+        let first = self.condensed_for == 0.0;
+        self.condensed_for = h;
+        let over_joints = self.over_joints || first && self.reduced.as_ref().is_some_and(|(tool, _)| tool.holds_for(h));
         for level in 0..=self.max_halvings {
             let factors = self.scheme.factors(h / f64::from(1_u32 << level));
-            self.newton.prepare(&self.model, &conditions, factors);
+            match &mut self.reduced {
+                Some((reduced, _)) if over_joints => reduced.prepare(&self.model, &conditions, factors),
+                _ => self.newton.prepare(&self.model, &conditions, factors),
+            }
         }
-        self.condensed_for = h;
+        if let (true, false, Some((reduced, _))) = (over_joints, self.over_joints, &self.reduced) {
+            let track = Track::new(&self.model, reduced.state());
+            let before = std::mem::replace(&mut self.track, track).state;
+            self.over_joints = true;
+            self.start_from(&before, self.weight_on_bit);
+        }
     }
 
     /// Advances by `h` (s) under `forcing`. A sub-step that does not converge is halved and retried; when the smallest
     /// one fails, the state stays that before the step.
     pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
         self.prepare(h);
-        let start = (self.state.time, self.state.drive_angle);
+        let start = (self.track.state.time, self.track.state.drive_angle);
         let audit_before = self.audit;
         let mut sub_steps = SubSteps::new(self.max_halvings);
         let mut iterations = 0;
@@ -304,12 +408,14 @@ impl Stepper {
                     self.counters.last_rejection = Some(failure);
                     if sub_steps.is_whole() {
                         // Nothing has changed yet. From here on a later part may fail after an earlier one was taken.
-                        self.before_step.copy_from(&self.state);
-                        self.energy_before_step.copy_from(&self.energy);
+                        let track = &mut self.track;
+                        track.before_step.copy_from(&track.state);
+                        track.energy_before_step.copy_from(&track.energy);
                     }
                     if !sub_steps.reject() {
-                        self.state.copy_from(&self.before_step);
-                        self.energy.copy_from(&self.energy_before_step);
+                        let track = &mut self.track;
+                        track.state.copy_from(&track.before_step);
+                        track.energy.copy_from(&track.energy_before_step);
                         self.audit = audit_before;
                         self.counters.failed_steps += 1;
                         self.counters.iterations += u64::from(iterations);
@@ -320,6 +426,9 @@ impl Stepper {
         }
         let deepest = sub_steps.deepest();
         self.unwind();
+        if let (true, Some((reduced, shown))) = (self.over_joints, &mut self.reduced) {
+            reduced.show(&self.model, &self.track.state, shown);
+        }
         self.weight_on_bit = forcing.weight_on_bit[1];
         self.counters.iterations += u64::from(iterations);
         self.counters.halved_steps += u64::from(deepest > 0);
@@ -345,29 +454,46 @@ impl Stepper {
         let [speed_0, speed_1] = forcing.rotary_speed;
         conditions.drive_angle = start_angle + h * to * (speed_0 + 0.5 * (speed_1 - speed_0) * to);
         let step = h * (to - from);
-        self.trial.predict_axial(&self.model, &self.state, step);
-        let made = self.newton.step(
-            &self.model,
-            self.scheme,
-            step,
-            &conditions,
-            &self.state,
-            &mut self.trial,
-        );
-        self.newton.assembler.stopwatch.lap(Phase::Assembly);
-        let made = made?;
-        self.trial_energy
-            .evaluate(&self.model, &self.trial, &conditions, &self.newton.assembler);
+        let stride = Stride {
+            scheme: self.scheme,
+            h: step,
+            foresight: step,
+            accuracy: Accuracy::Motion,
+        };
+        let stride = (stride, self.newton.tolerances.max_iterations);
+        let Self {
+            model,
+            newton,
+            reduced,
+            track,
+            ..
+        } = self;
+        let iterations;
+        let (from, to, energy) = (&track.state, &mut track.trial, &mut track.trial_energy);
+        let (places, weight) = if let (true, Some((reduced, _))) = (self.over_joints, reduced) {
+            let mut equations = reduced::equations(reduced, &mut newton.assembler);
+            let made = newton::step(&mut equations, model, stride, &conditions, from, to);
+            newton.assembler.stopwatch.lap(Phase::Assembly);
+            iterations = made?;
+            reduced.energy(energy, model, to, &conditions, &newton.assembler);
+            (&reduced.places, &reduced.weight)
+        } else {
+            let made = newton::step(newton, model, stride, &conditions, from, to);
+            newton.assembler.stopwatch.lap(Phase::Assembly);
+            iterations = made?;
+            energy.evaluate(model, to, &conditions, &newton.assembler);
+            (&model.places, &model.weight)
+        };
         self.audit.add_step(
-            &self.model,
+            (model, places, weight),
             step,
-            (&self.state, &self.energy),
-            (&self.trial, &self.trial_energy),
-            &mut self.moved,
+            (&track.state, &track.energy),
+            (&track.trial, &track.trial_energy),
+            &mut track.moved,
         );
-        self.newton.assembler.stopwatch.lap(Phase::Energy);
-        std::mem::swap(&mut self.state, &mut self.trial);
-        std::mem::swap(&mut self.energy, &mut self.trial_energy);
-        Ok(made)
+        newton.assembler.stopwatch.lap(Phase::Energy);
+        std::mem::swap(&mut track.state, &mut track.trial);
+        std::mem::swap(&mut track.energy, &mut track.trial_energy);
+        Ok(iterations)
     }
 }

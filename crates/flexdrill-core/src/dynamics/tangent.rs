@@ -41,12 +41,14 @@ impl Assembler {
     pub fn linearise(&mut self, model: &Model, state: &State, conditions: &Conditions, factors: TangentFactors) {
         self.contact_tangent(model, factors);
         self.stopwatch.lap(Phase::Contact);
-        self.joint_tangent(model, state, factors);
+        self.joint_tangent(&model.places.joints, model, state, factors);
         // The bit's node is the first of the last station's block.
         let (last, spin) = (model.last(), Direction::Psi as usize);
         self.contact_block(last)[spin][spin] += factors.damping * self.bit.slope;
-        for point in model.masses.iter().filter(|point| point.body.is_coupled()) {
-            self.point_tangent(model, point, state, conditions, factors);
+        for (point, places) in model.masses.iter().zip(&model.places.masses) {
+            if point.body.is_coupled() {
+                self.point_tangent(model, (point, places), state, conditions, factors);
+            }
         }
         self.increment.drop_held();
         self.stopwatch.lap(Phase::Assembly);
@@ -56,7 +58,7 @@ impl Assembler {
     fn point_tangent(
         &mut self,
         model: &Model,
-        point: &ResolvedMass,
+        (point, places): (&ResolvedMass, &[usize; 6]),
         state: &State,
         conditions: &Conditions,
         factors: TangentFactors,
@@ -65,7 +67,7 @@ impl Assembler {
         // The pipe's end above or the guide: both are in the contact block.
         let local = point.unknown - model.layout.offset(station);
         let tangent = point.body.coupled_tangent(
-            motion(state, point.unknown),
+            motion(state, places).as_node(),
             conditions.rayleigh.alpha,
             point.gravity.into(),
             [factors.stiffness, factors.damping, factors.mass],

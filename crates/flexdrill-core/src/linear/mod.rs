@@ -13,7 +13,7 @@ mod sparse;
 mod system;
 
 pub use block_lu::BlockLu;
-pub use condensation::{CondensedElimination, CondensedSystem};
+pub use condensation::{CondensedElimination, CondensedSystem, add_joint, sixteen, take};
 pub use increment::{ContactBlock, JointIncrement, TangentIncrement, Touching};
 #[cfg(feature = "reference")]
 pub use sparse::SparseReference;

@@ -6,6 +6,7 @@
 
 mod attached;
 mod element;
+mod places;
 mod station;
 
 use nalgebra::Matrix3;
@@ -19,6 +20,7 @@ use crate::validation::ValidationError;
 
 pub use attached::{ResolvedLoad, ResolvedMass};
 pub use element::{GuideElement, PipeElement};
+pub use places::{JointPlaces, Places};
 pub use station::Station;
 
 use station::Bore;
@@ -58,6 +60,8 @@ pub struct Model {
     pub tied: bool,
     /// Multiplier of the tie, in the last station's block.
     pub tie: Option<usize>,
+    /// Where what acts on the tool acts.
+    pub places: Places,
     /// Numbering of the linear system.
     pub layout: Layout,
     /// Force per unit of a scaled multiplier (lambda of Eq. 18): translational rows (N).
@@ -137,6 +141,7 @@ impl Model {
             ],
             tied,
             tie,
+            places: Places::default(),
             layout,
             force_scale: stiffest,
             moment_scale: bending,
@@ -145,6 +150,7 @@ impl Model {
         };
         model.collect_elements();
         model.attach(description)?;
+        model.places = Places::of(&model);
         Ok(model)
     }
 

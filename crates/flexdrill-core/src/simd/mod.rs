@@ -3,6 +3,7 @@
 
 mod instructions;
 pub(crate) mod number;
+pub(crate) mod single;
 pub(crate) mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;

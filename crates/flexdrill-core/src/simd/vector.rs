@@ -4,8 +4,12 @@
 //! of vector carry the `target_feature` that it needs. The compiler's own vectors of such code were tried and are
 //! several times slower: it takes the lanes apart.
 
+use super::single::{PortableSingle, Single};
+
 /// Eight lanes of f64, one per unknown, column or joint as the kernel says.
 pub(crate) trait Vector: Copy {
+    /// Sixteen lanes of single precision of the same machine.
+    type Single: Single;
     /// Whether [`Vector::plus_product`] rounds once: what scalar code beside these vectors then does too.
     const FUSED: bool;
 
@@ -34,6 +38,8 @@ pub(crate) trait Vector: Copy {
     /// Whether some lane of `self` is larger in size than the same lane of `bound`; lanes that are not numbers count as
     /// larger.
     fn any_beyond(self, bound: Self) -> bool;
+    /// A bit per lane of `self` that is larger than the same lane of `bound`.
+    fn above(self, bound: Self) -> u32;
 }
 
 /// Eight lanes at a time of a longer array.
@@ -58,6 +64,7 @@ impl Portable {
 }
 
 impl Vector for Portable {
+    type Single = PortableSingle;
     const FUSED: bool = false;
 
     #[inline(always)]
@@ -114,5 +121,13 @@ impl Vector for Portable {
             any |= x.abs() > bound || x.is_nan() || bound.is_nan();
         }
         any
+    }
+    #[inline(always)]
+    fn above(self, bound: Self) -> u32 {
+        let mut bits = 0;
+        for lane in 0..8 {
+            bits |= u32::from(self.0[lane] > bound.0[lane]) << lane;
+        }
+        bits
     }
 }

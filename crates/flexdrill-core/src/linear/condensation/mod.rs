@@ -25,6 +25,8 @@ mod substructure;
 mod system;
 
 pub use forward::CondensedElimination;
+pub use increment::{add_joint, take};
+pub use pivots::sixteen;
 pub use system::CondensedSystem;
 
 /// Unknowns per block.

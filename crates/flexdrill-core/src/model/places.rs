@@ -1,0 +1,104 @@
+//! Where what acts on the tool acts, in a numbering of its unknowns: the model's own, or a reduced one.
+
+use super::Model;
+use crate::tool::description::Direction;
+
+/// Unknowns of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct JointPlaces {
+    /// First rotation of the end above.
+    pub above: usize,
+    /// First rotation of the start below.
+    pub below: usize,
+    /// First multiplier of its rotational rows, and first of those rows.
+    pub row: usize,
+}
+
+/// Unknowns that forces act on.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Places {
+    /// The driven spin.
+    pub driven: Option<usize>,
+    /// Spin of the bit.
+    pub bit_spin: usize,
+    /// u of the pipe's last node.
+    pub pipe_end: usize,
+    /// u of the guide's last node, which takes the weight on bit.
+    pub guide_end: usize,
+    /// Multiplier of the axial tie of both.
+    pub tie: Option<usize>,
+    /// Of every joint.
+    pub joints: Vec<JointPlaces>,
+    /// Of every load.
+    pub loads: Vec<usize>,
+    /// Of every mass, (u, v, w, psi, phi_y, phi_z).
+    pub masses: Vec<[usize; 6]>,
+}
+
+impl Places {
+    /// In the model's numbering.
+    pub fn of(model: &Model) -> Self {
+        let bottom = &model.stations[model.last()];
+        Self {
+            driven: model.driven,
+            bit_spin: bottom.pipe_above + Direction::Psi as usize,
+            pipe_end: bottom.pipe_above,
+            guide_end: bottom.guide,
+            tie: model.tie,
+            joints: (0..model.joints.len())
+                .map(|joint| {
+                    let station = &model.stations[model.joint_stations[joint]];
+                    JointPlaces {
+                        above: station.pipe_above + 3,
+                        below: station.pipe_below + 3,
+                        row: model.multipliers(joint) + 3,
+                    }
+                })
+                .collect(),
+            loads: model.loads.iter().map(|load| load.unknown).collect(),
+            masses: model
+                .masses
+                .iter()
+                .map(|mass| std::array::from_fn(|k| mass.unknown + k))
+                .collect(),
+        }
+    }
+
+    /// In another numbering, which gives every one of these unknowns a place; `None` if it does not.
+    pub fn renumbered(&self, place: impl Fn(usize) -> Option<usize>) -> Option<Self> {
+        let optional = |unknown: Option<usize>| match unknown {
+            Some(unknown) => place(unknown).map(Some),
+            None => Some(None),
+        };
+        Some(Self {
+            driven: optional(self.driven)?,
+            bit_spin: place(self.bit_spin)?,
+            pipe_end: place(self.pipe_end)?,
+            guide_end: place(self.guide_end)?,
+            tie: optional(self.tie)?,
+            joints: self
+                .joints
+                .iter()
+                .map(|joint| {
+                    Some(JointPlaces {
+                        above: place(joint.above)?,
+                        below: place(joint.below)?,
+                        row: place(joint.row)?,
+                    })
+                })
+                .collect::<Option<_>>()?,
+            loads: self.loads.iter().map(|&load| place(load)).collect::<Option<_>>()?,
+            masses: self
+                .masses
+                .iter()
+                .map(|mass| {
+                    let mut to = [0; 6];
+                    for (to, &from) in to.iter_mut().zip(mass) {
+                        *to = place(from)?;
+                    }
+                    Some(to)
+                })
+                .collect::<Option<_>>()?,
+        })
+    }
+}

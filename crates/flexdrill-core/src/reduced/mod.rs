@@ -1,0 +1,239 @@
+//! The tool reduced to its joints: links and guide between two joints move as their ends do.
+//!
+//! A span is a link with the guide beside it. Its inner stations are slaved statically: x_i = -K_ii^-1 K_ie x_e (Guyan),
+//! so that stiffness, mass and geometric stiffness of a span are matrices over its two ends. The displacement of a
+//! joint's start below follows from that of the end above, u_b = E_b^T E_a u_a, so that the translational rows are kept
+//! exactly and have no multipliers. What is left is 16 unknowns per node (top, joints, bottom):
+//!
+//! | place | unknown |
+//! |---|---|
+//! | 0..3 | rotations of the end above |
+//! | 3..6 | displacement |
+//! | 6..9 | rotations of the start below |
+//! | 9..15 | guide |
+//! | 15 | multiplier of the joint's rotational row, or of the axial tie |
+//!
+//! All stations keep their contacts: one inside a span moves, and acts on, both ends through the slaving. It holds where
+//! inner stations vibrate faster than a step can follow, see [`Reduced::of`]; other tools are computed station by
+//! station.
+
+mod contacts;
+mod energy;
+mod numbering;
+mod operator;
+mod residual;
+mod single;
+mod slaving;
+mod solve;
+mod tangent;
+#[cfg(test)]
+mod tests;
+
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::newton::Tolerances;
+use crate::elements::joint::Joint;
+use crate::model::{Model, Places};
+use crate::simd::Instructions;
+
+use operator::Operator;
+use single::SingleSweep;
+use slaving::{Link, LinkMatrices};
+use solve::Sweep;
+use tangent::Additions;
+
+pub(crate) use numbering::Numbering;
+pub(crate) use solve::ReducedEquations;
+
+/// Unknowns per node.
+const NODE: usize = 16;
+/// First of the displacement.
+const U: usize = 3;
+/// First of the guide.
+const GUIDE: usize = 9;
+/// Place of the multiplier.
+const MULTIPLIER: usize = 15;
+/// Stations per span, its lower end included, that one vector of eight holds.
+const MOST_STATIONS: usize = 8;
+
+/// A column over both ends of a span: six of the top end, two that do not count, six of the bottom end, two more.
+type EndColumn = [f64; 16];
+/// Forces on both ends of a span, pipe and guide.
+type EndForces = [EndColumn; 2];
+
+/// Least product of a span's slowest inner frequency, its ends clamped (rad/s), and the step (s). What a step resolves
+/// is slower than 1 / h; inner stations answer it quasi-statically to 1 / 8^2.
+const LEAST_FREQUENCY: f64 = 8.0;
+
+/// Corrections of a step that are solved in single precision; a step that needs more is solved in double from there on.
+const SINGLE_CORRECTIONS: u32 = 6;
+
+/// Places in a node of the twelve unknowns of a span's top end, pipe then guide: one after the other.
+const TOP: [usize; 12] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14];
+/// Of its bottom end.
+const BOTTOM: [usize; 12] = [0, 1, 2, 3, 4, 5, 9, 10, 11, 12, 13, 14];
+
+/// The reduced tool, and the room that steps need.
+pub(crate) struct Reduced {
+    instructions: Instructions,
+    /// Inner frequency of the slowest span (rad/s).
+    slowest: f64,
+    nodes: usize,
+    /// Elements, and so stations but the first, per span.
+    per: usize,
+    kinds: Vec<LinkMatrices>,
+    links: Vec<Link>,
+    pub(crate) numbering: Numbering,
+    pub(crate) places: Places,
+    /// Consistent forces of gravity (N, N m).
+    pub(crate) weight: Vec<f64>,
+    /// Rows of each node that are equations, 1 or 0; `None` where all are.
+    rows: Vec<Option<[f64; NODE]>>,
+    rest_weights: Vec<f64>,
+    moving_weights: Vec<f64>,
+    moving: Vec<f64>,
+    operators: Vec<Operator>,
+    /// Residual with its reactions.
+    residual: Vec<f64>,
+    /// Forces of the spans on their ends: linear ones, those of geometric stiffness, those of contacts.
+    linear: Vec<EndForces>,
+    geometric: Vec<EndForces>,
+    touched: Vec<EndForces>,
+    /// Force of each span's pipe on its top end (N), along the axes of the link above, at the last energy.
+    on_top: Vec<[f64; 3]>,
+    /// Whether `touched` holds anything, per span.
+    any: Vec<bool>,
+    /// Stations with contact, top to bottom.
+    hits: Vec<usize>,
+    foreseen: Vec<[f64; 2]>,
+    foreseen_part: f64,
+    additions: Additions,
+    sweep: Sweep,
+    single_sweep: SingleSweep,
+    /// Corrections made in this step.
+    iterations: u32,
+    correction: Vec<f64>,
+}
+
+impl Reduced {
+    /// The reduced form of a tool, or `None` where it has something that is computed station by station only: joints with
+    /// two rotational rows, supports or masses inside links, supports of a joint's start below, a fixed guide, more than
+    /// eight elements per link, no joint.
+    pub(crate) fn of(model: &Model, tolerances: &Tolerances, instructions: Instructions) -> Option<Self> {
+        let per = model.description.elements_per_link;
+        let one_row = Joint::rotational_rows(model.description.joint.kind) == 1;
+        if !one_row || per > MOST_STATIONS || model.joints.is_empty() {
+            return None;
+        }
+        let numbering = Numbering::of(model);
+        let places = model.places.renumbered(|unknown| numbering.place(unknown))?;
+        let nodes = model.joints.len() + 2;
+        let spans = nodes - 1;
+        let (kinds, mut links) = slaving::links(model)?;
+        let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
+        let held = numbering.without_equation(model, &places)?;
+        let mut rows = vec![None; nodes];
+        for &unknown in &held {
+            rows[unknown / NODE].get_or_insert([1.0; NODE])[unknown % NODE] = 0.0;
+        }
+        let unknowns = NODE * nodes;
+        let (force, moment) = (tolerances.force, tolerances.moment);
+        let moving_force = tolerances.moving_force(model);
+        let moving_moment = moving_force * tolerances.moving_moment;
+        let limits = |force: f64, moment: f64| {
+            let mut limits = vec![moment; unknowns];
+            for (k, node) in limits.chunks_exact_mut(NODE).enumerate() {
+                node[U..U + 3].fill(force);
+                node[GUIDE..GUIDE + 3].fill(force);
+                // The axial tie is the only row at an end.
+                let scale = if k + 1 == nodes {
+                    model.force_scale
+                } else {
+                    model.moment_scale
+                };
+                node[MULTIPLIER] = tolerances.constraint * scale;
+            }
+            held.iter().for_each(|&unknown| limits[unknown] = f64::INFINITY);
+            limits.iter().map(|limit| 1.0 / limit).collect::<Vec<f64>>()
+        };
+        let weight = slaving::weights(model, &kinds, &mut links, unknowns);
+        Some(Self {
+            instructions,
+            slowest,
+            nodes,
+            per,
+            kinds,
+            links,
+            numbering,
+            places,
+            weight,
+            rows,
+            rest_weights: limits(force, moment),
+            moving_weights: limits(moving_force, moving_moment),
+            moving: (0..unknowns)
+                .map(|unknown| if unknown % NODE == MULTIPLIER { 0.0 } else { 1.0 })
+                .collect(),
+            operators: Vec::new(),
+            residual: vec![0.0; unknowns],
+            linear: vec![[[0.0; 16]; 2]; spans],
+            geometric: vec![[[0.0; 16]; 2]; spans],
+            touched: vec![[[0.0; 16]; 2]; spans],
+            on_top: vec![[0.0; 3]; spans],
+            any: vec![false; spans],
+            hits: Vec::with_capacity(model.stations.len()),
+            foreseen: vec![[0.0; 2]; spans],
+            foreseen_part: 0.0,
+            additions: Additions::new(nodes),
+            sweep: Sweep::new(nodes),
+            single_sweep: SingleSweep::new(nodes),
+            iterations: 0,
+            correction: vec![0.0; unknowns],
+        })
+    }
+
+    /// Whether inner stations are fast enough to be slaved in steps of size `h` (s).
+    pub(crate) fn holds_for(&self, h: f64) -> bool {
+        self.slowest * h >= LEAST_FREQUENCY
+    }
+
+    /// Number of unknowns.
+    pub(crate) fn unknowns(&self) -> usize {
+        NODE * self.nodes
+    }
+
+    /// Number of spans.
+    pub(crate) fn spans(&self) -> usize {
+        self.links.len()
+    }
+
+    /// Makes what steps with these factors need.
+    pub(crate) fn prepare(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
+        if self.operator(factors, conditions).is_none() {
+            let operator = Operator::of(self, model, factors, conditions);
+            self.operators.push(operator);
+        }
+    }
+
+    fn operator(&self, factors: TangentFactors, conditions: &Conditions) -> Option<usize> {
+        self.operators
+            .iter()
+            .position(|operator| operator.is_for(factors, conditions))
+    }
+}
+
+/// First unknowns of a span's ends, [top, bottom], of the pipe (0) or the guide (1).
+#[inline(always)]
+fn ends(span: usize, body: usize) -> [usize; 2] {
+    let (top, bottom) = (NODE * span, NODE * (span + 1));
+    if body == 0 {
+        [top + U, bottom]
+    } else {
+        [top + GUIDE, bottom + GUIDE]
+    }
+}
+
+/// The equations and what observers read, together.
+pub(crate) fn equations<'a>(reduced: &'a mut Reduced, assembler: &'a mut Assembler) -> ReducedEquations<'a> {
+    ReducedEquations { reduced, assembler }
+}

@@ -1,0 +1,124 @@
+//! The step-constant part of the reduced tangent: elastic, damping and inertia terms, made once per step size.
+
+use super::single::SingleOperator;
+use super::slaving::row;
+use super::{BOTTOM, EndColumn, MULTIPLIER, NODE, Reduced, TOP, U};
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::factors::TangentFactors;
+use crate::model::Model;
+
+/// A node's block by columns.
+pub(super) type Block = [[f64; NODE]; NODE];
+
+/// Coupling of a span's two ends.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Coupling {
+    /// Rows of the node above, columns of the span's bottom end.
+    pub upper: [[f64; NODE]; 12],
+    /// Rows of the node below, columns of the span's top end.
+    pub lower: [[f64; NODE]; 12],
+}
+
+/// For one step size and damping.
+pub(super) struct Operator {
+    factors: TangentFactors,
+    damping: [f64; 2],
+    /// k K + d C + m M of each kind of span, pipe and guide, by columns over its ends.
+    pub spans: Vec<[[EndColumn; 12]; 2]>,
+    /// Blocks that differ, and which each node has.
+    pub blocks: Vec<Block>,
+    pub block_of: Vec<usize>,
+    /// Couplings, by kind of span.
+    pub couplings: Vec<Coupling>,
+    /// The same rounded.
+    pub single: SingleOperator,
+}
+
+impl Operator {
+    pub(super) fn of(reduced: &Reduced, model: &Model, factors: TangentFactors, conditions: &Conditions) -> Self {
+        let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
+        let elastic = factors.stiffness + factors.damping * beta;
+        let inertial = factors.mass + factors.damping * alpha;
+        let spans: Vec<[[EndColumn; 12]; 2]> = reduced
+            .kinds
+            .iter()
+            .map(|kind| {
+                std::array::from_fn(|body| {
+                    std::array::from_fn(|j| {
+                        let (k, m) = (&kind.stiffness[body][j], &kind.mass[body][j]);
+                        std::array::from_fn(|i| elastic * k[i] + inertial * m[i])
+                    })
+                })
+            })
+            .collect();
+        let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; reduced.nodes];
+        for (l, link) in reduced.links.iter().enumerate() {
+            for (body, columns) in spans[link.kind].iter().enumerate() {
+                let (top, bottom) = (&TOP[6 * body..], &BOTTOM[6 * body..]);
+                for j in 0..6 {
+                    for i in 0..6 {
+                        nodes[l][top[j]][top[i]] += columns[j][row(i)];
+                        nodes[l + 1][bottom[j]][bottom[i]] += columns[6 + j][row(6 + i)];
+                    }
+                }
+            }
+        }
+        for (point, places) in model.masses.iter().zip(&reduced.places.masses) {
+            for (&place, mass) in places.iter().zip(point.body.diagonal()) {
+                let (node, at) = (place / NODE, place % NODE);
+                nodes[node][at][at] += inertial * mass;
+            }
+        }
+        if reduced.places.tie.is_some() {
+            let (last, scale) = (reduced.nodes - 1, model.force_scale);
+            for (place, sign) in [(U, scale), (super::GUIDE, -scale)] {
+                nodes[last][MULTIPLIER][place] += sign;
+                nodes[last][place][MULTIPLIER] += sign;
+            }
+        }
+        let couplings = spans
+            .iter()
+            .map(|bodies| {
+                let mut coupling = Coupling {
+                    upper: [[0.0; NODE]; 12],
+                    lower: [[0.0; NODE]; 12],
+                };
+                for (body, columns) in bodies.iter().enumerate() {
+                    for j in 0..6 {
+                        for i in 0..6 {
+                            coupling.upper[6 * body + j][TOP[6 * body + i]] = columns[6 + j][row(i)];
+                            coupling.lower[6 * body + j][BOTTOM[6 * body + i]] = columns[j][row(6 + i)];
+                        }
+                    }
+                }
+                coupling
+            })
+            .collect();
+        let mut blocks = Vec::<Block>::new();
+        let block_of = nodes
+            .iter()
+            .map(|block| {
+                let known = blocks.iter().position(|known| known == block);
+                known.unwrap_or_else(|| {
+                    blocks.push(*block);
+                    blocks.len() - 1
+                })
+            })
+            .collect();
+        let mut operator = Self {
+            factors,
+            damping: [alpha, beta],
+            spans,
+            blocks,
+            block_of,
+            couplings,
+            single: SingleOperator::default(),
+        };
+        operator.single = SingleOperator::of(&operator);
+        operator
+    }
+
+    pub(super) fn is_for(&self, factors: TangentFactors, conditions: &Conditions) -> bool {
+        self.factors == factors && self.damping == [conditions.rayleigh.alpha, conditions.rayleigh.beta]
+    }
+}

@@ -1,0 +1,285 @@
+//! Spans with their inner stations slaved to their ends: made once per tool.
+
+use nalgebra::{DMatrix, DVector, Matrix3};
+
+use super::{EndColumn, ends};
+use crate::model::Model;
+
+/// Relative difference below which the matrices of two spans count as one: links of a regular tool differ by the rounding
+/// of their geometry only. Sharing keeps them in the first-level cache.
+const SAME: f64 = 1e-11;
+
+/// Matrices of a span over its ends, by columns: six of the top end, six of the bottom end.
+#[derive(Debug, Clone)]
+pub(super) struct LinkMatrices {
+    /// Stiffness, mass and geometric stiffness per tension, of pipe and guide.
+    pub stiffness: [[EndColumn; 12]; 2],
+    pub mass: [[EndColumn; 12]; 2],
+    pub geometric: [[EndColumn; 12]; 2],
+    /// Mean axial force (N) by the ends' displacements.
+    pub tension: [[f64; 12]; 2],
+    /// Lateral position of each station but the first in its station's frame: y in 0..8, z in 8..16.
+    pub lateral: [[EndColumn; 12]; 2],
+    /// Local motion of each station, the top included: the pipe's in the station's frame, rotations times its radius; the
+    /// guide's.
+    pub motion: Vec<[[[f64; 8]; 12]; 2]>,
+    /// The same by rows: what a local force puts on the ends.
+    pub force: Vec<[[EndColumn; 6]; 2]>,
+    /// Displacements of the inner nodes in their own frames, columns of a node one after the other.
+    pub inner: Vec<[[[f64; 8]; 12]; 2]>,
+    /// Slowest frequency of pipe or guide while the ends stand still (rad/s).
+    pub slowest: f64,
+    slaved: [DMatrix<f64>; 2],
+}
+
+/// A span.
+#[derive(Debug, Clone)]
+pub(super) struct Link {
+    /// Its matrices.
+    pub kind: usize,
+    /// Where the undeflected pipe lies at each station but the first: y, z (m).
+    pub offset: [[f64; 8]; 2],
+    /// Squares of the inner clearance at those stations; beyond them what is never reached.
+    pub clearance_squared: [f64; 8],
+    /// What the pipe's weight puts on its top end (N), along the axes of the link above.
+    pub weight_on_top: [f64; 3],
+}
+
+/// All spans, like ones with the same matrices. `None` if a span's inner stiffness or mass is singular.
+pub(super) fn links(model: &Model) -> Option<(Vec<LinkMatrices>, Vec<Link>)> {
+    let per = model.description.elements_per_link;
+    let (mut kinds, mut links) = (Vec::<LinkMatrices>::new(), Vec::new());
+    for l in 0..model.description.links {
+        let made = LinkMatrices::of(model, l)?;
+        let kind = match kinds.iter().position(|kind| kind.is_close(&made)) {
+            Some(kind) => kind,
+            None => {
+                kinds.push(made);
+                kinds.len() - 1
+            }
+        };
+        let mut link = Link {
+            kind,
+            offset: [[0.0; 8]; 2],
+            clearance_squared: [f64::MAX; 8],
+            weight_on_top: [0.0; 3],
+        };
+        for i in 0..per {
+            let station = &model.stations[l * per + i + 1];
+            (link.offset[0][i], link.offset[1][i]) = (station.offset.x, station.offset.y);
+            link.clearance_squared[i] = station.inner_clearance * station.inner_clearance;
+        }
+        links.push(link);
+    }
+    Some((kinds, links))
+}
+
+/// Consistent forces of gravity in the reduced numbering.
+pub(super) fn weights(model: &Model, kinds: &[LinkMatrices], links: &mut [Link], unknowns: usize) -> Vec<f64> {
+    let per = model.description.elements_per_link;
+    let mut out = vec![0.0; unknowns];
+    for (l, link) in links.iter_mut().enumerate() {
+        for body in 0..2 {
+            let mut weight = DVector::<f64>::zeros(6 * (per + 1));
+            for e in 0..per {
+                let element = if body == 0 {
+                    &model.pipe[l * per + e].weight
+                } else {
+                    &model.guide[l * per + e].weight
+                };
+                let mut part = weight.rows_mut(6 * e, 12);
+                part += element;
+            }
+            let on_ends = kinds[link.kind].slaved[body].tr_mul(&weight);
+            if body == 0 {
+                link.weight_on_top = [on_ends[0], on_ends[1], on_ends[2]];
+            }
+            let [top, bottom] = ends(l, body);
+            for i in 0..6 {
+                out[top + i] += on_ends[i];
+                out[bottom + i] += on_ends[6 + i];
+            }
+        }
+    }
+    out
+}
+
+impl LinkMatrices {
+    fn of(model: &Model, l: usize) -> Option<Self> {
+        let per = model.description.elements_per_link;
+        let first = l * per;
+        let size = 6 * (per + 1);
+        let mut matrices: [[DMatrix<f64>; 3]; 2] =
+            std::array::from_fn(|_| std::array::from_fn(|_| DMatrix::zeros(size, size)));
+        for e in 0..per {
+            let (pipe, guide) = (&model.pipe[first + e], &model.guide[first + e]);
+            let parts = [
+                [pipe.beam.stiffness(), pipe.beam.mass(), pipe.geometric],
+                [guide.stiffness, guide.mass, guide.geometric],
+            ];
+            for (to, from) in matrices.iter_mut().flatten().zip(parts.iter().flatten()) {
+                let mut part = to.view_mut((6 * e, 6 * e), (12, 12));
+                part += from;
+            }
+        }
+        let mut slowest = f64::INFINITY;
+        let mut slaved: [DMatrix<f64>; 2] = [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)];
+        for (slaved, [stiffness, mass, _]) in slaved.iter_mut().zip(&matrices) {
+            let (made, frequency) = guyan(stiffness, mass)?;
+            *slaved = made;
+            slowest = slowest.min(frequency);
+        }
+        // The pipe's top end: the displacement is that of the end above the joint, in its frame. Its bottom end: rotations
+        // before displacements.
+        let mut turned = DMatrix::<f64>::identity(12, 12);
+        if l > 0 {
+            let joint = &model.joints[l - 1];
+            let turn: Matrix3<f64> = joint.lower.transpose() * joint.upper;
+            turned.view_mut((0, 0), (3, 3)).copy_from(&turn);
+        }
+        let mut places = DMatrix::<f64>::zeros(12, 12);
+        for i in 0..6 {
+            places[(i, i)] = 1.0;
+            places[(6 + i, 6 + (i + 3) % 6)] = 1.0;
+        }
+        slaved[0] = &slaved[0] * turned * places;
+        let condensed =
+            |body: usize, which: usize| columns(&(slaved[body].transpose() * &matrices[body][which] * &slaved[body]));
+        let both = |which: usize| [condensed(0, which), condensed(1, which)];
+        let tension = std::array::from_fn(|body| {
+            std::array::from_fn(|j| {
+                let along = |e: usize| {
+                    let column = slaved[body].column(j);
+                    if body == 0 {
+                        let stretch = column[6 * e + 6] - column[6 * e];
+                        return model.pipe[first + e].beam.tension(stretch);
+                    }
+                    let guide = &model.guide[first + e];
+                    let end = |n: usize| {
+                        let node = 6 * (e + n);
+                        guide.rotation[n][(0, 0)] * column[node] + guide.rotation[n][(0, 2)] * column[node + 2]
+                    };
+                    guide.beam.tension(end(1) - end(0))
+                };
+                (0..per).map(along).sum::<f64>() / per as f64
+            })
+        });
+        let mut lateral = [[[0.0; 16]; 12]; 2];
+        let (mut motion, mut force) = (Vec::new(), Vec::new());
+        for i in 0..=per {
+            let station = &model.stations[first + i];
+            let mut local = DMatrix::<f64>::zeros(6, 6);
+            // At the span's top it is the span above that meets the gap, but for the first station.
+            local.view_mut((0, 0), (3, 3)).copy_from(&station.pipe_to_station);
+            (3..6).for_each(|k| local[(k, k)] = station.pipe_radius);
+            let maps = [local * slaved[0].rows(6 * i, 6), slaved[1].rows(6 * i, 6).clone_owned()];
+            let mut by_columns = [[[0.0; 8]; 12]; 2];
+            let mut by_rows = [[[0.0; 16]; 6]; 2];
+            for (body, map) in maps.iter().enumerate() {
+                for j in 0..12 {
+                    for k in 0..6 {
+                        by_columns[body][j][k] = map[(k, j)];
+                        by_rows[body][k][row(j)] = map[(k, j)];
+                    }
+                    if i > 0 {
+                        lateral[body][j][i - 1] = map[(1, j)];
+                        lateral[body][j][8 + i - 1] = map[(2, j)];
+                    }
+                }
+            }
+            motion.push(by_columns);
+            force.push(by_rows);
+        }
+        let inner = (1..per)
+            .map(|i| {
+                std::array::from_fn(|body| {
+                    std::array::from_fn(|j| {
+                        let mut column = [0.0; 8];
+                        (0..6).for_each(|k| column[k] = slaved[body][(6 * i + k, j)]);
+                        column
+                    })
+                })
+            })
+            .collect();
+        Some(Self {
+            stiffness: both(0),
+            mass: both(1),
+            geometric: both(2),
+            tension,
+            lateral,
+            motion,
+            force,
+            inner,
+            slowest,
+            slaved,
+        })
+    }
+
+    /// Whether `other` is the same but for rounding.
+    fn is_close(&self, other: &Self) -> bool {
+        let near = |a: &[f64], b: &[f64]| {
+            let scale = a.iter().chain(b).fold(0.0_f64, |m, x| m.max(x.abs()));
+            a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * scale)
+        };
+        (0..2).all(|body| {
+            near(
+                self.stiffness[body].as_flattened(),
+                other.stiffness[body].as_flattened(),
+            ) && near(self.mass[body].as_flattened(), other.mass[body].as_flattened())
+                && near(
+                    self.geometric[body].as_flattened(),
+                    other.geometric[body].as_flattened(),
+                )
+                && near(&self.tension[body], &other.tension[body])
+                && near(self.slaved[body].as_slice(), other.slaved[body].as_slice())
+        }) && self
+            .motion
+            .iter()
+            .zip(&other.motion)
+            .all(|(a, b)| near(a.as_flattened().as_flattened(), b.as_flattened().as_flattened()))
+    }
+}
+
+/// Row of an [`EndColumn`] of end unknown `k` of twelve.
+#[inline(always)]
+pub(super) const fn row(k: usize) -> usize {
+    if k < 6 { k } else { k + 2 }
+}
+
+fn columns(matrix: &DMatrix<f64>) -> [EndColumn; 12] {
+    std::array::from_fn(|j| {
+        let mut column = [0.0; 16];
+        (0..12).for_each(|i| column[row(i)] = matrix[(i, j)]);
+        column
+    })
+}
+
+/// Displacements of all nodes by those of the two ends, twelve columns, and the slowest inner frequency (rad/s).
+fn guyan(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<(DMatrix<f64>, f64)> {
+    let n = stiffness.nrows();
+    let mut out = DMatrix::zeros(n, 12);
+    for i in 0..6 {
+        (out[(i, i)], out[(n - 6 + i, 6 + i)]) = (1.0, 1.0);
+    }
+    let inner = n - 12;
+    if inner == 0 {
+        return Some((out, f64::INFINITY));
+    }
+    let part = |matrix: &DMatrix<f64>| matrix.view((6, 6), (inner, inner)).clone_owned();
+    let factor = part(mass).cholesky()?.l();
+    let mut to_ends = DMatrix::zeros(inner, 12);
+    to_ends
+        .view_mut((0, 0), (inner, 6))
+        .copy_from(&stiffness.view((6, 0), (inner, 6)));
+    to_ends
+        .view_mut((0, 6), (inner, 6))
+        .copy_from(&stiffness.view((6, n - 6), (inner, 6)));
+    let slaved = -part(stiffness).cholesky()?.solve(&to_ends);
+    out.view_mut((6, 0), (inner, 12)).copy_from(&slaved);
+    // L^-1 K L^-T of K x = omega^2 L L^T x.
+    let left = factor.solve_lower_triangular(&part(stiffness))?;
+    let both = factor.solve_lower_triangular(&left.transpose())?;
+    let symmetric = 0.5 * (&both + both.transpose());
+    let slowest = symmetric.symmetric_eigenvalues().min();
+    Some((out, slowest.max(0.0).sqrt()))
+}

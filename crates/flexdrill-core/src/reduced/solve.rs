@@ -1,0 +1,407 @@
+//! Newton's equations over the joints, and their solution: blocks of 16 eliminated from the top down.
+
+use super::operator::{Block, Operator};
+use super::residual::{load, plus_column, store};
+use super::single::SingleElimination;
+use super::tangent::{Additions, Crossing};
+use super::{BOTTOM, GUIDE, Link, MULTIPLIER, NODE, Reduced, SINGLE_CORRECTIONS, TOP, U};
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::newton::{Accuracy, Equations, LARGEST_DISPLACEMENT, Stride, correct, worst};
+use crate::dynamics::phases::Phase;
+use crate::dynamics::state::State;
+use crate::elements::bit::BitTorque;
+use crate::elements::joint::rotation::LARGEST_TILT;
+use crate::linear::{JointIncrement, Singular, add_joint, sixteen, take};
+use crate::model::Model;
+use crate::simd::Kernel;
+use crate::simd::vector::Vector;
+use crate::tool::description::Body;
+
+/// Columns per node: twelve of the coupling and the right-hand side.
+const COLUMNS: usize = 13;
+
+/// Room for an elimination.
+pub(super) struct Sweep {
+    /// S^-1 (U, r) per node.
+    columns: Vec<[[f64; NODE]; COLUMNS]>,
+}
+
+impl Sweep {
+    pub(super) fn new(nodes: usize) -> Self {
+        Self {
+            columns: vec![[[0.0; NODE]; COLUMNS]; nodes],
+        }
+    }
+}
+
+/// One solution.
+struct Elimination<'a> {
+    sweep: &'a mut Sweep,
+    operator: &'a Operator,
+    additions: &'a Additions,
+    joints: &'a [JointIncrement],
+    links: &'a [Link],
+    rows: &'a [Option<[f64; NODE]>],
+    /// The right-hand side, which becomes the solution.
+    values: &'a mut [f64],
+}
+
+impl Elimination<'_> {
+    /// A node's block without what comes from above.
+    #[inline(always)]
+    fn block<V: Vector>(&self, k: usize) -> Block {
+        let mut block = self.operator.blocks[self.operator.block_of[k]];
+        if self.additions.touched[k] {
+            for (to, from) in block.iter_mut().zip(&self.additions.blocks[k]) {
+                let (a, b): ([V; 2], [V; 2]) = (load(to), load(from));
+                store([a[0].plus(b[0]), a[1].plus(b[1])], to);
+            }
+        }
+        if let Some(joint) = k.checked_sub(1).and_then(|joint| self.joints.get(joint)) {
+            add_joint(&mut block, joint);
+        }
+        block
+    }
+
+    /// Coupling of span `l`: (rows of the node above, rows of the node below), and what crosses.
+    #[inline(always)]
+    fn coupling<V: Vector>(&self, l: usize, upper: &mut [[f64; NODE]], lower: &mut [[f64; NODE]; 12]) -> Crossing {
+        let base = &self.operator.couplings[self.links[l].kind];
+        upper[..12].copy_from_slice(&base.upper);
+        *lower = base.lower;
+        let crossing = self.additions.crossing[l];
+        if crossing != Crossing::Nothing {
+            let first = if crossing == Crossing::Guide { 6 } else { 0 };
+            let added = &self.additions.couplings[l];
+            for c in first..12 {
+                for (to, from) in [(&mut upper[c], &added.upper[c]), (&mut lower[c], &added.lower[c])] {
+                    let (a, b): ([V; 2], [V; 2]) = (load(to), load(from));
+                    store([a[0].plus(b[0]), a[1].plus(b[1])], to);
+                }
+            }
+        }
+        // What is held takes no part.
+        if let Some(rows) = &self.rows[l] {
+            upper[..12].iter_mut().for_each(|column| keep(column, rows));
+        }
+        if let Some(rows) = &self.rows[l + 1] {
+            lower.iter_mut().for_each(|column| keep(column, rows));
+        }
+        crossing
+    }
+}
+
+/// Keeps the rows that are equations.
+#[inline(always)]
+fn keep(column: &mut [f64; NODE], rows: &[f64; NODE]) {
+    for (x, row) in column.iter_mut().zip(rows) {
+        *x *= row;
+    }
+}
+
+impl Kernel for Elimination<'_> {
+    type Output = Result<(), (usize, f64)>;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> Result<(), (usize, f64)> {
+        let nodes = self.rows.len();
+        let mut carry = [[0.0; NODE]; COLUMNS];
+        let mut lower = [[0.0; NODE]; 12];
+        for k in 0..nodes {
+            let mut block = self.block::<V>(k);
+            let mut right = [0.0; NODE];
+            right.copy_from_slice(&self.values[NODE * k..NODE * (k + 1)]);
+            if k > 0 {
+                take(&mut block, &mut right, &carry);
+            }
+            if let Some(rows) = &self.rows[k] {
+                for (i, column) in block.iter_mut().enumerate() {
+                    keep(column, rows);
+                    if rows[i] == 0.0 {
+                        *column = [0.0; NODE];
+                        column[i] = 1.0;
+                    }
+                }
+                keep(&mut right, rows);
+            }
+            if k + 1 == nodes {
+                let mut column = [right];
+                sixteen::<V, 1>(&mut block, &mut column, |_| 0).map_err(|pivot| (k, pivot))?;
+                self.values[NODE * k..].copy_from_slice(&column[0]);
+                break;
+            }
+            let mut columns = [[0.0; NODE]; COLUMNS];
+            let crossing = self.coupling::<V>(k, &mut columns, &mut lower);
+            columns[12] = right;
+            // The pipe's columns begin at the displacement, the guide's at the guide but where they cross.
+            let crossed = crossing == Crossing::Both;
+            let active = |row: usize| match row {
+                0..U => 0,
+                U..GUIDE if !crossed => 6,
+                _ => 12,
+            };
+            sixteen::<V, COLUMNS>(&mut block, &mut columns, active).map_err(|pivot| (k, pivot))?;
+            for (carry, column) in carry.iter_mut().zip(&columns) {
+                let (mut pipe, mut guide) = ([V::splat(0.0); 2], [V::splat(0.0); 2]);
+                if crossed {
+                    for c in 0..6 {
+                        pipe = plus_column(pipe, &lower[c], V::splat(column[TOP[c]]));
+                        guide = plus_column(guide, &lower[6 + c], V::splat(column[TOP[6 + c]]));
+                    }
+                } else {
+                    // The pipe is in the first eight rows, the guide in the second.
+                    for c in 0..6 {
+                        let (of_pipe, of_guide): ([V; 2], [V; 2]) = (load(&lower[c]), load(&lower[6 + c]));
+                        pipe[0] = pipe[0].plus_product(of_pipe[0], V::splat(column[TOP[c]]));
+                        guide[1] = guide[1].plus_product(of_guide[1], V::splat(column[TOP[6 + c]]));
+                    }
+                }
+                store([pipe[0].plus(guide[0]), pipe[1].plus(guide[1])], carry);
+            }
+            self.sweep.columns[k] = columns;
+        }
+        for k in (0..nodes - 1).rev() {
+            let columns = &self.sweep.columns[k];
+            let (above, below) = self.values.split_at_mut(NODE * (k + 1));
+            let (mut even, mut odd) = (load::<V>(&columns[12]), [V::splat(0.0); 2]);
+            for c in 0..6 {
+                even = plus_column(even, &columns[2 * c], V::splat(-below[BOTTOM[2 * c]]));
+                odd = plus_column(odd, &columns[2 * c + 1], V::splat(-below[BOTTOM[2 * c + 1]]));
+            }
+            let mut x = [0.0; NODE];
+            store([even[0].plus(odd[0]), even[1].plus(odd[1])], &mut x);
+            above[NODE * k..].copy_from_slice(&x);
+        }
+        Ok(())
+    }
+}
+
+impl Reduced {
+    /// Solves for the correction, in single precision if that is asked for and its pivots do.
+    ///
+    /// # Errors
+    /// When a block cannot be factorised, or no operator was prepared.
+    pub(super) fn correct(
+        &mut self,
+        joints: &[JointIncrement],
+        conditions: &Conditions,
+        factors: TangentFactors,
+        single: bool,
+    ) -> Result<(), Singular> {
+        let Self {
+            instructions,
+            sweep,
+            single_sweep,
+            operators,
+            additions,
+            links,
+            rows,
+            correction: values,
+            residual,
+            per,
+            ..
+        } = self;
+        let known = operators.iter().find(|operator| operator.is_for(factors, conditions));
+        let Some(operator) = known else {
+            return Err(Singular { station: 0, pivot: 0.0 });
+        };
+        let begin = |values: &mut [f64]| values.iter_mut().zip(&*residual).for_each(|(c, r)| *c = -r);
+        if single {
+            begin(values);
+            let solved = instructions.run(SingleElimination {
+                sweep: single_sweep,
+                operator,
+                additions,
+                joints,
+                links,
+                rows,
+                values,
+            });
+            if solved {
+                return Ok(());
+            }
+        }
+        begin(values);
+        instructions
+            .run(Elimination {
+                sweep,
+                operator,
+                additions,
+                joints,
+                links,
+                rows,
+                values,
+            })
+            .map_err(|(node, pivot)| Singular {
+                station: *per * node,
+                pivot,
+            })
+    }
+}
+
+/// The reduced equations, with the assembler that evaluates joints and holds the contacts.
+pub(crate) struct ReducedEquations<'a> {
+    pub(super) reduced: &'a mut Reduced,
+    pub(super) assembler: &'a mut Assembler,
+}
+
+impl ReducedEquations<'_> {
+    /// Evaluates the whole residual at `to`, with the axial forces that it holds or, without `keep_axial`, those of its
+    /// displacements.
+    pub(crate) fn evaluate(&mut self, model: &Model, to: &mut State, conditions: &Conditions, keep_axial: bool) {
+        self.reduced.foreseen_part = 0.0;
+        self.reduced
+            .evaluate(self.assembler, model, to, conditions, (None, keep_axial));
+    }
+
+    /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where the
+    /// static tangent has no inverse, the state stays as it is.
+    pub(crate) fn polish_rest(
+        &mut self,
+        model: &Model,
+        state: &mut State,
+        scratch: &mut State,
+        conditions: &Conditions,
+    ) {
+        let factors = TangentFactors {
+            stiffness: 1.0,
+            damping: 0.0,
+            mass: 0.0,
+        };
+        self.reduced.prepare(model, conditions, factors);
+        self.reduced.iterations = SINGLE_CORRECTIONS;
+        self.assembler.bit.begin();
+        self.evaluate(model, state, conditions, false);
+        let mut best = worst(&self.reduced.residual, &self.reduced.rest_weights);
+        // Geometric stiffness is not in the tangent, so that this converges linearly.
+        for _ in 0..20 {
+            scratch.copy_from(state);
+            if self.solve(model, scratch, conditions, factors).is_err() {
+                return;
+            }
+            let spin = self.reduced.places.bit_spin;
+            correct(self, scratch, conditions, factors, spin);
+            self.evaluate(model, scratch, conditions, false);
+            let ratio = worst(&self.reduced.residual, &self.reduced.rest_weights);
+            if ratio.is_nan() || ratio >= best {
+                return;
+            }
+            best = ratio;
+            state.copy_from(scratch);
+        }
+    }
+
+    /// Accelerations in balance with the forces at `state`, as far as steps of size `h` (s) can follow them.
+    ///
+    /// # Errors
+    /// When the mass matrix with the constraints is singular.
+    pub(crate) fn balance_accelerations(
+        &mut self,
+        model: &Model,
+        state: &mut State,
+        conditions: &Conditions,
+        h: f64,
+    ) -> Result<(), Singular> {
+        state.a.fill(0.0);
+        let factors = TangentFactors {
+            stiffness: h * h,
+            damping: h,
+            mass: 1.0,
+        };
+        self.reduced.prepare(model, conditions, factors);
+        self.reduced.iterations = SINGLE_CORRECTIONS;
+        self.evaluate(model, state, conditions, false);
+        for residual in self.reduced.residual.iter_mut().skip(MULTIPLIER).step_by(NODE) {
+            *residual = 0.0;
+        }
+        self.solve(model, state, conditions, factors)?;
+        for (i, &x) in self.reduced.correction.iter().enumerate() {
+            if i % NODE == MULTIPLIER {
+                state.q[i] += x;
+            } else {
+                state.a[i] = x;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Equations for ReducedEquations<'_> {
+    fn begin(&mut self, _: &Model, stride: Stride, from: &State, _: &mut State) {
+        self.reduced
+            .foresee(from, stride.foresight, stride.scheme.foreseen_part());
+    }
+
+    fn residual(
+        &mut self,
+        model: &Model,
+        to: &mut State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+        iterations: u32,
+    ) {
+        self.reduced.iterations = iterations;
+        let operator = self.reduced.operator(factors, conditions).filter(|_| iterations > 0);
+        self.reduced
+            .evaluate(self.assembler, model, to, conditions, (operator, false));
+    }
+
+    fn solve(
+        &mut self,
+        model: &Model,
+        to: &State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+    ) -> Result<(), Singular> {
+        self.reduced.linearise(self.assembler, model, to, conditions, factors);
+        self.assembler.stopwatch.lap(Phase::Assembly);
+        let single = self.reduced.iterations < SINGLE_CORRECTIONS;
+        let solved = self
+            .reduced
+            .correct(&self.assembler.increment.joints, conditions, factors, single);
+        self.assembler.stopwatch.lap(Phase::Solve);
+        solved
+    }
+
+    fn residuals(&self) -> &[f64] {
+        &self.reduced.residual
+    }
+
+    fn weights(&self, accuracy: Accuracy) -> &[f64] {
+        match accuracy {
+            Accuracy::Rest => &self.reduced.rest_weights,
+            Accuracy::Motion => &self.reduced.moving_weights,
+        }
+    }
+
+    fn correction(&self) -> (&[f64], &[f64]) {
+        (&self.reduced.correction, &self.reduced.moving)
+    }
+
+    fn bit(&mut self) -> &mut BitTorque {
+        &mut self.assembler.bit
+    }
+
+    fn driven_and_bit(&self, _: &Model) -> (Option<usize>, usize) {
+        (self.reduced.places.driven, self.reduced.places.bit_spin)
+    }
+
+    fn out_of_range(&self, _: &Model, state: &State) -> Option<(usize, f64)> {
+        let beyond = |(unknown, &value): (usize, &f64)| {
+            let most = match unknown % NODE {
+                3..=5 | 9..=11 => LARGEST_DISPLACEMENT,
+                1 | 2 | 7 | 8 | 13 | 14 => LARGEST_TILT,
+                _ => return None,
+            };
+            (value.abs() > most).then_some((unknown, value))
+        };
+        state.q.iter().enumerate().find_map(beyond)
+    }
+
+    fn locate(&self, _: &Model, unknown: usize) -> (usize, Body) {
+        let (station, guide) = self.reduced.locate(unknown);
+        (station, if guide { Body::Guide } else { Body::Pipe })
+    }
+}

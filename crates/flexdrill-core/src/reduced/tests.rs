@@ -1,0 +1,265 @@
+//! The reduced equations are those of the whole tool seen through the slaving: residual, tangent and solution.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{MULTIPLIER, NODE, Reduced, equations};
+use crate::Instructions;
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::newton::Tolerances;
+use crate::dynamics::scheme::Scheme;
+use crate::dynamics::state::State;
+use crate::model::Model;
+use crate::tool::description::LiveParameters;
+use crate::tool::{
+    Body, Direction, JointKind, LoadHistory, Location, PointLoad, PointMass, Support, ToolDescription, WobPath,
+};
+
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    (*seed >> 33) as f64 / f64::from(1_u32 << 31) * 2.0 - 1.0
+}
+
+fn small(links: usize, elements: usize) -> ToolDescription {
+    let mut tool = ToolDescription::paper().with_mesh(links, elements);
+    // A wide limit leaves some of the stops shut and some open.
+    tool.joint.limit = 0.26;
+    tool
+}
+
+fn mass(location: Location, body: Body) -> PointMass {
+    PointMass {
+        location,
+        body,
+        mass: 8.0,
+        axial_inertia: 0.05,
+        transverse_inertia: 0.03,
+        eccentricity: 0.02,
+        eccentricity_phase: 0.4,
+    }
+}
+
+fn load(location: Location, body: Body) -> PointLoad {
+    PointLoad {
+        location,
+        body,
+        direction: Direction::V,
+        history: LoadHistory::Constant(300.0),
+    }
+}
+
+/// Contact in both layers at about a third of the stations, inside spans too, at joints and at the first station.
+fn lively(reduced: &Reduced, seed: u64) -> State {
+    let mut seed = seed;
+    let mut state = reduced.state();
+    for values in [&mut state.v, &mut state.a] {
+        values.iter_mut().for_each(|x| *x = random(&mut seed));
+    }
+    for node in state.q.chunks_exact_mut(NODE) {
+        let angle = 3.0 * random(&mut seed);
+        let reach = if random(&mut seed) > 0.0 { 0.019 } else { 1e-4 };
+        (node[3], node[4], node[5]) = (1e-4 * random(&mut seed), reach * angle.cos(), reach * angle.sin());
+        let angle = 3.0 * random(&mut seed);
+        let reach = if random(&mut seed) > 0.0 { 0.009 } else { 1e-4 };
+        (node[9], node[10], node[11]) = (1e-4 * random(&mut seed), reach * angle.cos(), reach * angle.sin());
+        for k in [0, 6, 12] {
+            node[k] = 5.0 * random(&mut seed);
+        }
+        for k in [1, 2, 7, 8, 13, 14] {
+            node[k] = 0.05 * random(&mut seed);
+        }
+        node[MULTIPLIER] = 1e-4 * random(&mut seed);
+    }
+    state
+}
+
+/// The state with what is not in the equations at zero, as it is in motion.
+fn clean(reduced: &Reduced, state: &mut State) {
+    for (unknown, weight) in reduced.rest_weights.iter().enumerate() {
+        if *weight == 0.0 && Some(unknown) != reduced.places.driven {
+            (state.q[unknown], state.v[unknown], state.a[unknown]) = (0.0, 0.0, 0.0);
+        }
+    }
+}
+
+/// What the whole tool's unknowns are by each reduced one.
+fn slaving(reduced: &Reduced, model: &Model) -> DMatrix<f64> {
+    let n = reduced.unknowns();
+    let mut out = DMatrix::zeros(model.unknowns(), n);
+    let (mut unit, mut full) = (reduced.state(), State::at_rest(model));
+    for j in 0..n {
+        unit.q[j] = 1.0;
+        reduced.show(model, &unit, &mut full);
+        out.set_column(j, &DVector::from_column_slice(&full.q));
+        unit.q[j] = 0.0;
+    }
+    out
+}
+
+fn check(tool: &ToolDescription, h: f64, seed: u64) {
+    let model = Model::new(tool).unwrap();
+    let scheme = Scheme::generalised_alpha(0.45);
+    let factors = scheme.factors(h);
+    let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.3, 1e4);
+    conditions.bit_torque = 90.0;
+    for instructions in Instructions::available() {
+        let mut reduced = Reduced::of(&model, &Tolerances::default(), instructions).expect("a tool of this form");
+        let slaving = slaving(&reduced, &model);
+        let mut state = lively(&reduced, seed);
+        clean(&reduced, &mut state);
+        // Each span has an axial force of its own.
+        let mut next = seed + 9;
+        for l in 0..reduced.spans() {
+            (state.pipe_axial[l], state.guide_axial[l]) = (2e3 * random(&mut next), 2e3 * random(&mut next));
+        }
+
+        let mut assembler = Assembler::new(&model, instructions);
+        equations(&mut reduced, &mut assembler).evaluate(&model, &mut state, &conditions, true);
+        let mut full = State::at_rest(&model);
+        reduced.show(&model, &state, &mut full);
+        let mut whole = Assembler::new(&model, instructions);
+        whole.residual(&model, &full, &conditions);
+        let inside = |touches: &[Option<crate::elements::gap::Touch>]| {
+            let stations = model.stations.iter().zip(touches);
+            stations
+                .filter(|(at, touch)| at.joint.is_none() && touch.is_some())
+                .count()
+        };
+        if tool.elements_per_link > 1 {
+            assert!(
+                inside(&assembler.inner) > 0 && inside(&assembler.outer) > 0,
+                "no contact inside spans"
+            );
+        }
+        assert!(assembler.joints.iter().any(|joint| joint.moment > 0.0), "no shut stop");
+
+        // Residual: the whole tool's through the slaving.
+        let expected = slaving.tr_mul(&DVector::from_column_slice(&whole.residual));
+        let scale = whole.residual.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        for (unknown, (got, expected)) in reduced.residual.iter().zip(expected.iter()).enumerate() {
+            if reduced.rest_weights[unknown] > 0.0 {
+                // Rounding of stiffness times displacement, which cancel to the residual.
+                assert!(
+                    (got - expected).abs() < 1e-9 * scale,
+                    "{instructions}: residual {unknown} is {got} against {expected}, scale {scale:e}"
+                );
+            }
+        }
+
+        // Tangent without geometric stiffness, and its solution.
+        let mut system = whole.step_constant(&model, &conditions, factors);
+        whole.linearise(&model, &full, &conditions, factors);
+        whole.increment.add_to(&mut system);
+        let mut matrix = DMatrix::zeros(model.unknowns(), model.unknowns());
+        system.for_each_entry(|row, column, value| matrix[(row, column)] += value);
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            matrix[(unknown, unknown)] = 0.0;
+        }
+        let mut matrix = slaving.tr_mul(&(matrix * &slaving));
+        let mut right = -DVector::from_column_slice(&reduced.residual);
+        for (unknown, weight) in reduced.rest_weights.iter().enumerate() {
+            if *weight == 0.0 {
+                matrix.row_mut(unknown).fill(0.0);
+                matrix.column_mut(unknown).fill(0.0);
+                matrix[(unknown, unknown)] = 1.0;
+                right[unknown] = 0.0;
+            }
+        }
+        // By rows and columns of like size, as their units differ.
+        let size = |i: usize| 1.0 / matrix.column(i).norm().max(f64::MIN_POSITIVE).sqrt();
+        let sizes = DVector::from_fn(matrix.nrows(), |i, _| size(i));
+        let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+            sizes[i] * matrix[(i, j)] * sizes[j]
+        });
+        let lu = scaled.full_piv_lu();
+        let x = lu
+            .solve(&right.component_mul(&sizes))
+            .expect("a tangent with an inverse")
+            .component_mul(&sizes);
+        reduced.prepare(&model, &conditions, factors);
+        reduced.linearise(&mut assembler, &model, &state, &conditions, factors);
+        for (single, within) in [(false, 1e-9), (true, 1e-3)] {
+            let joints = &assembler.increment.joints;
+            reduced.correct(joints, &conditions, factors, single).unwrap();
+            let (got, expected) = (DVector::from_column_slice(&reduced.correction), &x);
+            // In the units that make the matrix of one size.
+            let [got, expected] = [&got, expected].map(|x| x.component_div(&sizes));
+            let apart = (&got - &expected).amax() / expected.amax();
+            assert!(
+                apart < within,
+                "{instructions}, single {single}: solutions {apart:e} apart"
+            );
+            assert!(!single || apart > 1e-12, "single precision was refused");
+        }
+    }
+}
+
+#[test]
+fn default_tools() {
+    for (elements, seed) in [(1, 3), (2, 5), (3, 7), (5, 11), (8, 2)] {
+        check(&small(6, elements), 5e-4, seed);
+    }
+    check(&small(4, 5), 5e-4 / 64.0, 1);
+}
+
+#[test]
+fn ball_cages_and_a_tie() {
+    let mut tool = small(5, 3);
+    tool.joint.kind = JointKind::BallCage;
+    tool.wob_path = WobPath::Shared;
+    check(&tool, 5e-4, 4);
+}
+
+#[test]
+fn masses_loads_and_supports_at_nodes() {
+    let mut tool = small(5, 3);
+    tool.bit.inertia = 0.02;
+    tool.masses = vec![
+        mass(Location::Joint(1), Body::Pipe),
+        mass(Location::Joint(2), Body::Guide),
+    ];
+    tool.loads = vec![
+        load(Location::Joint(0), Body::Pipe),
+        load(Location::Joint(3), Body::Guide),
+    ];
+    tool.supports.push(Support {
+        location: Location::Joint(2),
+        body: Body::Guide,
+        directions: vec![Direction::W, Direction::PhiY],
+    });
+    check(&tool, 5e-4, 6);
+}
+
+#[test]
+fn what_is_computed_station_by_station() {
+    let is_reduced = |change: &dyn Fn(&mut ToolDescription)| {
+        let mut tool = small(4, 3);
+        change(&mut tool);
+        let model = Model::new(&tool).unwrap();
+        Reduced::of(&model, &Tolerances::default(), Instructions::best()).is_some()
+    };
+    assert!(is_reduced(&|_| ()));
+    assert!(!is_reduced(&|tool| tool.joint.kind = JointKind::Revolute));
+    assert!(!is_reduced(&|tool| tool.guide_fixed = true));
+    assert!(!is_reduced(
+        &|tool| tool.masses = vec![mass(Location::Station(1), Body::Pipe)]
+    ));
+    assert!(!is_reduced(
+        &|tool| tool.loads = vec![load(Location::Station(1), Body::Guide)]
+    ));
+    for location in [Location::Station(1), Location::Joint(0)] {
+        assert!(!is_reduced(&|tool| tool.supports.push(Support {
+            location,
+            body: Body::Pipe,
+            directions: vec![Direction::V],
+        })));
+    }
+    // Links of a metre vibrate too slowly for steps of half a millisecond: (4.73 / l)^2 sqrt(EI / rho A) is 2000 rad/s.
+    let slow = ToolDescription::paper().with_mesh(5, 5);
+    let model = Model::new(&slow).unwrap();
+    let reduced = Reduced::of(&model, &Tolerances::default(), Instructions::best()).unwrap();
+    assert!(!reduced.holds_for(5e-4) && reduced.holds_for(1e-2));
+    let model = Model::new(&ToolDescription::paper()).unwrap();
+    let reduced = Reduced::of(&model, &Tolerances::default(), Instructions::best()).unwrap();
+    assert!(reduced.holds_for(5e-4));
+}

@@ -1,0 +1,117 @@
+//! Sixteen numbers of single precision at once, for solutions whose residual is taken in double.
+
+/// Sixteen lanes of f32: a column of a block of sixteen.
+pub(crate) trait Single: Copy {
+    /// The same in every lane.
+    fn splat(x: f32) -> Self;
+    /// Reads sixteen lanes.
+    fn load(from: &[f32; 16]) -> Self;
+    /// Writes sixteen lanes.
+    fn store(self, to: &mut [f32; 16]);
+    /// Rounds sixteen numbers.
+    fn round(from: &[f64; 16]) -> Self;
+    /// Sum, lane by lane.
+    fn plus(self, other: Self) -> Self;
+    /// Difference, lane by lane.
+    fn minus(self, other: Self) -> Self;
+    /// Product, lane by lane.
+    fn times(self, other: Self) -> Self;
+    /// Quotient, lane by lane.
+    fn over(self, other: Self) -> Self;
+    /// self + a b, rounded once where the machine does that.
+    fn plus_product(self, a: Self, b: Self) -> Self;
+    /// self - a b, likewise.
+    fn minus_product(self, a: Self, b: Self) -> Self;
+    /// The larger, lane by lane; lanes that are not numbers may be passed over.
+    fn largest(self, other: Self) -> Self;
+    /// Lanes 1, 0, 3, 2, ...: neighbours exchanged.
+    fn swapped(self) -> Self;
+    /// Lane `K` in every lane.
+    fn spread<const K: usize>(self) -> Self;
+    /// Lane `J` in the first eight lanes, lane `K` in the others.
+    fn spread_two<const J: usize, const K: usize>(self) -> Self;
+}
+
+/// Without vector instructions.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PortableSingle([f32; 16]);
+
+impl PortableSingle {
+    #[inline(always)]
+    fn zip(self, other: Self, op: impl Fn(f32, f32) -> f32) -> Self {
+        let mut out = self;
+        for (x, y) in out.0.iter_mut().zip(other.0) {
+            *x = op(*x, y);
+        }
+        out
+    }
+}
+
+impl Single for PortableSingle {
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        Self([x; 16])
+    }
+    #[inline(always)]
+    fn load(from: &[f32; 16]) -> Self {
+        Self(*from)
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32; 16]) {
+        *to = self.0;
+    }
+    #[inline(always)]
+    fn round(from: &[f64; 16]) -> Self {
+        let mut out = [0.0; 16];
+        for (to, from) in out.iter_mut().zip(from) {
+            *to = *from as f32;
+        }
+        Self(out)
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self.zip(other, |x, y| x + y)
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self.zip(other, |x, y| x - y)
+    }
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        self.zip(other, |x, y| x * y)
+    }
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        self.zip(other, |x, y| x / y)
+    }
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self.plus(a.times(b))
+    }
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        self.minus(a.times(b))
+    }
+    #[inline(always)]
+    fn largest(self, other: Self) -> Self {
+        self.zip(other, |x, y| if x > y { x } else { y })
+    }
+    #[inline(always)]
+    fn swapped(self) -> Self {
+        let mut out = self;
+        for pair in out.0.chunks_exact_mut(2) {
+            pair.swap(0, 1);
+        }
+        out
+    }
+    #[inline(always)]
+    fn spread<const K: usize>(self) -> Self {
+        Self([self.0[K]; 16])
+    }
+    #[inline(always)]
+    fn spread_two<const J: usize, const K: usize>(self) -> Self {
+        let mut out = [self.0[J]; 16];
+        out[8..].fill(self.0[K]);
+        Self(out)
+    }
+}
