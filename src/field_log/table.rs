@@ -23,6 +23,9 @@ pub(super) struct Row {
     pub(super) torque: Option<f64>,
 }
 
+/// Largest value (in the log's unit): none is nearly so large, and units and scales keep it a number.
+const LARGEST: f64 = 1e15;
+
 /// Places of the columns in the header.
 struct Places {
     width: usize,
@@ -215,7 +218,13 @@ impl Places {
                     issues.add(IssueKind::Missing, column, number, || text.to_string());
                     None
                 }
-                Ok(value) if value.is_finite() => Some(value),
+                Ok(value) if value.abs() <= LARGEST => Some(value),
+                Ok(value) if value.is_finite() => {
+                    issues.add(IssueKind::Unreadable, column, number, || {
+                        format!("{text:?} is beyond {LARGEST:e}, which no sensor measures")
+                    });
+                    None
+                }
                 _ => {
                     issues.add(IssueKind::Unreadable, column, number, || {
                         format!("{text:?} is not a number")

@@ -62,7 +62,8 @@ fn read_and_recover(path: &Path) -> bool {
         let mut bytes: Vec<_> = messages
             .iter()
             .filter(|message| message.topic_index < recovered.topics.len())
-            .map(|message| (message.log_time, message.data.clone()))
+            // MCAP knows no time before 1970.
+            .map(|message| (message.log_time.max(0), message.data.clone()))
             .collect();
         bytes.sort();
         bytes

@@ -19,8 +19,8 @@ static ALLOCATOR: PeakAlloc = PeakAlloc;
 const LONGEST: Duration = Duration::from_secs(1);
 /// An input that has not ended after this never will.
 const HANGS: Duration = Duration::from_secs(30);
-/// Most memory asked for at a time, by Rust code, beyond what was there before (bytes). Inputs have at most 64 kB; what a
-/// 16 MiB frame may announce is the largest of what a few bytes may legitimately ask for.
+/// Most memory asked for at a time, by Rust code, beyond what was there before (bytes). Inputs have at most 64 kB, those of
+/// checkpoints some hundred; a frame that announces 16 MiB is the largest of what a few bytes may ask for.
 const MOST_MEMORY: usize = 64 << 20;
 /// One target at a time: memory is counted for the whole process.
 static ONE: Mutex<()> = Mutex::new(());

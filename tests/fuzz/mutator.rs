@@ -1,6 +1,6 @@
 //! Bytes made from seeds, by a few changes that a format may not have thought of.
 
-/// Longest input (bytes).
+/// Longest input (bytes), unless the seed is longer.
 const LONGEST: usize = 64 << 10;
 
 /// Numbers from a seed: SplitMix64.
@@ -86,9 +86,10 @@ const NUMBERS: [&str; 22] = [
 /// A seed with one to some changes.
 pub fn mutate(seeds: &[Vec<u8>], words: &[&str], random: &mut Random) -> Vec<u8> {
     let mut bytes = seeds.get(random.below(seeds.len())).cloned().unwrap_or_default();
+    let longest = bytes.len().max(LONGEST);
     loop {
         change(&mut bytes, seeds, words, random);
-        bytes.truncate(LONGEST);
+        bytes.truncate(longest);
         if random.below(3) == 0 {
             return bytes;
         }

@@ -43,7 +43,7 @@ fn checkpoint() {
         seeds,
         words: &["flexdrCP"],
         run: &mut |bytes| {
-            let plain = match twin.restore(bytes) {
+            let mut accepted = match twin.restore(bytes) {
                 Ok(()) => true,
                 Err(error) => says_why(&error),
             };
@@ -56,6 +56,7 @@ fn checkpoint() {
                             twin.advance(&inputs);
                         }
                         twin.snapshot(&mut snapshot, true);
+                        accepted = true;
                     }
                     Err(error) => {
                         says_why(&error);
@@ -67,7 +68,7 @@ fn checkpoint() {
                 twin.checkpoint().unwrap() == whole,
                 "a good checkpoint does not bring everything back"
             );
-            plain
+            accepted
         },
     }
     .fuzz();
