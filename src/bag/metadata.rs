@@ -99,8 +99,8 @@ pub(super) fn write(storage: &dyn Storage, path: &Path, body: &str) -> Result<()
     })
 }
 
-/// A double-quoted YAML scalar; JSON's escapes are YAML's too. What YAML does not call printable, or takes for the end of
-/// a line, is escaped beyond what JSON asks for.
+/// A double-quoted YAML scalar; JSON's escapes are YAML's too. What YAML does not call printable, or takes for the end
+/// of a line, is escaped beyond what JSON asks for.
 fn quoted(text: &str) -> String {
     let mut quoted = String::new();
     for character in serde_json::Value::from(text).to_string().chars() {

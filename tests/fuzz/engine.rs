@@ -1,4 +1,5 @@
-//! Runs a target with bytes made from seeds: each execution is a pure function of its number, bounded in time and memory.
+//! Runs a target with bytes made from seeds: each execution is a pure function of its number, bounded in time and
+//! memory.
 
 use std::fs::File;
 use std::os::unix::fs::FileExt as _;
@@ -19,8 +20,8 @@ static ALLOCATOR: PeakAlloc = PeakAlloc;
 const LONGEST: Duration = Duration::from_secs(1);
 /// An input that has not ended after this never will.
 const HANGS: Duration = Duration::from_secs(30);
-/// Most memory asked for at a time, by Rust code, beyond what was there before (bytes). Inputs have at most 64 kB, those of
-/// checkpoints some hundred; a frame that announces 16 MiB is the largest of what a few bytes may ask for.
+/// Most memory asked for at a time, by Rust code, beyond what was there before (bytes). Inputs have at most 64 kB,
+/// those of checkpoints some hundred; a frame that announces 16 MiB is the largest of what a few bytes may ask for.
 const MOST_MEMORY: usize = 64 << 20;
 /// One target at a time: memory is counted for the whole process.
 static ONE: Mutex<()> = Mutex::new(());

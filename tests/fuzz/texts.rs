@@ -118,7 +118,8 @@ fn mapping() {
                 let written = serde_saphyr::to_string(&mapping).unwrap();
                 let again =
                     Mapping::from_text("again.yaml", &written).unwrap_or_else(|error| panic!("{error}\n{written}"));
-                assert_eq!(again, mapping);
+                // As text: NaN, which stands for no value in some logs, is not equal to itself.
+                assert_eq!(serde_saphyr::to_string(&again).unwrap(), written);
                 true
             }
             Err(error) => says_why(&error),

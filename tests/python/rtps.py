@@ -210,7 +210,8 @@ def mutate(packet, choose, others, numbers):
 def mutated(seed, count=20_000):
     """Valid packets, each with a few changes; every hundredth as it should be, so that we stay announced.
 
-    Whole fields are put at their limits with odd seeds only: the library soon ends with those and does not see the rest.
+    Whole fields are put at their limits with odd seeds only: the library soon ends with those and does not see the
+    rest.
     """
     choose = random.Random(seed)
     valid = list(announcements()) + list(talk())
