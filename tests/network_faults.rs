@@ -141,9 +141,19 @@ fn packets_from_nobody_do_not_end_it_and_memory_is_bounded() {
     twin.wait_for("model time runs");
     peer.subscribe(STATUS.0, STATUS.1, "reliable");
     back_after(&mut peer, 0);
-    for kind in ["huge_fragment", "large_fragments", "prefixes", "noise"] {
+    for kind in [
+        "huge_fragment",
+        "large_fragments",
+        "prefixes",
+        "noise",
+        "mutated 1",
+        "mutated 2",
+        "announced_gap",
+    ] {
         let mut sender = network.command("python3");
-        sender.arg(common::root().join("tests/python/packets.py")).arg(kind);
+        sender
+            .arg(common::root().join("tests/python/packets.py"))
+            .args(kind.split(' '));
         let sent = sender.status().unwrap();
         assert!(sent.success(), "{kind}");
         let began = Instant::now();

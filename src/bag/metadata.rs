@@ -80,7 +80,7 @@ fn times(tally: &Tally) -> String {
             "duration:\n  nanoseconds: {}\nstarting_time:\n  nanoseconds_since_epoch: {}\n",
             "message_count: {}\n"
         ),
-        end - start,
+        end.saturating_sub(start),
         start,
         tally.messages()
     )
@@ -99,9 +99,24 @@ pub(super) fn write(storage: &dyn Storage, path: &Path, body: &str) -> Result<()
     })
 }
 
-/// A double-quoted YAML scalar; JSON's escapes are YAML's too.
+/// A double-quoted YAML scalar; JSON's escapes are YAML's too. What YAML does not call printable, or takes for the end
+/// of a line, is escaped beyond what JSON asks for.
 fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
+    let mut quoted = String::new();
+    for character in serde_json::Value::from(text).to_string().chars() {
+        match character {
+            ' '..='~'
+            | '\u{a0}'..='\u{2027}'
+            | '\u{202a}'..='\u{d7ff}'
+            | '\u{e000}'..='\u{fefe}'
+            | '\u{ff00}'..='\u{fffd}'
+            | '\u{10000}'.. => quoted.push(character),
+            other => {
+                let _ = write!(quoted, "\\u{:04x}", u32::from(other));
+            }
+        }
+    }
+    quoted
 }
 
 /// A block under a key: on lines of its own, moved in; a flow value stays on the key's line.

@@ -4,7 +4,8 @@ use std::collections::{HashMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use rusqlite::{Connection, OpenFlags, OptionalExtension, Row, params};
+use rusqlite::limits::Limit;
+use rusqlite::{Connection, OpenFlags, Row, params};
 
 use super::raw::RawMessage;
 use super::{BagError, Topic, qos};
@@ -12,6 +13,8 @@ use crate::messages::find_type;
 
 /// Rows fetched at a time.
 const BATCH: i64 = 256;
+/// A text or blob of this size may be read from a file of any size (bytes).
+const SMALL: u64 = 1 << 20;
 
 /// An open database.
 pub(super) struct SqliteStream {
@@ -36,6 +39,7 @@ impl SqliteStream {
     /// When it is not a database of rosbag2.
     pub fn open(path: &Path) -> Result<Self, BagError> {
         let connection = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_ONLY).map_err(error(path))?;
+        guard(&connection, path)?;
         let mut stream = Self {
             path: path.to_owned(),
             connection,
@@ -140,6 +144,39 @@ impl SqliteStream {
     }
 }
 
+/// Sees to it that reading costs what the file's size costs: a file may define tables whose rows are computed, without
+/// end or of any size.
+fn guard(connection: &Connection, path: &Path) -> Result<(), BagError> {
+    let mut log = path.as_os_str().to_owned();
+    log.push("-wal");
+    // What a recorder has written last may stand in its log alone.
+    let logged = std::fs::metadata(log).map_or(0, |file| file.len());
+    let size = std::fs::metadata(path).map_err(BagError::io("read", path))?.len() + logged;
+    let longest = i32::try_from(size.max(SMALL)).unwrap_or(i32::MAX);
+    connection
+        .set_limit(Limit::SQLITE_LIMIT_LENGTH, longest)
+        .map_err(error(path))?;
+    for table in ["topics", "messages"] {
+        if !is_table(connection, table).map_err(error(path))? {
+            return Err(BagError::NotABag {
+                path: path.to_owned(),
+                problem: format!("it has no table `{table}` with rows of its own, as rosbag2 writes it"),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Whether there is a table of that name with rows of its own: neither a view nor a virtual table, which has no page.
+fn is_table(connection: &Connection, name: &str) -> rusqlite::Result<bool> {
+    let count: i64 = connection.query_row(
+        "SELECT COUNT(*) FROM sqlite_master WHERE type = 'table' AND rootpage > 0 AND name = ?1",
+        [name],
+        |row| row.get(0),
+    )?;
+    Ok(count > 0)
+}
+
 /// A row's message, if its topic is wanted.
 fn message(
     row: &Row<'_>,
@@ -166,14 +203,7 @@ fn message(
 
 /// Language and text of the message definitions, by type; older bags have none.
 fn definitions(connection: &Connection) -> rusqlite::Result<HashMap<String, (String, String)>> {
-    let table: Option<String> = connection
-        .query_row(
-            "SELECT name FROM sqlite_master WHERE type = 'table' AND name = 'message_definitions'",
-            [],
-            |row| row.get(0),
-        )
-        .optional()?;
-    if table.is_none() {
+    if !is_table(connection, "message_definitions")? {
         return Ok(HashMap::new());
     }
     let mut statement =

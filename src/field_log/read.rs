@@ -72,7 +72,7 @@ pub fn read_range(
     let begins: Vec<usize> = table
         .parts
         .iter()
-        .filter_map(|number| part.iter().position(|row| row.number == *number))
+        .filter_map(|number| part.binary_search_by_key(number, |row| row.number).ok())
         .filter(|index| *index > 0)
         .collect();
     if !begins.is_empty() {

@@ -23,6 +23,9 @@ pub(super) struct Row {
     pub(super) torque: Option<f64>,
 }
 
+/// Largest value (in the log's unit): none is nearly so large, and units and scales keep it a number.
+const LARGEST: f64 = 1e15;
+
 /// Places of the columns in the header.
 struct Places {
     width: usize,
@@ -124,34 +127,59 @@ fn lines(content: &[u8]) -> impl Iterator<Item = (u64, &[u8])> {
     .filter(|(_, line)| !line.trim_ascii().is_empty())
 }
 
-/// Reads single lines.
+/// Reads single lines. To build a parser takes as long as to read hundreds of lines, so that all share one.
 struct LineReader {
-    builder: csv::ReaderBuilder,
+    parser: csv_core::Reader,
+    fields: Vec<u8>,
+    ends: Vec<usize>,
 }
 
 impl LineReader {
     fn new(mapping: &Mapping) -> Self {
-        let mut builder = csv::ReaderBuilder::new();
-        builder
-            .delimiter(u8::try_from(mapping.separator).unwrap_or(b','))
-            .has_headers(false)
-            .flexible(true)
-            .trim(csv::Trim::All)
-            .buffer_capacity(LINE);
-        Self { builder }
+        let delimiter = u8::try_from(mapping.separator).unwrap_or(b',');
+        Self {
+            parser: csv_core::ReaderBuilder::new().delimiter(delimiter).build(),
+            fields: vec![0; LINE],
+            ends: vec![0; FIELDS],
+        }
     }
 
     /// The fields of a line.
     fn read(&mut self, line: &[u8]) -> csv::ByteRecord {
-        let mut record = csv::ByteRecord::new();
-        // Reading from memory does not fail; a line that it did would have no fields and be reported for it.
-        let _ = self.builder.from_reader(line).read_byte_record(&mut record);
+        self.parser.reset();
+        // Neither is ever longer than the line, its end included.
+        if self.fields.len() <= line.len() {
+            self.fields.resize(2 * line.len(), 0);
+        }
+        if self.ends.len() <= line.len() {
+            self.ends.resize(2 * line.len(), 0);
+        }
+        let (mut input, mut written, mut ended) = (line, 0, 0);
+        loop {
+            let (result, read, more, ends) =
+                self.parser
+                    .read_record(input, &mut self.fields[written..], &mut self.ends[ended..]);
+            input = &input[read..];
+            (written, ended) = (written + more, ended + ends);
+            // An empty input tells the parser that the line has ended.
+            if result != csv_core::ReadRecordResult::InputEmpty {
+                break;
+            }
+        }
+        let begins = std::iter::once(0).chain(self.ends.iter().copied());
+        let mut record: csv::ByteRecord = begins
+            .zip(&self.ends[..ended])
+            .map(|(begin, end)| &self.fields[begin..*end])
+            .collect();
+        record.trim();
         record
     }
 }
 
-/// Longest line that is read at once (bytes).
+/// Room for a line at first (bytes).
 const LINE: usize = 1024;
+/// Room for its fields at first.
+const FIELDS: usize = 64;
 
 fn text(record: &csv::ByteRecord, place: usize) -> Option<&str> {
     record.get(place).and_then(|bytes| std::str::from_utf8(bytes).ok())
@@ -215,7 +243,13 @@ impl Places {
                     issues.add(IssueKind::Missing, column, number, || text.to_string());
                     None
                 }
-                Ok(value) if value.is_finite() => Some(value),
+                Ok(value) if value.abs() <= LARGEST => Some(value),
+                Ok(value) if value.is_finite() => {
+                    issues.add(IssueKind::Unreadable, column, number, || {
+                        format!("{text:?} is beyond {LARGEST:e}, which no sensor measures")
+                    });
+                    None
+                }
                 _ => {
                     issues.add(IssueKind::Unreadable, column, number, || {
                         format!("{text:?} is not a number")

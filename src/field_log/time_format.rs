@@ -17,6 +17,8 @@ pub enum TimeFormat {
     TimeOfDay,
 }
 
+/// Latest time (s): far beyond milliseconds taken for seconds, and no sum of two is infinite.
+const LATEST: f64 = 1e15;
 /// A day (s).
 pub(super) const DAY: f64 = 86_400.0;
 
@@ -39,7 +41,7 @@ impl TimeFormat {
             Self::Iso8601 => iso8601(text)?,
             Self::TimeOfDay => time_of_day(text)?,
         };
-        seconds.is_finite().then_some(seconds)
+        (seconds.abs() <= LATEST).then_some(seconds)
     }
 }
 

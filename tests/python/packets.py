@@ -1,6 +1,7 @@
 """Sends RTPS packets that no honest program sends, from nobody, to every DDS port of this machine's first participants.
 
-Usage: packets.py KIND, one of `huge_fragment`, `large_fragments`, `prefixes`, `noise`.
+Usage: packets.py KIND [SEED], one of `huge_fragment`, `large_fragments`, `prefixes`, `noise`, `mutated`,
+`announced_gap`. The last two come from a participant that has announced itself. SEED makes `mutated` other packets.
 """
 
 import os
@@ -8,6 +9,8 @@ import random
 import socket
 import struct
 import sys
+
+from rtps import announced_gap, mutated
 
 # Domain 0: discovery and user traffic by unicast of the first eight participants, and discovery by multicast.
 PORTS = [7400, 7401] + [7410 + offset for offset in range(16)]
@@ -50,6 +53,10 @@ def packets(kind):
             kind = random.choice([0x06, 0x07, 0x08, 0x09, 0x0C, 0x0E, 0x12, 0x13, 0x15, 0x16, random.randrange(256)])
             body = os.urandom(random.randrange(0, 120))
             yield header(os.urandom(12)) + submessage(kind, random.randrange(256), body)
+    elif kind == "mutated":
+        yield from mutated(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
+    elif kind == "announced_gap":
+        yield from announced_gap()
     else:
         sys.exit(f"{kind}: no such packets")
 

@@ -74,6 +74,16 @@ impl Statistics {
         }
     }
 
+    /// Whether they are of so many alarms: a file that was changed may say anything.
+    pub(crate) fn is_of(&self, alarms: usize) -> bool {
+        [
+            self.counts.len(),
+            self.called.len(),
+            self.repeats.len(),
+            self.most_repeats.len(),
+        ] == [alarms; 4]
+    }
+
     /// Lets time pass. What a restart took is not watched, and a clock that goes back begins a new stretch.
     pub(crate) fn advance(&mut self, time: Time) {
         if let Some(last) = self.last {

@@ -61,7 +61,8 @@ impl AlarmSystem {
             return Err(SavedError::Format { found: saved.format });
         }
         let same = saved.alarms.iter().map(|alarm| alarm.id.as_str());
-        if same.eq(self.definitions.iter().map(|definition| definition.id)) {
+        let same = same.eq(self.definitions.iter().map(|definition| definition.id));
+        if same && saved.statistics.is_of(self.definitions.len()) {
             self.statistics = saved.statistics.clone();
         }
         self.sequence = saved.sequence;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use mcap::parse_record;
 use mcap::records::{Record, SchemaHeader};
 
+use super::records::texts_fit;
 use crate::bag::{Topic, qos};
 
 /// A type and its definition.
@@ -26,6 +27,9 @@ pub(super) struct Channels {
 impl Channels {
     /// Adds a schema or channel record; false if it is damaged. The first description of an id counts.
     pub fn add(&mut self, opcode: u8, body: &[u8]) -> bool {
+        if !texts_fit(opcode, body) {
+            return false;
+        }
         match parse_record(opcode, body) {
             Ok(Record::Schema { header, data }) => {
                 let text = String::from_utf8_lossy(&data).into_owned();

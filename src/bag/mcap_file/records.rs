@@ -24,6 +24,12 @@ impl<'a> Fields<'a> {
     pub fn u64(&mut self) -> Option<u64> {
         self.array().map(u64::from_le_bytes)
     }
+
+    /// A text or map behind its length.
+    fn counted(&mut self) -> Option<&'a [u8]> {
+        let length = self.u32()?;
+        self.bytes(usize::try_from(length).ok()?)
+    }
 }
 
 /// A record in a row of records: opcode and body.
@@ -44,6 +50,31 @@ pub(super) fn records(mut bytes: &[u8]) -> impl Iterator<Item = Option<RawRecord
         bytes = if record.is_some() { fields.0 } else { &[] };
         Some(record)
     })
+}
+
+/// Whether the texts of a schema or channel record lie within it. `mcap` asks for the memory of a text, up to 4 GiB,
+/// before it looks whether the text is there.
+pub(super) fn texts_fit(opcode: u8, body: &[u8]) -> bool {
+    let mut fields = Fields(body);
+    let walked = (|| {
+        match opcode {
+            op::SCHEMA => {
+                let _id = fields.bytes(2)?;
+                let (_name, _encoding) = (fields.counted()?, fields.counted()?);
+            }
+            op::CHANNEL => {
+                let _ids = fields.bytes(4)?;
+                let (_topic, _encoding) = (fields.counted()?, fields.counted()?);
+                let mut metadata = Fields(fields.counted()?);
+                while !metadata.0.is_empty() {
+                    metadata.counted()?;
+                }
+            }
+            _ => {}
+        }
+        Some(())
+    })();
+    walked.is_some()
 }
 
 /// Bytes of a message record before its data.

@@ -46,18 +46,23 @@ pub fn matches(pattern: &str, full_name: &str) -> bool {
     fn parts(text: &str) -> Vec<&str> {
         text.split('/').filter(|part| !part.is_empty()).collect()
     }
-    fn walk(pattern: &[&str], name: &[&str]) -> bool {
-        match (pattern.split_first(), name.split_first()) {
-            (None, None) => true,
-            (Some((&"**", rest)), _) => {
-                walk(rest, name) || name.split_first().is_some_and(|(_, tail)| walk(pattern, tail))
+    let name = parts(full_name);
+    // By number of parts of the name: whether the pattern so far matches so many. Each part of the pattern is looked at
+    // once for each of the name, however many `**` there are.
+    let mut so_far = vec![false; name.len() + 1];
+    so_far[0] = true;
+    for part in parts(pattern) {
+        if part == "**" {
+            let shortest = so_far.iter().position(|matched| *matched).unwrap_or(so_far.len());
+            so_far[shortest..].fill(true);
+        } else {
+            for count in (1..so_far.len()).rev() {
+                so_far[count] = so_far[count - 1] && (part == "*" || part == name[count - 1]);
             }
-            (Some((&"*", rest)), Some((_, tail))) => walk(rest, tail),
-            (Some((first, rest)), Some((head, tail))) => first == head && walk(rest, tail),
-            _ => false,
+            so_far[0] = false;
         }
     }
-    walk(&parts(pattern), &parts(full_name))
+    so_far[name.len()]
 }
 
 /// Reads `[node:]name:=value`.

@@ -1,0 +1,41 @@
+//! Whatever the bytes are that others give us, reading them ends: in a value or in an error with words, soon, and in
+//! memory of the size of the input. What is accepted and written again reads as the same.
+//!
+//! Two seconds a target; `FLEXDRILL_FUZZ_SECONDS=3600 cargo test --release --test fuzz -- --nocapture --test-threads 1`
+//! is an hour for each. `FLEXDRILL_FUZZ_SEED=N` begins with execution N, to see one again or to go on behind others.
+//! Inputs are mutations of seeds that are made here and of what stands in `tests/data/fuzz/TARGET`: cases once found.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+#[path = "../bag_support/mod.rs"]
+mod bag_support;
+
+mod bags;
+mod engine;
+mod messages;
+mod mutator;
+mod states;
+mod texts;
+
+use std::path::PathBuf;
+
+/// The repository's file as bytes.
+fn file(name: &str) -> Vec<u8> {
+    std::fs::read(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
+}
+
+/// A folder in memory where there is one: thousands of files are written.
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir_in("/dev/shm").unwrap_or_else(|_| tempfile::tempdir().unwrap())
+}
+
+/// Words that a person can use.
+fn says_why(error: &impl std::fmt::Display) -> bool {
+    let text = error.to_string();
+    assert!(text.trim().len() > 8, "an error without words: {text:?}");
+    false
+}
