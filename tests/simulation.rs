@@ -20,7 +20,7 @@ use flexdrill::health::status::{OutputCount, Sources, StatusKeeper};
 use flexdrill::messages::builtin_interfaces::Time as Stamp;
 use flexdrill::messages::outputs::{self, Encoded, Outputs};
 use flexdrill::messages::std_msgs::Header;
-use flexdrill::messages::{Alarm, AlarmEvent, AlarmList, CdrError, TwinStatus, from_cdr, topics};
+use flexdrill::messages::{Alarm, AlarmList, CdrError, TwinStatus, from_cdr, topics};
 use flexdrill::rig_inputs::{DriverId, Intake, RigSample};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
@@ -108,7 +108,7 @@ struct World {
     status: StatusKeeper,
     book: AlarmBook,
     dds: Health,
-    stamps: BTreeMap<String, i64>,
+    stamps: BTreeMap<&'static str, i64>,
     counts: BTreeMap<&'static str, u64>,
     stale_since: [Option<u64>; 2],
     paused: bool,
@@ -298,13 +298,7 @@ impl World {
     fn check_all(&mut self, sent: &[(&'static str, i64, Vec<u8>)]) {
         for (topic, stamp, bytes) in sent {
             assert!(*stamp <= self.rig_time(), "{topic}: a stamp of the future");
-            // The journal has the model's instants and the node's own: each alarm keeps to one of them.
-            let of = if *topic == topics::ALARM_EVENTS.name {
-                from_cdr::<AlarmEvent>(bytes).unwrap().id
-            } else {
-                (*topic).to_owned()
-            };
-            let before = self.stamps.insert(of, *stamp);
+            let before = self.stamps.insert(topic, *stamp);
             assert!(
                 before.is_none_or(|before| before <= *stamp),
                 "{topic}: a stamp went back"

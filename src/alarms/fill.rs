@@ -78,8 +78,8 @@ fn alarm(system: &AlarmSystem, id: AlarmId, finding: &Finding) -> Alarm {
     }
 }
 
-/// One event, with what is known of its alarm's condition now.
-pub(super) fn event(event: &Event, finding: &Finding, frame_id: &str) -> AlarmEvent {
+/// One event at its stamp (ns since 1970), with what is known of its alarm's condition now.
+pub(super) fn event(event: &Event, stamp: i64, finding: &Finding, frame_id: &str) -> AlarmEvent {
     let (body, measured_depth, inclination) = place(finding);
     let (id, name) = AlarmId::ALL
         .get(event.alarm)
@@ -94,7 +94,7 @@ pub(super) fn event(event: &Event, finding: &Finding, frame_id: &str) -> AlarmEv
     };
     AlarmEvent {
         header: Header {
-            stamp: Time::from_nanoseconds(event.time),
+            stamp: Time::from_nanoseconds(stamp),
             frame_id: frame_id.to_owned(),
         },
         sequence: event.sequence,

@@ -46,6 +46,9 @@ pub struct AlarmBook {
     memory: node::Memory,
     /// Not yet published.
     journal: Vec<AlarmEvent>,
+    /// Stamp of the newest event: the tool's are at the model's instants and the node's at the present, and a journal read
+    /// by time keeps its sequence.
+    newest: Time,
     /// When the list was published last, and the newest event in it.
     listed: Option<(Time, u64)>,
     bytes: Vec<u8>,
@@ -74,6 +77,7 @@ impl AlarmBook {
             findings: vec![Finding::default(); AlarmId::ALL.len()],
             memory: node::Memory::default(),
             journal: Vec::new(),
+            newest: Time::MIN,
             listed: None,
             bytes: Vec::new(),
             system,
@@ -143,11 +147,11 @@ impl AlarmBook {
     fn keep(&mut self, events: Vec<Event>) {
         let frame_id = &self.config.outputs.frame_id;
         let calm = Finding::default();
-        let messages = events.iter().map(|event| {
+        for event in &events {
             let finding = self.findings.get(event.alarm).unwrap_or(&calm);
-            fill::event(event, finding, frame_id)
-        });
-        self.journal.extend(messages);
+            self.newest = self.newest.max(event.time);
+            self.journal.push(fill::event(event, self.newest, finding, frame_id));
+        }
     }
 
     /// Whether there is something to publish at an instant of any steady clock (ns): events, or the list, which goes
