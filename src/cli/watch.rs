@@ -9,6 +9,7 @@ mod screen;
 mod texts;
 
 use std::io::IsTerminal;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -22,6 +23,8 @@ use feed::Feed;
 
 /// How often the network and the keyboard are polled.
 const POLL: Duration = Duration::from_millis(50);
+/// Longest time for an orderly end of the full screen.
+const PATIENCE: Duration = Duration::from_secs(3);
 /// Time between two pictures.
 const FRAME: Duration = Duration::from_millis(100);
 /// How long `--once` waits for a complete set of messages when `--duration` does not say.
@@ -124,10 +127,19 @@ fn show_screen(
     feed: &mut Feed,
     board: &mut Board,
     deadline: Option<Duration>,
-    stop: &AtomicBool,
+    stop: &Arc<AtomicBool>,
 ) -> anyhow::Result<()> {
     let start = Instant::now();
     let mut next = start;
+    let asked = Arc::clone(stop);
+    // Reading the keys of a terminal that is gone may never return.
+    std::thread::spawn(move || {
+        while !asked.load(Ordering::Relaxed) {
+            std::thread::sleep(POLL);
+        }
+        std::thread::sleep(PATIENCE);
+        std::process::exit(1);
+    });
     while !stop.load(Ordering::Relaxed) {
         let now = Instant::now();
         feed.drain(board, now);

@@ -117,6 +117,8 @@ impl Keeper {
         self.shared.outbox.close();
         self.shared.health().is_up = false;
         if let Some(prefix) = child.up() {
+            // It may have come up and ended between two looks.
+            self.has_been_up = true;
             if self.plan.former.len() == MOST_FORMER {
                 self.plan.former.remove(0);
             }
@@ -171,7 +173,6 @@ impl Keeper {
                 ));
             }
             if child.up().is_some() {
-                self.has_been_up = true;
                 if child.silent() > SILENCE {
                     return End::Cause(silent(child));
                 }

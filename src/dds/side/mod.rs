@@ -93,9 +93,10 @@ fn run() -> Result<(), SideError> {
     limits::set();
     let outlet = Outlet::start(socket)?;
     logs::start(&outlet);
-    serve(&plan, from, &outlet).inspect_err(|error| {
+    // The node tells why; two tellings of it would confuse.
+    if let Err(error) = serve(&plan, from, &outlet) {
         outlet.send(FromSide::Failed(error.to_string()));
-    })?;
+    }
     outlet.finish();
     Ok(())
 }
