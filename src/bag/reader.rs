@@ -45,7 +45,23 @@ impl BagMessage {
                 expected: M::ROS_TYPE,
             });
         }
-        from_cdr(&self.data).map_err(|source| BagError::Decode {
+        self.decoded(&self.data)
+    }
+
+    /// The same of a message whose type has had up to `added` bytes of fields put at its end since: they are zero.
+    ///
+    /// # Errors
+    /// As [`BagMessage::decode`].
+    pub fn decode_extended<M: Message>(&self, added: usize) -> Result<M, BagError> {
+        self.decode().or_else(|error| {
+            let mut longer = self.data.to_vec();
+            longer.resize(longer.len() + added, 0);
+            self.decoded(&longer).map_err(|_| error)
+        })
+    }
+
+    fn decoded<M: Message>(&self, data: &[u8]) -> Result<M, BagError> {
+        from_cdr(data).map_err(|source| BagError::Decode {
             topic: self.topic.name.clone(),
             log_time: self.log_time,
             source,

@@ -422,6 +422,8 @@ pub mod flexdrill {
         pub parameter_name: Vec<std::string::String>,
         /// Their new values, in the parameter's unit.
         pub parameter_value: Vec<f64>,
+        /// Every model step is taken in 2^refinement equal parts: what the motion asks for, as far as the pace allows it.
+        pub refinement: u8,
     }
 
     impl AppliedInputs {
@@ -442,7 +444,7 @@ pub mod flexdrill {
         const NAME: &'static str = "AppliedInputs";
         const ROS_TYPE: &'static str = "flexdrill/msg/AppliedInputs";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AppliedInputs_";
-        const RIHS01: &'static str = "RIHS01_eb1f03f477bd3089c929c8efa805e4f61044b3d91e00cb6de582fe77703b493f";
+        const RIHS01: &'static str = "RIHS01_f78a5d37f39069f5ad7ebad2deb71057bab25c9324e6753cc7785ed5664c6249";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/AppliedInputs.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -847,6 +849,10 @@ pub mod flexdrill {
         pub frames_dropped: u64,
         /// Changes of the inputs that found it so: a recording of this run cannot be replayed exactly.
         pub events_lost: u64,
+        /// Step in which the motion is computed, the model step or a half or a quarter of it (s).
+        pub step_in_force: f64,
+        /// Step that the motion asks for (s); shorter than the one in force where the machine is too slow for it.
+        pub step_wanted: f64,
     }
 
     impl TwinStatus {
@@ -888,7 +894,7 @@ pub mod flexdrill {
         const NAME: &'static str = "TwinStatus";
         const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
-        const RIHS01: &'static str = "RIHS01_840045d43946e8759e92ef8fb672c2de7669ebcb612dfacd97d14370131406fa";
+        const RIHS01: &'static str = "RIHS01_3e6bbcb66e314243cf7c6237b1f33fe6e7e224679e69fb8ca35ec2b3185fae97";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",

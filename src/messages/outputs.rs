@@ -277,6 +277,7 @@ impl Outputs {
             bit_friction_factor: inputs.live.bit_friction_factor,
             parameter_name: changes.iter().map(|(name, _)| name.clone()).collect(),
             parameter_value: changes.iter().map(|(_, value)| *value).collect(),
+            refinement: u8::try_from(inputs.refinement).unwrap_or(u8::MAX),
         };
         to_cdr_into(&message, &mut self.bytes)?;
         send(Encoded {
@@ -364,6 +365,7 @@ pub fn run_inputs(message: &AppliedInputs, config: &Config) -> RunInputs {
         },
         whirl: config.whirl_settings(),
         input_quality: message.input_quality,
+        refinement: message.refinement.into(),
         schedule: schedule(config),
     }
 }

@@ -88,7 +88,8 @@ impl Script {
                     session.get_or_insert(message.decode::<SessionInfo>()?);
                 }
                 AppliedInputs::ROS_TYPE => {
-                    let inputs: AppliedInputs = message.decode()?;
+                    // `refinement` came last; a recording from before it was made with whole steps.
+                    let inputs: AppliedInputs = message.decode_extended(1)?;
                     if inputs.reset {
                         status_step = 0;
                         newest_stamp = None;
