@@ -435,6 +435,10 @@ impl Clock for WorldClock {
         world.now
     }
 
+    fn machine_time(&self) -> u64 {
+        self.0.lock().unwrap().now
+    }
+
     fn wait_until(&self, deadline: u64) {
         self.0.lock().unwrap().live(deadline);
     }

@@ -10,6 +10,7 @@ mod quality;
 mod real_time;
 mod scaling;
 mod step_error;
+mod truth;
 
 use std::path::PathBuf;
 
@@ -38,9 +39,12 @@ pub struct BenchArgs {
     #[arg(long, value_name = "DOCUMENT", requires = "cases")]
     write: Option<PathBuf>,
     /// Model time after the static start (s) [default: 20; 60 real-time, 10 scaling, 3600 memory,
-    /// 30 step-error and quality].
+    /// 30 step-error and quality, 40 truth].
     #[arg(long, value_parser = numbers::seconds)]
     duration: Option<f64>,
+    /// Runs per row of truth; their mean and its error are told.
+    #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    runs: u32,
     /// Rotary speed (r/min).
     #[arg(long, default_value_t = 40.0, value_parser = numbers::rpm)]
     rpm: f64,
@@ -94,6 +98,8 @@ enum Cases {
     Memory,
     /// The step against an eighth of it, for the same tools: minutes each.
     StepError,
+    /// Statistics of the same tools with an eighth, a quarter, half of the step and all of it, over several runs each: an hour.
+    Truth,
     /// What `model_quality` says of the same tools, of others and of poor steps, against an eighth of the step: an hour.
     Quality,
     /// All of them.
@@ -106,6 +112,7 @@ impl Cases {
             Self::All => &[
                 Self::RealTime,
                 Self::StepError,
+                Self::Truth,
                 Self::Quality,
                 Self::Scaling,
                 Self::Memory,
@@ -114,6 +121,7 @@ impl Cases {
             Self::Scaling => &[Self::Scaling],
             Self::Memory => &[Self::Memory],
             Self::StepError => &[Self::StepError],
+            Self::Truth => &[Self::Truth],
             Self::Quality => &[Self::Quality],
         }
     }
@@ -125,6 +133,7 @@ impl Cases {
             Self::Scaling => "scaling",
             Self::Memory => "memory",
             Self::StepError => "step-error",
+            Self::Truth => "truth",
             Self::Quality => "quality",
             Self::All => "all",
         }
@@ -135,6 +144,7 @@ impl Cases {
         match self {
             Self::RealTime => 60.0,
             Self::StepError | Self::Quality => 30.0,
+            Self::Truth => 40.0,
             Self::Scaling => 10.0,
             Self::Memory | Self::All => 3600.0,
         }
@@ -185,6 +195,7 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
         let tables = match case {
             Cases::RealTime => real_time::tables(&config, constant, duration)?,
             Cases::StepError => step_error::tables(&named(args)?, args.rpm, duration)?,
+            Cases::Truth => truth::tables(&config, args.rpm, duration, args.runs)?,
             Cases::Quality => quality::tables(&config, args.rpm, duration)?,
             Cases::Scaling => scaling::tables(&config, constant, duration)?,
             Cases::Memory | Cases::All => memory::tables(&config, constant, duration)?,

@@ -13,6 +13,7 @@ pub(crate) mod residual;
 pub(crate) mod scheme;
 pub(crate) mod state;
 pub(crate) mod statics;
+pub(crate) mod station_equations;
 pub(crate) mod stepper;
 pub(crate) mod sub_steps;
 pub(crate) mod tangent;

@@ -206,7 +206,7 @@ mod tests {
             }
         }
 
-        /// As [`super::super::newton::Newton::step`] does it: predict, one correction of a linear system, finish.
+        /// As [`super::super::newton::step`] does it: predict, one correction of a linear system, finish.
         fn step(&mut self, h: f64) {
             let mut to = self.state.clone();
             to.time += h;

@@ -6,11 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
-use crate::dynamics::newton::{self, Accuracy, Newton, Stride, Tolerances};
+use crate::dynamics::newton::{self, Accuracy, Stride, Tolerances};
 use crate::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
+use crate::dynamics::station_equations::StationEquations;
 use crate::dynamics::sub_steps::{SubSteps, most_attempts};
 #[cfg(feature = "reference")]
 use crate::linear::SparseReference;
@@ -110,7 +111,7 @@ impl Track {
 /// Model, state and solver.
 pub struct Stepper {
     model: Model,
-    newton: Newton,
+    newton: StationEquations,
     scheme: Scheme,
     max_halvings: u32,
     /// Steps are taken in 2^refinement parts.
@@ -157,7 +158,7 @@ impl Stepper {
             .then(|| Reduced::of(&model, &tolerances, instructions))
             .flatten();
         Ok(Self {
-            newton: Newton::new(&model, solver, tolerances, instructions),
+            newton: StationEquations::new(&model, solver, tolerances, instructions),
             scheme,
             max_halvings,
             refinement: 0,
@@ -189,7 +190,7 @@ impl Stepper {
     }
 
     /// Newton's parts: the assembler holds the forces of the present state.
-    pub fn newton(&self) -> &Newton {
+    pub fn newton(&self) -> &StationEquations {
         &self.newton
     }
 
@@ -254,7 +255,7 @@ impl Stepper {
     }
 
     /// What the static start works on, station by station.
-    pub(crate) fn parts(&mut self) -> (&Model, &mut Newton, &mut State, &mut State) {
+    pub(crate) fn parts(&mut self) -> (&Model, &mut StationEquations, &mut State, &mut State) {
         (
             &self.model,
             &mut self.newton,

@@ -1,4 +1,4 @@
-//! The linear system of a Newton iteration and the its solvers.
+//! The linear system of a Newton iteration and its solvers.
 //!
 //! Unknowns are ordered by station, so the matrix is block tridiagonal (Eq. 41 over the whole tool). A plain station
 //! has a block of 12 (pipe node, guide node), a joint station one of 24 (end of the link above, guide, start of the

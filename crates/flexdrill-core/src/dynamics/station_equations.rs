@@ -1,0 +1,300 @@
+//! The equations of a step station by station: with links condensed between joints where that can be done, else whole.
+
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::newton::{Accuracy, Equations, LARGEST_DISPLACEMENT, Stride, Tolerances, correct, worst};
+use crate::dynamics::phases::Phase;
+use crate::dynamics::state::State;
+use crate::elements::bit::BitTorque;
+use crate::elements::joint::rotation::LARGEST_TILT;
+use crate::linear::{CondensedElimination, CondensedSystem, LinearSolver, Singular};
+use crate::model::Model;
+use crate::simd::Instructions;
+use crate::tool::description::Body;
+
+/// The tool's equations, station by station, with the room that Newton's iteration needs.
+pub struct StationEquations {
+    /// Residual and tangent.
+    pub assembler: Assembler,
+    /// Solves with the whole tangent: static start, and tools that cannot be condensed.
+    pub solver: Box<dyn LinearSolver>,
+    /// When an iterate is accepted.
+    pub tolerances: Tolerances,
+    /// Solves with the condensed tangent: steps in motion.
+    condensed: Option<CondensedTangents>,
+    correction: Vec<f64>,
+    /// One over the limit on the residual at rest, per unknown; zero where there is no equation.
+    rest_weights: Vec<f64>,
+    /// The same in motion.
+    moving_weights: Vec<f64>,
+    multiplier: Vec<bool>,
+    /// 0 for multipliers, else 1.
+    moving: Vec<f64>,
+    /// Axial forces of pipe and guide foreseen for the end of the step, and what part of them counts.
+    foreseen: (Vec<f64>, Vec<f64>),
+    foreseen_part: f64,
+}
+
+/// The condensed step-constant tangents, one per step size, and what solves with them. Geometric stiffness is left out,
+/// so that but for contacts and joints a tangent stays the same in motion.
+struct CondensedTangents {
+    elimination: CondensedElimination,
+    systems: Vec<(Key, CondensedSystem)>,
+}
+
+/// What the step-constant tangent depends on: factors, alpha, beta.
+type Key = (TangentFactors, f64, f64);
+
+fn key(factors: TangentFactors, conditions: &Conditions) -> Key {
+    (factors, conditions.rayleigh.alpha, conditions.rayleigh.beta)
+}
+
+impl StationEquations {
+    /// Room for `model`.
+    pub fn new(
+        model: &Model,
+        solver: Box<dyn LinearSolver>,
+        tolerances: Tolerances,
+        instructions: Instructions,
+    ) -> Self {
+        let n = model.unknowns();
+        let moving_force = tolerances.moving_force(model);
+        let (mut limits, mut moving_limits) = (vec![0.0; n], vec![0.0; n]);
+        let mut multiplier = vec![false; n];
+        for station in &model.stations {
+            for node in [station.pipe_above, station.pipe_below, station.guide] {
+                limits[node..node + 3].fill(tolerances.force);
+                limits[node + 3..node + 6].fill(tolerances.moment);
+                moving_limits[node..node + 3].fill(moving_force);
+                moving_limits[node + 3..node + 6].fill(moving_force * tolerances.moving_moment);
+            }
+        }
+        for joint in 0..model.joints.len() {
+            let first = model.multipliers(joint);
+            limits[first..first + 3].fill(tolerances.constraint * model.force_scale);
+            limits[first + 3..first + 6].fill(tolerances.constraint * model.moment_scale);
+            multiplier[first..first + 6].fill(true);
+        }
+        if let Some(tie) = model.tie {
+            limits[tie] = tolerances.constraint * model.force_scale;
+            multiplier[tie] = true;
+        }
+        for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
+            (limits[unknown], moving_limits[unknown]) = (f64::INFINITY, f64::INFINITY);
+        }
+        for unknown in (0..n).filter(|&unknown| multiplier[unknown]) {
+            moving_limits[unknown] = limits[unknown];
+        }
+        let inverse = |limits: &[f64]| limits.iter().map(|limit| 1.0 / limit).collect();
+        Self {
+            assembler: Assembler::new(model, instructions),
+            solver,
+            tolerances,
+            condensed: None,
+            correction: vec![0.0; n],
+            rest_weights: inverse(&limits),
+            moving_weights: inverse(&moving_limits),
+            moving: multiplier.iter().map(|&m| if m { 0.0 } else { 1.0 }).collect(),
+            multiplier,
+            foreseen: (vec![0.0; model.pipe.len()], vec![0.0; model.guide.len()]),
+            foreseen_part: 0.0,
+        }
+    }
+
+    /// Condenses the step-constant tangent for steps with these factors, if the tool's joints allow it; others are
+    /// solved by block LU.
+    pub fn prepare(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
+        let key = key(factors, conditions);
+        let known = |condensed: &CondensedTangents| condensed.systems.iter().any(|(known, _)| *known == key);
+        if self.condensed.as_ref().is_some_and(known) {
+            return;
+        }
+        let step_constant = self.assembler.step_constant(model, conditions, factors);
+        let Some(system) = CondensedSystem::of(step_constant, &model.joint_stations) else {
+            return;
+        };
+        let condensed = self.condensed.get_or_insert_with(|| CondensedTangents {
+            elimination: CondensedElimination::new(&model.layout, &model.joint_stations, self.assembler.instructions()),
+            systems: Vec::new(),
+        });
+        condensed.systems.push((key, system));
+    }
+
+    /// Accelerations and multipliers in balance with the forces at `state`, Eq. 17: M a + Phi_q^T lambda = F.
+    ///
+    /// With `h` (s) above 0 as far as steps of that size can follow them: (M + h C + h^2 K) a + Phi_q^T lambda = F, the
+    /// forces with what the accelerations themselves do to them within a step. Motion of frequency omega keeps its
+    /// acceleration but for the part (omega h)^2.
+    ///
+    /// # Errors
+    /// When the mass matrix with the constraints is singular.
+    pub fn balance_accelerations(
+        &mut self,
+        model: &Model,
+        state: &mut State,
+        conditions: &Conditions,
+        h: f64,
+    ) -> Result<(), Singular> {
+        state.a.fill(0.0);
+        self.assembler.residual(model, state, conditions);
+        self.assembler.drop_reactions(model);
+        let factors = TangentFactors {
+            stiffness: h * h,
+            damping: h,
+            mass: 1.0,
+        };
+        self.assembler.tangent(model, state, conditions, factors);
+        for (i, c) in self.correction.iter_mut().enumerate() {
+            // The rows ask for accelerations along the constraints, not for corrections of position.
+            *c = if self.multiplier[i] {
+                0.0
+            } else {
+                -self.assembler.residual[i]
+            };
+        }
+        self.solver.solve(&self.assembler.system, &mut self.correction)?;
+        for (i, &x) in self.correction.iter().enumerate() {
+            if self.multiplier[i] {
+                state.q[i] += x;
+            } else {
+                state.a[i] = x;
+            }
+        }
+        self.assembler.residual(model, state, conditions);
+        Ok(())
+    }
+
+    /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where
+    /// the static tangent has no inverse (a body that could float), the state stays as it is.
+    pub fn polish_rest(&mut self, model: &Model, state: &mut State, scratch: &mut State, conditions: &Conditions) {
+        let factors = TangentFactors {
+            stiffness: 1.0,
+            damping: 0.0,
+            mass: 0.0,
+        };
+        self.assembler.bit.begin();
+        self.assembler.residual(model, state, conditions);
+        let mut best = worst(&self.assembler.residual, &self.rest_weights);
+        for _ in 0..self.tolerances.max_iterations {
+            scratch.copy_from(state);
+            if self.solve(model, scratch, conditions, factors).is_err() {
+                return;
+            }
+            correct(self, scratch, conditions, factors, model.bit_spin());
+            scratch.update_axial(model);
+            self.assembler.residual(model, scratch, conditions);
+            let ratio = worst(&self.assembler.residual, &self.rest_weights);
+            if ratio.is_nan() || ratio >= best || out_of_range(model, scratch).is_some() {
+                return;
+            }
+            best = ratio;
+            state.copy_from(scratch);
+        }
+    }
+}
+
+impl Equations for StationEquations {
+    fn begin(&mut self, model: &Model, stride: Stride, from: &State, to: &mut State) {
+        to.predict_axial(model, from, stride.foresight);
+        self.foreseen.0.copy_from_slice(&to.pipe_axial);
+        self.foreseen.1.copy_from_slice(&to.guide_axial);
+        self.foreseen_part = stride.scheme.foreseen_part();
+    }
+
+    fn residual(&mut self, model: &Model, to: &mut State, conditions: &Conditions, _: TangentFactors, _: u32) {
+        to.blend_axial(model, self.foreseen_part, &self.foreseen);
+        self.assembler.residual(model, to, conditions);
+    }
+
+    fn solve(
+        &mut self,
+        model: &Model,
+        to: &State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+    ) -> Result<(), Singular> {
+        self.assembler.drop_reactions(model);
+        for (c, r) in self.correction.iter_mut().zip(&self.assembler.residual) {
+            *c = -r;
+        }
+        let key = key(factors, conditions);
+        let condensed = self.condensed.as_mut().and_then(|condensed| {
+            let (_, system) = condensed.systems.iter().find(|(known, _)| *known == key)?;
+            Some((&mut condensed.elimination, system))
+        });
+        let solved = if let Some((elimination, system)) = condensed {
+            self.assembler.stopwatch.lap(Phase::Assembly);
+            self.assembler.linearise(model, to, conditions, factors);
+            elimination.solve(system, &self.assembler.increment, &mut self.correction)
+        } else {
+            self.assembler.tangent(model, to, conditions, factors);
+            self.solver.solve(&self.assembler.system, &mut self.correction)
+        };
+        self.assembler.stopwatch.lap(Phase::Solve);
+        solved
+    }
+
+    fn residuals(&self) -> &[f64] {
+        &self.assembler.residual
+    }
+
+    fn weights(&self, accuracy: Accuracy) -> &[f64] {
+        match accuracy {
+            Accuracy::Rest => &self.rest_weights,
+            Accuracy::Motion => &self.moving_weights,
+        }
+    }
+
+    fn correction(&self) -> (&[f64], &[f64]) {
+        (&self.correction, &self.moving)
+    }
+
+    fn bit(&mut self) -> &mut BitTorque {
+        &mut self.assembler.bit
+    }
+
+    fn driven_and_bit(&self, model: &Model) -> (Option<usize>, usize) {
+        (model.driven, model.bit_spin())
+    }
+
+    fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)> {
+        out_of_range(model, state)
+    }
+
+    fn locate(&self, model: &Model, unknown: usize) -> (usize, Body) {
+        locate(model, unknown)
+    }
+}
+
+fn out_of_range(model: &Model, state: &State) -> Option<(usize, f64)> {
+    for station in &model.stations {
+        for first in [station.pipe_above, station.pipe_below, station.guide] {
+            for k in 0..3 {
+                if state.q[first + k].abs() > LARGEST_DISPLACEMENT {
+                    return Some((first + k, state.q[first + k]));
+                }
+            }
+            for k in 4..6 {
+                if state.q[first + k].abs() > LARGEST_TILT {
+                    return Some((first + k, state.q[first + k]));
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Station and pipe of an unknown.
+fn locate(model: &Model, unknown: usize) -> (usize, Body) {
+    let station = model.layout.station_of(unknown);
+    let local = unknown - model.layout.offset(station);
+    (
+        station,
+        if (6..12).contains(&local) {
+            Body::Guide
+        } else {
+            Body::Pipe
+        },
+    )
+}
