@@ -7,6 +7,9 @@ use crate::dds::network::Network;
 /// Time that a reader may stall before writes are refused (s): longer than the lease after which DDS drops a dead one.
 const STALL_TIME: f64 = 15.0;
 
+/// Longest reply of a service (bytes): the library breaks those that need more than one datagram.
+pub const MOST_REPLY: usize = 60_000;
+
 /// Bytes of the prefix that all endpoints of a participant share.
 pub type GuidPrefix = [u8; 12];
 /// The global id of an endpoint on the network.

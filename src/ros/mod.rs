@@ -7,9 +7,11 @@ pub mod logging;
 
 pub mod node;
 pub mod parameters;
+pub mod replies;
 pub mod rig_node;
 pub mod service;
 pub mod subscriber;
+pub mod type_description;
 
 /// Name of the node unless it is remapped.
 pub const DEFAULT_NODE_NAME: &str = "flexdrill";

@@ -215,7 +215,7 @@ impl Script {
                 pace.advance(&mut player, message.step)?;
             }
             let changes = changes_of(message);
-            let values = changes.iter().map(|(name, value)| (name, *value));
+            let values = changes.iter().map(|change| (&change.name, change.value));
             let changed = player.config().with_values("recorded parameters", values)?;
             // What is sent again every second changes nothing.
             if changed != *player.config() {
@@ -320,11 +320,14 @@ fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]
 }
 
 fn changes_of(message: &AppliedInputs) -> Vec<ParameterChange> {
-    message
-        .parameter_name
-        .iter()
-        .cloned()
-        .zip(message.parameter_value.iter().copied())
+    let values = message.parameter_name.iter().zip(&message.parameter_value);
+    let mut asked_by = message.parameter_asked_by.iter().cloned();
+    values
+        .map(|(name, value)| ParameterChange {
+            name: name.clone(),
+            value: *value,
+            asked_by: asked_by.next().unwrap_or_default(),
+        })
         .collect()
 }
 

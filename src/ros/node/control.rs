@@ -21,9 +21,9 @@ use flexdrill_config::{Config, HardBounds};
 use flexdrill_core::twin::CheckpointError;
 use flexdrill_realtime::link::{Command, Gauges, RunState, Settings};
 
-/// Longest wait for the solver to hand out its state.
 /// Least time between two checkpoints.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
+/// Longest wait for the solver to hand out its state.
 const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
 
 /// Parameters that changed with the command of this number.
@@ -31,7 +31,7 @@ const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
 pub struct Change {
     /// Acts when the solver has carried out so many commands.
     pub command: u64,
-    /// Names and values.
+    /// Names, values, and who asked for them.
     pub values: Vec<ParameterChange>,
     /// The configuration with them.
     pub config: Arc<Config>,
@@ -140,17 +140,28 @@ impl Control {
     }
 
     /// Lets changed parameters act together, as one command, or refuses them and changes nothing. `candidate` is the
-    /// store with them.
+    /// store with them; `asked_by` is recorded with them.
     ///
     /// # Errors
     /// When the configuration does not make sense with them, they go beyond a hard limit, or the solver takes nothing.
-    pub fn act(&self, candidate: &mut ParameterStore, changed: &[Parameter]) -> Result<(), Refusal> {
+    pub fn act(
+        &self,
+        candidate: &mut ParameterStore,
+        changed: &[Parameter],
+        asked_by: &str,
+    ) -> Result<(), Refusal> {
         let config = reconfigured(&self.config(), changed)?;
         self.hard_bounds.check(&config)?;
         let config = Arc::new(config);
         let values = changed
             .iter()
-            .filter_map(|parameter| Some((parameter.name.clone(), number(&parameter.value)?)))
+            .filter_map(|parameter| {
+                Some(ParameterChange {
+                    name: parameter.name.clone(),
+                    value: number(&parameter.value)?,
+                    asked_by: asked_by.to_owned(),
+                })
+            })
             .collect();
         let tell = |command| {
             let config = Arc::clone(&config);
@@ -340,7 +351,7 @@ mod tests {
         let control = Arc::clone(&bench.control);
         bench
             .store
-            .set_atomically(&[parameter], |store, changed| control.act(store, changed))
+            .set_atomically(&[parameter], |store, changed| control.act(store, changed, "a test"))
     }
 
     /// "Successful" means that it acts: what the ring has no room for is refused, and nowhere changed.
@@ -368,7 +379,12 @@ mod tests {
         assert_eq!(told.len(), accepted as usize);
         for (number, change) in (1..).zip(&told) {
             assert_eq!(change.command, number);
-            assert_eq!(change.values, [(key.to_owned(), friction(number as u32))]);
+            let expected = ParameterChange {
+                name: key.to_owned(),
+                value: friction(number as u32),
+                asked_by: "a test".to_owned(),
+            };
+            assert_eq!(change.values, [expected]);
         }
     }
 

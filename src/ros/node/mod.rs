@@ -15,7 +15,7 @@ use std::future::Future;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{channel, sync_channel};
+use std::sync::mpsc::channel;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use tokio::sync::Notify;
@@ -30,7 +30,7 @@ use self::rig::{Now, RigInputs, RigTime};
 use super::args::{NodeIdentity, Remapping};
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
-use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging};
+use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging, type_description};
 use crate::bag::{Recording, RecordingThread};
 use crate::dds::network::Network;
 use crate::dds::port::PortBuilder;
@@ -44,8 +44,6 @@ use flexdrill_realtime::link::{Gauges, Targets, link};
 use flexdrill_realtime::monotonic;
 use flexdrill_realtime::{INPUT_PERIOD, RealTimeLoop};
 
-/// Samples that may wait for the recording.
-const RECEIVED: usize = 1024;
 /// Longest wait for the solver to end: a step that is split to its limit takes this long on a slow machine.
 const SOLVER_END: Duration = Duration::from_secs(5);
 
@@ -149,7 +147,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         &mut port,
         setup.identity.full_name(),
         store,
-        Box::new(move |candidate, changed| acting.act(candidate, changed)),
+        Box::new(move |candidate, changed, asked_by| acting.act(candidate, changed, asked_by)),
     );
 
     let mut tasks = JoinSet::new();
@@ -159,6 +157,11 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     for task in loggers::serve(&mut port, setup.mapping, &setup.identity.full_name()) {
         tasks.spawn(task);
     }
+    tasks.spawn(type_description::serve(
+        &mut port,
+        setup.mapping,
+        &setup.identity.full_name(),
+    ));
     let service_name = |name: &str| setup.remapping.service(&setup.identity, DEFAULT_NODE_NAME, name);
     for task in control::serve(&mut port, setup.mapping, &control, service_name)? {
         tasks.spawn(task);
@@ -173,7 +176,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
             tasks.spawn(task);
         }
     }
-    let (received_sender, received) = sync_channel(RECEIVED);
+    let (for_recording, received) = rig::for_recording();
     let mut plain = Vec::new();
     for (kind, topic) in [
         (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
@@ -195,7 +198,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     let door = || rig::Door {
         rig: rig_inputs.clone(),
         dds: port.monitor(),
-        record: recording.is_some().then(|| received_sender.clone()),
+        record: recording.is_some().then(|| for_recording.clone()),
     };
     for (kind, samples) in plain {
         tasks.spawn(rig::receive_plain(door(), kind, samples));

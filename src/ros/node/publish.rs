@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::alarms::{self, AlarmDesk};
 use super::control::Change;
 use super::publishers::Publishers;
-use super::rig::{Now, Received, RigTime};
+use super::rig::{Now, Received, RigTime, ToRecord};
 use crate::bag::RecordingThread;
 use crate::dds::port::Monitor;
 use crate::health::diagnostics::{Diagnostics, Evidence};
@@ -23,7 +23,7 @@ use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
 use crate::rig_inputs::Intake;
 use crate::told::Throttles;
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Conditioner, InputKind};
+use flexdrill_core::inputs::Conditioner;
 use flexdrill_core::twin::{Output, RunInputs};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
@@ -45,7 +45,7 @@ pub struct PublisherParts {
     /// Recording, if any.
     pub recording: Option<RecordingThread>,
     /// Samples as received.
-    pub received: Receiver<Received>,
+    pub received: ToRecord,
     /// Parameters that changed.
     pub changes: Receiver<Change>,
     /// The configuration at the start.
@@ -148,8 +148,13 @@ impl Publisher {
         while let Ok(time) = self.parts.end.step_times.pop() {
             self.status.step_times.add(time);
         }
-        while let Ok(received) = self.parts.received.try_recv() {
+        while let Some(received) = self.parts.received.take() {
             self.record_received(received);
+        }
+        if let Some(recording) = &self.parts.recording {
+            for (topic, samples) in self.parts.received.missed() {
+                recording.lose(topic, samples);
+            }
         }
         let now = monotonic::now();
         self.status.note(self.pace_time(), &self.parts.gauges);
@@ -265,15 +270,10 @@ impl Publisher {
 
     fn record_received(&self, received: Received) {
         let Some(recording) = &self.parts.recording else { return };
-        let (topic, cdr) = match received {
-            Received::Plain { kind, value } => {
-                let topic = match kind {
-                    InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
-                    InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
-                };
-                (topic, to_cdr(&Float64 { data: value }))
-            }
-            Received::Stamped(message) => (&topics::RIG_INPUTS, to_cdr(&message)),
+        let topic = received.topic();
+        let cdr = match received {
+            Received::Plain { value, .. } => to_cdr(&Float64 { data: value }),
+            Received::Stamped(message) => to_cdr(&message),
         };
         if let Ok(cdr) = cdr {
             recording.record(topic, (self.parts.rig_time)(), &cdr);
