@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::output::say_text;
 use flexdrill_config::Config;
 use flexdrill_core::tool::JointKind;
 use flexdrill_core::units::kn_to_n;
@@ -24,9 +25,9 @@ pub(super) struct CheckArgs {
 pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
     let config = Config::load(&args.config)?;
     if args.full {
-        print!("{}", config.to_yaml()?);
+        say_text!("{}", config.to_yaml()?);
     } else {
-        print!("{}", Summary(&config));
+        say_text!("{}", Summary(&config));
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 mod bench;
 mod check;
 mod numbers;
+mod output;
 mod paper;
 mod progress;
 mod recover;
@@ -18,6 +19,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::cli::output::tell;
 use crate::dds::side;
 use crate::ros::args;
 use crate::told::printable_lines;
@@ -68,7 +70,7 @@ pub fn main() -> ExitCode {
     let (arguments, ros_args) = args::split(std::env::args());
     let cli = Cli::parse_from(arguments);
     if let Err(error) = signals::outlive_file_size_limit() {
-        eprintln!("warning: a limit of the file size will end the program: {error}");
+        tell!("warning: a limit of the file size will end the program: {error}");
     }
     let result: anyhow::Result<()> = match cli.command {
         Command::Run(args) => run::run(&args, &ros_args),
@@ -82,10 +84,10 @@ pub fn main() -> ExitCode {
         Command::Paper(args) => paper::run(&args),
         Command::Bench(args) => bench::run(&args),
     };
-    match result {
+    match result.and_then(|()| Ok(output::end()?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", printable_lines(&format!("{error:#}")));
+            tell!("error: {}", printable_lines(&format!("{error:#}")));
             if error.is::<WrongUse>() {
                 ExitCode::from(WRONG_USE)
             } else {

@@ -1,5 +1,6 @@
 //! A progress bar on a terminal, a line now and then elsewhere.
 
+use crate::cli::output::tell;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
@@ -55,7 +56,7 @@ impl Progress {
                 bar.set_position((time * 1e3) as u64);
                 bar.set_message(format!("{time} of {}", self.end));
             } else {
-                eprintln!("{time} of {} after {wall:.0} s", self.end);
+                tell!("{time} of {} after {wall:.0} s", self.end);
             }
             return;
         }
@@ -64,7 +65,7 @@ impl Progress {
             bar.set_message(format!("{time:.1} of {:.1} s, {speed:.2} x real time", self.end));
         } else if self.printed.elapsed() >= LINE_EVERY {
             self.printed = Instant::now();
-            eprintln!("{time:.1} of {:.1} s of model time, {speed:.2} x real time", self.end);
+            tell!("{time:.1} of {:.1} s of model time, {speed:.2} x real time", self.end);
         }
     }
 

@@ -16,6 +16,7 @@ use self::player::Player;
 use super::progress::Progress;
 use super::run::load_config;
 use super::{WrongUse, numbers, source};
+use crate::cli::output::{say, say_text, tell};
 use crate::bag;
 use crate::messages::topics;
 use crate::told::printable;
@@ -55,10 +56,10 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         let script = recording::Script::read(&args.input)?;
         let exactness = script.exactness();
         for departure in &exactness.departures {
-            eprintln!("not exact: {}", printable(departure));
+            tell!("not exact: {}", printable(departure));
         }
         for note in &exactness.notes {
-            eprintln!("{}", printable(note));
+            tell!("{}", printable(note));
         }
         let done = if script.is_empty() {
             let samples = args.source.read(&args.input).with_context(|| {
@@ -74,13 +75,13 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         };
         finish(done, args.incidents.as_deref())?;
         match exactness.departures.as_slice() {
-            [] => println!("  exact: nothing of what drove the model is missing in the recording"),
-            departures => println!("  not exact: {}", printable(&departures.join("; "))),
+            [] => say!("  exact: nothing of what drove the model is missing in the recording"),
+            departures => say!("  not exact: {}", printable(&departures.join("; "))),
         }
         return Ok(());
     }
     let (config, name) = load_config(args.config.as_deref())?;
-    println!("configuration {name}, hash {}", &config.hash()[..12]);
+    say!("configuration {name}, hash {}", &config.hash()[..12]);
     let samples = args.source.read(&args.input)?;
     let done = inputs::replay(config, &samples, &args.out, args.duration)?;
     finish(done, args.incidents.as_deref())
@@ -92,11 +93,11 @@ fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow
     let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);
     let joints = incidents::Joints(player.joint_stations().to_vec());
     let (recording, mut tally) = player.finish()?;
-    println!("wrote {} messages to {}", recording.messages, recording.path.display());
+    say!("wrote {} messages to {}", recording.messages, recording.path.display());
     tally.print(wall, time_step);
-    print!("{}", tally.alarms);
+    say_text!("{}", tally.alarms);
     let found = tally.incidents();
-    print!("{}", incidents::table(&found, &joints));
+    say_text!("{}", incidents::table(&found, &joints));
     if let Some(path) = json {
         incidents::write_json(path, &found, &joints)?;
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{WrongUse, numbers, signals};
+use crate::cli::output::say;
 use crate::alarms::state_file;
 use crate::dds::network::Network;
 use crate::messages::topics::{self, Cadence};
@@ -123,8 +124,8 @@ pub(super) fn load_config(path: Option<&std::path::Path>) -> anyhow::Result<(Con
 
 fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     let config = &setup.config;
-    let row = |name: &str, value: String| println!("  {name:<14} {value}");
-    println!(
+    let row = |name: &str, value: String| say!("  {name:<14} {value}");
+    say!(
         "flexdrill {}, node {}",
         env!("CARGO_PKG_VERSION"),
         setup.identity.full_name()
@@ -177,7 +178,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     if let Some(path) = &setup.record {
         row("recording", path.display().to_string());
     }
-    println!("  Ctrl-C ends it.");
+    say!("  Ctrl-C ends it.");
     Ok(())
 }
 
@@ -212,7 +213,7 @@ fn print_summary(summary: &RunSummary) {
         failed_steps,
         ..
     } = summary.status;
-    println!(
+    say!(
         "ended after {model_time:.2} s of model time: {step_count} steps, {steps_skipped} skipped, {deadline_misses} late, \
          {halved_steps} halved, {failed_steps} failed"
     );
@@ -221,19 +222,19 @@ fn print_summary(summary: &RunSummary) {
             1 => String::new(),
             files => format!(" and {} more", files - 1),
         };
-        println!(
+        say!(
             "recorded {} messages to {}{files}",
             recording.messages,
             recording.path.display()
         );
         if recording.lost > 0 {
-            println!(
+            say!(
                 "{} messages did not get into the recording: the disk was too slow, or failed for a while",
                 recording.lost
             );
         }
         if recording.doubtful > 0 {
-            println!(
+            say!(
                 "{} messages of the recording may be lost: the disk refused to keep them",
                 recording.doubtful
             );

@@ -12,7 +12,7 @@ mod raw;
 mod replies;
 mod topic_writer;
 
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, Write as _};
 use std::os::fd::AsFd as _;
 use std::os::unix::net::UnixStream;
 use std::process::ExitCode;
@@ -78,7 +78,9 @@ pub fn main() -> ExitCode {
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}; this subcommand is for flexdrill's own use");
+            let told = format!("error: {error}; this subcommand is for flexdrill's own use\n");
+            // Where nobody reads it, nobody is told.
+            let _ = io::stderr().write_all(told.as_bytes());
             ExitCode::FAILURE
         }
     }
