@@ -435,7 +435,11 @@ fn after_six_hours_it_goes_on_in_another_file() {
         recording.record(&topics::ROTARY_SPEED_RPM, log_time, &bytes);
         let began = Instant::now();
         while index % 4000 == 3999 && (recording.health().messages() as usize) < index - 2 {
-            assert!(began.elapsed() < Duration::from_secs(60), "{}", recording.health().messages());
+            assert!(
+                began.elapsed() < Duration::from_secs(60),
+                "{}",
+                recording.health().messages()
+            );
             std::thread::sleep(Duration::from_millis(5));
         }
     }
@@ -462,5 +466,8 @@ fn messages_that_did_not_reach_it_are_counted_and_missing_by_their_numbers() {
     bag::open(&path).unwrap().for_each(|read| gaps.observe(&read.unwrap()));
     let found = gaps.found();
     assert_eq!(found.len(), 1, "{found:?}");
-    assert!(found[0].topic.is("twin/bit_state") && found[0].messages == 7, "{found:?}");
+    assert!(
+        found[0].topic.is("twin/bit_state") && found[0].messages == 7,
+        "{found:?}"
+    );
 }

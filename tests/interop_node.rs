@@ -269,7 +269,11 @@ fn types_are_described_to_both_kinds_of_clients() {
             peer.call(service, kind, request)
         }
     };
-    let inputs = ["std_msgs/msg/Float64", "flexdrill/msg/RigInputs", "rosgraph_msgs/msg/Clock"];
+    let inputs = [
+        "std_msgs/msg/Float64",
+        "flexdrill/msg/RigInputs",
+        "rosgraph_msgs/msg/Clock",
+    ];
     let outputs = OUTPUTS.map(|(_, kind, _)| kind);
     for (index, name) in inputs.into_iter().chain(outputs).enumerate() {
         let reply = ask(&mut peer, name, "", index % 2 == 0);
@@ -282,15 +286,27 @@ fn types_are_described_to_both_kinds_of_clients() {
         assert_eq!(length(&reply, "type_sources"), parts, "{name}");
         let own = &reply["type_sources"][0];
         assert_eq!((&own["type_name"], &own["encoding"]), (&json!(name), &json!("msg")));
-        assert_eq!(ask(&mut peer, name, &hash, index % 2 == 1)["successful"], true, "{name}");
+        assert_eq!(
+            ask(&mut peer, name, &hash, index % 2 == 1)["successful"],
+            true,
+            "{name}"
+        );
     }
     let status = ask(&mut peer, STATUS.1, "", false);
     let text = std::fs::read_to_string(common::root().join("msg/TwinStatus.msg")).unwrap();
     assert_eq!(status["type_sources"][0]["raw_file_contents"], text);
     let other = format!("RIHS01_{}", "0".repeat(64));
     for (name, hash, words) in [
-        (STATUS.1, other.as_str(), "the definition that is asked for is another one"),
-        ("flexdrill/msg/Nothing", "", "knows no message type 'flexdrill/msg/Nothing'"),
+        (
+            STATUS.1,
+            other.as_str(),
+            "the definition that is asked for is another one",
+        ),
+        (
+            "flexdrill/msg/Nothing",
+            "",
+            "knows no message type 'flexdrill/msg/Nothing'",
+        ),
     ] {
         let refused = ask(&mut peer, name, hash, true);
         assert_eq!(refused["successful"], false);
@@ -327,7 +343,10 @@ fn replies_that_are_too_long_are_answered_all_the_same() {
         };
         assert_eq!(length(&reply, "descriptors"), 0, "{reply}");
     }
-    assert!(twin.wait_for("was shortened").contains("service /flexdrill/describe_parameters"));
+    assert!(
+        twin.wait_for("was shortened")
+            .contains("service /flexdrill/describe_parameters")
+    );
     // Reasons are cut; which parameters were set stays told.
     let friction = json!({"name": "contact.inner.friction_axial", "value": {"type": 3, "double_value": 0.25}});
     let wrong = json!({"name": format!("nothing.{}", "x".repeat(300)), "value": {"type": 1}});
@@ -343,7 +362,11 @@ fn replies_that_are_too_long_are_answered_all_the_same() {
         let reason = result["reason"].as_str().unwrap();
         assert!(reason.is_empty() == (index == 150) && reason.len() < 300, "{reason}");
     }
-    assert!(began.elapsed() < std::time::Duration::from_secs(5), "{:?}", began.elapsed());
+    assert!(
+        began.elapsed() < std::time::Duration::from_secs(5),
+        "{:?}",
+        began.elapsed()
+    );
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
 }

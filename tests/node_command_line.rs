@@ -156,10 +156,24 @@ fn a_standard_output_that_takes_nothing_is_told_and_ends_no_run() {
     let (log, small) = (log.to_str().unwrap().to_owned(), common::small_config());
     let small = small.to_str().unwrap();
     let replay = |out: &str| -> Vec<String> {
-        let arguments = ["replay", &log, "--config", small, "--from", "60", "--duration", "1", "--out", out];
+        let arguments = [
+            "replay",
+            &log,
+            "--config",
+            small,
+            "--from",
+            "60",
+            "--duration",
+            "1",
+            "--out",
+            out,
+        ];
         arguments.map(str::to_owned).to_vec()
     };
-    let made = Command::new(env!("CARGO_BIN_EXE_flexdrill")).args(replay(&bag)).output().unwrap();
+    let made = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args(replay(&bag))
+        .output()
+        .unwrap();
     assert!(made.status.success());
     let Some(network) = Network::new() else { return };
     let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<String>>();
@@ -173,27 +187,34 @@ fn a_standard_output_that_takes_nothing_is_told_and_ends_no_run() {
         words(&format!("bench --config {small} --duration 1")),
         words("verify --only sliding_mass"),
         words("watch --plain --interval 0.2 --duration 20"),
-        words(&format!("paper --config {small} --turns 1 --no-step-check --out {}", place("paper"))),
+        words(&format!(
+            "paper --config {small} --turns 1 --no-step-check --out {}",
+            place("paper")
+        )),
     ];
     for arguments in commands {
         for out in ["/dev/full", "a closed pipe"] {
             let _ = std::fs::remove_file(&again);
             let _ = std::fs::remove_file(place("other.mcap"));
             let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
-            command.args(&arguments).current_dir(root()).stderr(std::process::Stdio::piped());
-            match out {
-                "/dev/full" => drop(command.stdout(std::fs::File::create(out).unwrap())),
-                _ => {
-                    let (reader, writer) = std::io::pipe().unwrap();
-                    drop(reader);
-                    drop(command.stdout(writer));
-                }
-            }
-            let ended = command.output().unwrap();
+            command
+                .args(&arguments)
+                .current_dir(root())
+                .stderr(std::process::Stdio::piped());
+            let stdout: std::process::Stdio = match out {
+                "/dev/full" => std::fs::File::create(out).unwrap().into(),
+                // The reader goes at once.
+                _ => std::io::pipe().unwrap().1.into(),
+            };
+            let ended = command.stdout(stdout).output().unwrap();
             let said = String::from_utf8_lossy(&ended.stderr).into_owned();
             assert!(!said.contains("panicked"), "{arguments:?} on {out}: {said}");
             let told = out == "/dev/full";
-            assert_eq!(ended.status.code(), Some(i32::from(told)), "{arguments:?} on {out}: {said}");
+            assert_eq!(
+                ended.status.code(),
+                Some(i32::from(told)),
+                "{arguments:?} on {out}: {said}"
+            );
             assert_eq!(
                 said.contains("standard output does not take what is printed: No space left"),
                 told,

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::cli::output::{say, tell};
 use crate::bag;
+use crate::cli::output::{say, tell};
 use crate::told::printable;
 
 /// Make a whole bag of one that was cut short or damaged.

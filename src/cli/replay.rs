@@ -16,8 +16,8 @@ use self::player::Player;
 use super::progress::Progress;
 use super::run::load_config;
 use super::{WrongUse, numbers, source};
-use crate::cli::output::{say, say_text, tell};
 use crate::bag;
+use crate::cli::output::{say, say_text, tell};
 use crate::messages::topics;
 use crate::told::printable;
 

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{WrongUse, numbers, signals};
-use crate::cli::output::say;
 use crate::alarms::state_file;
+use crate::cli::output::say;
 use crate::dds::network::Network;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};

@@ -6,8 +6,8 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 
 use super::WrongUse;
-use crate::cli::output::{tell, tell_text};
 use crate::bag::{self, BagError};
+use crate::cli::output::{tell, tell_text};
 use crate::field_log::{self, Mapping, Position};
 use crate::messages::std_msgs::Float64;
 use crate::messages::{Message, RigInputs, topics};

@@ -157,7 +157,9 @@ impl ServiceServer {
                     continue;
                 }
             };
-            let response = CLIENT.scope(asked.client.clone(), async { handler(request).await }).await;
+            let response = CLIENT
+                .scope(asked.client.clone(), async { handler(request).await })
+                .await;
             self.reply(&asked, dialect, response);
         }
     }

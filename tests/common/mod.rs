@@ -9,6 +9,7 @@
     reason = "a helper of tests fails by panicking"
 )]
 
+mod fast;
 mod network;
 mod peer;
 pub mod program;

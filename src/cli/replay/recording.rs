@@ -8,8 +8,8 @@ use std::path::Path;
 use anyhow::Context as _;
 
 use super::player::Player;
-use crate::cli::output::{say, tell};
 use crate::bag::{self, Bag, BagError, BagMessage, Gap, Gaps};
+use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};

@@ -64,13 +64,7 @@ impl ServiceServer {
     }
 
     /// Hands requests over and sends what comes back, for as long as it is polled.
-    async fn serve(
-        &self,
-        service: u16,
-        mut answers: mpsc::Receiver<Answer>,
-        book: &Mutex<PeerBook>,
-        outlet: &Outlet,
-    ) {
+    async fn serve(&self, service: u16, mut answers: mpsc::Receiver<Answer>, book: &Mutex<PeerBook>, outlet: &Outlet) {
         let mut requests = self.server.receive_request_stream();
         let mut open: BTreeMap<u64, RmwRequestId> = BTreeMap::new();
         let mut known = HashSet::new();

@@ -144,12 +144,7 @@ impl Control {
     ///
     /// # Errors
     /// When the configuration does not make sense with them, they go beyond a hard limit, or the solver takes nothing.
-    pub fn act(
-        &self,
-        candidate: &mut ParameterStore,
-        changed: &[Parameter],
-        asked_by: &str,
-    ) -> Result<(), Refusal> {
+    pub fn act(&self, candidate: &mut ParameterStore, changed: &[Parameter], asked_by: &str) -> Result<(), Refusal> {
         let config = reconfigured(&self.config(), changed)?;
         self.hard_bounds.check(&config)?;
         let config = Arc::new(config);

@@ -443,7 +443,11 @@ mod tests {
         let missed = |receiver: &ToRecord| -> Vec<(&str, u32)> {
             receiver.missed().map(|(topic, count)| (topic.name, count)).collect()
         };
-        let expected = [("rig/rotary_speed_rpm", 5), ("rig/weight_on_bit_kn", 3), ("rig/inputs", 1)];
+        let expected = [
+            ("rig/rotary_speed_rpm", 5),
+            ("rig/weight_on_bit_kn", 3),
+            ("rig/inputs", 1),
+        ];
         assert_eq!(missed(&receiver), expected);
         assert!(missed(&receiver).is_empty(), "told once");
         assert_eq!(std::iter::from_fn(|| receiver.take()).count(), RECEIVED);

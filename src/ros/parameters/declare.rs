@@ -144,7 +144,10 @@ mod tests {
             let store = declare(&Config::from_text("a configuration", text).unwrap(), "", false);
             for name in store.names() {
                 let description = store.describe(name).description;
-                assert!(description.len() > 10 && description != NOT_DESCRIBED, "{name}: {description}");
+                assert!(
+                    description.len() > 10 && description != NOT_DESCRIBED,
+                    "{name}: {description}"
+                );
             }
         }
         let kind = declare(&config(), "", false).describe("tool.joint.kind").description;

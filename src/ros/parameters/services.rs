@@ -107,9 +107,7 @@ impl Parameters {
             let before: Vec<Option<ParameterValue>> = changes.iter().map(|c| store.get(&c.name).cloned()).collect();
             (
                 before,
-                store.set_atomically(changes, |candidate, changed| {
-                    (self.act)(candidate, changed, origin)
-                })?,
+                store.set_atomically(changes, |candidate, changed| (self.act)(candidate, changed, origin))?,
             )
         };
         for (Parameter { name, value }, before) in changed.iter().zip(before) {
