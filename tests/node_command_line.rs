@@ -151,7 +151,7 @@ fn a_rig_drives_the_twin_and_both_end_on_signals() {
 fn a_standard_output_that_takes_nothing_is_told_and_ends_no_run() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (bag, again) = (place("first.mcap"), place("again.mcap"));
+    let (bag, again) = (place("first"), place("again"));
     let log = root().join("config/field_logs/demo.csv");
     let (log, small) = (log.to_str().unwrap().to_owned(), common::small_config());
     let small = small.to_str().unwrap();
@@ -181,7 +181,7 @@ fn a_standard_output_that_takes_nothing_is_told_and_ends_no_run() {
         words("check config/default.yaml"),
         words("check config/default.yaml --full"),
         words(&format!("recover {bag} --out {again}")),
-        replay(&place("other.mcap")),
+        replay(&place("other")),
         words(&format!("run --config {small} --duration 1")),
         words(&format!("rig {log} --from 60 --to 62")),
         words(&format!("bench --config {small} --duration 1")),
@@ -194,8 +194,8 @@ fn a_standard_output_that_takes_nothing_is_told_and_ends_no_run() {
     ];
     for arguments in commands {
         for out in ["/dev/full", "a closed pipe"] {
-            let _ = std::fs::remove_file(&again);
-            let _ = std::fs::remove_file(place("other.mcap"));
+            let _ = std::fs::remove_dir_all(&again);
+            let _ = std::fs::remove_dir_all(place("other"));
             let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
             command
                 .args(&arguments)
@@ -223,12 +223,12 @@ fn a_standard_output_that_takes_nothing_is_told_and_ends_no_run() {
         }
     }
     // Without standard error nobody can be told, and the work is done all the same.
-    let _ = std::fs::remove_file(place("other.mcap"));
+    let _ = std::fs::remove_dir_all(place("other"));
     let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
-    command.args(replay(&place("other.mcap")));
+    command.args(replay(&place("other")));
     let full = || std::fs::File::create("/dev/full").unwrap();
     let ended = command.stdout(full()).stderr(full()).status().unwrap();
     assert_eq!(ended.code(), Some(1));
     let whole = |path: &str| flexdrill::bag::open(path.as_ref()).unwrap().count();
-    assert_eq!(whole(&place("other.mcap")), whole(&bag));
+    assert_eq!(whole(&place("other")), whole(&bag));
 }

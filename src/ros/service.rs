@@ -29,6 +29,11 @@ pub fn client() -> Option<Peer> {
     CLIENT.try_with(Clone::clone).ok()
 }
 
+/// Who asks, to stand behind a line of the log; empty outside of a handler.
+pub fn asked_by() -> String {
+    client().map_or_else(String::new, |client| format!(": asked for by {client}"))
+}
+
 /// Which form of services is served.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ServiceMapping {

@@ -261,7 +261,11 @@ fn frames() {
         FromSide::Request {
             service: 1,
             ticket: 7,
-            client: [3; 16],
+            client: Peer {
+                id: [3; 16],
+                node: Some("/rqt".into()),
+                address: None,
+            },
             body: vec![1; 20],
         },
         FromSide::Beat(Beat {

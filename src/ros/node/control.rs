@@ -16,7 +16,7 @@ use crate::messages::outputs::{self, ParameterChange};
 use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use crate::ros::NodeError;
 use crate::ros::parameters::{ParameterStore, Refusal, Task, reconfigured, refresh_ranges};
-use crate::ros::service::{ServiceMapping, ServiceServer, at_once, shared};
+use crate::ros::service::{ServiceMapping, ServiceServer, asked_by, at_once, shared};
 use flexdrill_config::{Config, HardBounds};
 use flexdrill_core::twin::CheckpointError;
 use flexdrill_realtime::link::{Command, Gauges, RunState, Settings};
@@ -180,7 +180,7 @@ impl Control {
     /// # Errors
     /// When the solver has no room for another command.
     pub fn go_back(&self) -> Result<(), ControlError> {
-        tracing::info!("reset: the model goes back to its state after the start");
+        tracing::info!("reset: the model goes back to its state after the start{}", asked_by());
         self.send(Command::Reset).map(drop)
     }
 
@@ -189,7 +189,7 @@ impl Control {
     /// # Errors
     /// As [`Control::go_back`].
     pub fn pause(&self, pause: bool) -> Result<(), ControlError> {
-        tracing::info!("{}", if pause { "paused" } else { "resumed" });
+        tracing::info!("{}{}", if pause { "paused" } else { "resumed" }, asked_by());
         self.send(Command::Pause(pause)).map(drop)
     }
 
