@@ -32,6 +32,9 @@ pub enum NodeError {
     /// The recording.
     #[error(transparent)]
     Recording(#[from] crate::bag::BagError),
+    /// The live server.
+    #[error(transparent)]
+    Live(#[from] crate::live::LiveError),
     /// A checkpoint that cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]
     Checkpoint {
