@@ -15,6 +15,7 @@ mod server;
 pub use door::Door;
 pub(crate) use door::host_is_ours;
 pub use hub::Hub;
+pub(crate) use player::range;
 pub use player::{Player, Playing, States};
 pub use server::LiveServer;
 pub(crate) use server::{door_to, listen, only_door, serve, start_protocol};

@@ -1,6 +1,7 @@
 //! A bag as a source of live data: played at its own times, faster or slower, paused, and from any place on.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -50,6 +51,18 @@ impl States {
         let before = states.iter().take_while(|(at, ..)| *at <= time);
         before.map(|(at, topic, data)| (*topic, (*at, data.clone()))).collect()
     }
+}
+
+/// First and last time of a bag (ns since 1970).
+///
+/// # Errors
+/// When there is no message in it.
+pub(crate) fn range(bag: &Bag, path: &Path) -> Result<(u64, u64), LiveError> {
+    let time = |time: i64| u64::try_from(time).unwrap_or(0);
+    let (start, end) = bag
+        .bounds()
+        .ok_or_else(|| LiveError::EmptyBag { path: path.to_owned() })?;
+    Ok((time(start), time(end).max(time(start) + 1)))
 }
 
 /// Time of the bag at an instant, and how it goes on from there.

@@ -178,23 +178,33 @@ impl LiveServer {
             came: Notify::new(),
             dropped: AtomicU64::new(0),
         });
-        // Started here, so that what is wrong is known before the node runs.
-        let protocol = runtime.block_on(start_protocol(&shared.hub, None))?;
-        let router = only_door(door_to(&protocol, origins));
         let (end, ended) = oneshot::channel();
-        let given = Arc::clone(&shared);
-        let thread = std::thread::Builder::new().name("live".into()).spawn(move || {
-            let served = runtime.block_on(async {
-                tokio::select! {
+        let (told, started) = std::sync::mpsc::channel();
+        let (given, origins) = (Arc::clone(&shared), origins.to_vec());
+        let work = move || {
+            runtime.block_on(async {
+                let protocol = match start_protocol(&given.hub, None).await {
+                    Ok(protocol) => protocol,
+                    Err(error) => return drop(told.send(Err(error))),
+                };
+                let router = only_door(door_to(&protocol, &origins));
+                // Who waits for it is there.
+                let _ = told.send(Ok(()));
+                let served = tokio::select! {
                     served = serve(listener, router, async { drop(ended.await) }) => served,
                     () = given.hand_over() => Ok(()),
+                };
+                if let Err(error) = served {
+                    tracing::error!("the live server ended: {}", printable(&error.to_string()));
                 }
+                drop(protocol.stop());
             });
-            if let Err(error) = served {
-                tracing::error!("the live server ended: {}", printable(&error.to_string()));
-            }
-            drop(protocol.stop());
-        })?;
+        };
+        let thread = std::thread::Builder::new().name("live".into()).spawn(work)?;
+        // So that what is wrong is known before the node runs. Without an answer the thread has gone.
+        started
+            .recv()
+            .unwrap_or_else(|_| Err(std::io::Error::other("it ended at once").into()))?;
         Ok(Self {
             shared,
             end: Some(end),

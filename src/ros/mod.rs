@@ -1,6 +1,7 @@
 //! The ROS 2 node.
 
 pub mod args;
+pub mod client;
 pub mod lifecycle;
 pub mod loggers;
 pub mod logging;

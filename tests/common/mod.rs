@@ -14,6 +14,7 @@ mod peer;
 pub mod program;
 pub mod python;
 mod skip;
+mod web;
 
 use std::path::{Path, PathBuf};
 
