@@ -101,6 +101,13 @@ impl Stream {
         }
     }
 
+    fn seek(&mut self, time: i64) {
+        match self {
+            Self::Mcap(stream) => stream.seek(time),
+            Self::Sqlite(stream) => stream.seek(time),
+        }
+    }
+
     fn messages(&self) -> Option<u64> {
         match self {
             Self::Mcap(stream) => stream.messages(),
@@ -242,6 +249,16 @@ impl Bag {
                 Stream::Mcap(stream) => stream.set_wanted(flags),
                 Stream::Sqlite(stream) => stream.set_wanted(flags),
             }
+        }
+    }
+
+    /// Goes on with the first message of `time` or later (ns since the clock's epoch), forward or back. Costs no more than
+    /// unpacking the chunks that hold it.
+    pub fn seek(&mut self, time: i64) {
+        for source in &mut self.sources {
+            source.stream.seek(time);
+            source.ahead = None;
+            source.ended = false;
         }
     }
 

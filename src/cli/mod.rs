@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod dashboard;
 mod numbers;
 mod output;
 mod paper;
@@ -39,6 +40,7 @@ enum Command {
     Replay(replay::ReplayArgs),
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
+    Dashboard(dashboard::DashboardArgs),
     Recover(recover::RecoverArgs),
     Verify(verify::VerifyArgs),
     Paper(Box<paper::PaperArgs>),
@@ -79,6 +81,7 @@ pub fn main() -> ExitCode {
         Command::Replay(args) => replay::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
+        Command::Dashboard(args) => dashboard::run(&args),
         Command::Recover(args) => recover::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Paper(args) => paper::run(&args),

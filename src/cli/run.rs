@@ -1,5 +1,6 @@
 //! `flexdrill run`: the node.
 
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -11,7 +12,7 @@ use crate::dds::network::Network;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
-use crate::ros::node::{self, NodeSetup, RunSummary};
+use crate::ros::node::{self, LiveAddress, NodeSetup, RunSummary};
 use crate::ros::parameters;
 use crate::ros::service::ServiceMapping;
 use crate::ros::{DEFAULT_NODE_NAME, logging};
@@ -56,6 +57,13 @@ pub(super) struct RunArgs {
     /// ~/.local/state/flexdrill.
     #[arg(long, value_name = "DIR")]
     state_dir: Option<PathBuf>,
+    /// Also show what is published over WebSocket, to Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Reading
+    /// only: nothing that a viewer sends acts on the twin.
+    #[arg(long, value_name = "ADDRESS:PORT")]
+    foxglove: Option<SocketAddr>,
+    /// Let a viewer from this page in too, as https://viewer.example; pages of this machine and of Foxglove always may.
+    #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
+    allow_origin: Vec<String>,
     /// Start from a state that ~/save_checkpoint has written. A recording of such a run cannot be replayed.
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
@@ -88,6 +96,10 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         remapping: ros_args.remapping.clone(),
         mapping: args.service_mapping,
         record: args.record.clone(),
+        live: args.foxglove.map(|address| LiveAddress {
+            address,
+            origins: args.allow_origin.clone(),
+        }),
         use_sim_time: started.use_sim_time,
         rosout: ros_args.rosout.unwrap_or(true),
         checkpoint: args.checkpoint.clone(),

@@ -1,6 +1,7 @@
 //! The ROS 2 node.
 
 pub mod args;
+pub mod client;
 pub mod lifecycle;
 pub mod loggers;
 pub mod logging;
@@ -34,6 +35,9 @@ pub enum NodeError {
     /// The recording.
     #[error(transparent)]
     Recording(#[from] crate::bag::BagError),
+    /// The live server.
+    #[error(transparent)]
+    Live(#[from] crate::live::LiveError),
     /// A checkpoint that cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]
     Checkpoint {

@@ -15,6 +15,7 @@ mod peer;
 pub mod program;
 pub mod python;
 mod skip;
+mod web;
 
 use std::path::{Path, PathBuf};
 

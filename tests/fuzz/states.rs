@@ -226,6 +226,7 @@ fn frames() {
             topic: "/rig/rotary_speed_rpm".into(),
             dds_type: "std_msgs::msg::dds_::Float64_".into(),
             latched: false,
+            reliable: false,
         }],
         services: vec![ServicePlan {
             name: "/flexdrill/reset".into(),

@@ -200,7 +200,8 @@ fn participant_prefix(participant: &DomainParticipant) -> super::plan::GuidPrefi
     prefix
 }
 
-/// Reads best effort, so that any writer matches; a latched topic reliably and from its newest sample on.
+/// Reads best effort, so that any writer matches, unless the plan says otherwise; a latched topic reliably and from its newest
+/// sample on.
 fn subscribe(
     node: &mut Node,
     participant: &DomainParticipant,
@@ -211,7 +212,7 @@ fn subscribe(
         why,
     };
     let policies = QosPolicyBuilder::new()
-        .reliability(if plan.latched {
+        .reliability(if plan.latched || plan.reliable {
             Reliability::Reliable {
                 max_blocking_time: rustdds::Duration::ZERO,
             }

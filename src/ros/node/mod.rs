@@ -12,6 +12,7 @@ pub mod publishers;
 pub mod rig;
 
 use std::future::Future;
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -31,9 +32,10 @@ use super::args::{NodeIdentity, Remapping};
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
 use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging, type_description};
-use crate::bag::{Recording, RecordingThread};
+use crate::bag::{Recording, RecordingThread, Topic};
 use crate::dds::network::Network;
 use crate::dds::port::PortBuilder;
+use crate::live::{Hub, LiveError, LiveServer};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
@@ -64,6 +66,8 @@ pub struct NodeSetup {
     pub mapping: ServiceMapping,
     /// File to record to.
     pub record: Option<PathBuf>,
+    /// Show what is published live at this address, in Foxglove's protocol.
+    pub live: Option<LiveAddress>,
     /// `/clock` paces the model.
     pub use_sim_time: bool,
     /// Log lines on `/rosout`.
@@ -76,6 +80,15 @@ pub struct NodeSetup {
     pub lifecycle: bool,
     /// Model time after which it ends, or wall time for which model time may stand still (s).
     pub duration: Option<f64>,
+}
+
+/// Where and to whom the node shows what it publishes live.
+#[derive(Debug, Clone)]
+pub struct LiveAddress {
+    /// To listen at.
+    pub address: SocketAddr,
+    /// Pages that may look beside this machine's own, as `https://viewer.example`.
+    pub origins: Vec<String>,
 }
 
 /// What a node's run came to.
@@ -120,6 +133,11 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
             let name = |topic: &TopicInfo| setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned());
             Some(RecordingThread::start(path, name)?)
         }
+        None => None,
+    };
+
+    let live = match &setup.live {
+        Some(at) => Some(start_live(&setup, at)?),
         None => None,
     };
 
@@ -198,7 +216,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     let door = || rig::Door {
         rig: rig_inputs.clone(),
         dds: port.monitor(),
-        record: recording.is_some().then(|| for_recording.clone()),
+        record: (recording.is_some() || live.is_some()).then(|| for_recording.clone()),
     };
     for (kind, samples) in plain {
         tasks.spawn(rig::receive_plain(door(), kind, samples));
@@ -212,6 +230,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         end: publisher_end,
         publishers,
         recording,
+        live,
         received,
         changes,
         config: Arc::clone(&config),
@@ -286,6 +305,19 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     };
     outcome?;
     Ok(RunSummary { status, recording })
+}
+
+fn start_live(setup: &NodeSetup, at: &LiveAddress) -> Result<LiveServer, NodeError> {
+    // Names were checked when the publishers were made.
+    let name = |topic: &TopicInfo| setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned());
+    let offered: Vec<Topic> = topics::ALL
+        .iter()
+        .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
+        .collect();
+    let hub = Hub::new(&offered).map_err(LiveError::from)?;
+    let live = LiveServer::start("--foxglove", at.address, hub, &at.origins)?;
+    tracing::info!("live at ws://{} for Foxglove and Lichtblick", live.address());
+    Ok(live)
 }
 
 fn build(config: &Config, checkpoint: Option<&[u8]>) -> Result<Run, BuildError> {

@@ -1,0 +1,1 @@
+// no page in this build
