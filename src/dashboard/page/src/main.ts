@@ -19,7 +19,8 @@ import { TimeLine } from "./views/timeline";
 /** How often the server is asked for what it did not know yet (ms). */
 const ASK = 1000;
 
-/** The hour and the journal are asked for once per connection. */
+/** Session, hour and journal are asked for anew with every connection: the server may be another one. */
+let sessionTaken = false;
 let historyTaken = false;
 let journalTaken = false;
 
@@ -120,8 +121,10 @@ async function ask(): Promise<void> {
   if (store.connected) {
     const { session } = store;
     const changed = session?.config_hash !== undefined && store.status?.config_hash !== session.config_hash;
-    if (!session || !session.limits || !session.tool || changed || (session.bag && !session.bag.ready)) {
-      store.session = (await api.session()) ?? store.session;
+    if (!sessionTaken || !session?.limits || !session.tool || changed || (session.bag && !session.bag.ready)) {
+      const answer = await api.session();
+      sessionTaken = answer !== null;
+      store.session = answer ?? session;
     }
     if (!historyTaken && store.layout) {
       const history = await api.history();
@@ -146,7 +149,7 @@ const connect = () => {
   store.connection = new Connection(`${scheme}://${location.host}/live`, TOPICS, {
     onConnected(connected) {
       store.connected = connected;
-      if (!connected) historyTaken = journalTaken = false;
+      if (!connected) sessionTaken = historyTaken = journalTaken = false;
     },
     onMessage: (topic, schema, _time, data) => store.take(topic, schema, data),
     onPlayback: (playback) => store.takePlayback(playback),

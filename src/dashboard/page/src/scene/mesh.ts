@@ -1,136 +1,151 @@
-// Tubes and arrows as triangles: position and normal, six numbers a vertex.
+// Tubes, collars and arrows as triangles: vertices of position and normal, six numbers each, and their indices. Corners
+// are shared, since a machine without graphics hardware pays for each of them.
 
 import { cross, normalise, type Vec3 } from "./matrix";
 
-/** Sides of a tube. */
+/** Sides of a tube and of an arrow. */
 const SIDES = 16;
-const SIDES_OF_ARROW = 6;
+const SIDES_OF_ARROW = 5;
+
+const circle = (sides: number): [number, number][] =>
+  Array.from({ length: sides + 1 }, (_, side) => {
+    const angle = (2 * Math.PI * side) / sides;
+    return [Math.cos(angle), Math.sin(angle)];
+  });
+const ROUND = circle(SIDES);
+const ROUND_ARROW = circle(SIDES_OF_ARROW);
 
 /** Triangles that grow as they are needed and are filled anew for each picture. */
 export class Mesh {
-  data = new Float32Array(6 * 1024);
-  count = 0;
+  vertices = new Float32Array(6 * 512);
+  indices = new Uint32Array(1024);
+  vertexCount = 0;
+  indexCount = 0;
 
   clear(): void {
-    this.count = 0;
+    this.vertexCount = 0;
+    this.indexCount = 0;
   }
 
   private vertex(x: number, y: number, z: number, nx: number, ny: number, nz: number): void {
-    const at = 6 * this.count++;
-    if (at + 6 > this.data.length) {
-      const larger = new Float32Array(2 * this.data.length);
-      larger.set(this.data);
-      this.data = larger;
+    const at = 6 * this.vertexCount++;
+    if (at + 6 > this.vertices.length) {
+      const larger = new Float32Array(2 * this.vertices.length);
+      larger.set(this.vertices);
+      this.vertices = larger;
     }
-    this.data[at] = x;
-    this.data[at + 1] = y;
-    this.data[at + 2] = z;
-    this.data[at + 3] = nx;
-    this.data[at + 4] = ny;
-    this.data[at + 5] = nz;
+    const out = this.vertices;
+    out[at] = x;
+    out[at + 1] = y;
+    out[at + 2] = z;
+    out[at + 3] = nx;
+    out[at + 4] = ny;
+    out[at + 5] = nz;
+  }
+
+  private triangle(a: number, b: number, c: number): void {
+    const at = this.indexCount;
+    if (at + 3 > this.indices.length) {
+      const larger = new Uint32Array(2 * this.indices.length);
+      larger.set(this.indices);
+      this.indices = larger;
+    }
+    this.indices[at] = a;
+    this.indices[at + 1] = b;
+    this.indices[at + 2] = c;
+    this.indexCount += 3;
+  }
+
+  /** Joins two rings of vertices that begin at `a` and `b`. */
+  private join(a: number, b: number, sides: number): void {
+    for (let side = 0; side < sides; side++) {
+      this.triangle(a + side, b + side, a + side + 1);
+      this.triangle(a + side + 1, b + side, b + side + 1);
+    }
   }
 
   /** A tube along `points` (x, y, z each) with a radius; `across` and `low` span the plane across it at each point. */
-  tube(points: Float32Array, across: Float32Array, low: Float32Array, radius: number, from = 0, to = -1): void {
-    const end = to < 0 ? points.length / 3 - 1 : to;
-    for (let index = from; index < end; index++) {
-      for (let side = 0; side < SIDES; side++) {
-        const corners = [
-          [index, side],
-          [index + 1, side],
-          [index, side + 1],
-          [index, side + 1],
-          [index + 1, side],
-          [index + 1, side + 1],
-        ];
-        for (const [at, turn] of corners) this.onTube(points, across, low, radius, at, turn);
+  tube(points: Float32Array, across: Float32Array, low: Float32Array, radius: number): void {
+    const first = this.vertexCount;
+    const count = points.length / 3;
+    for (let index = 0; index < count; index++) {
+      const at = 3 * index;
+      for (const [cos, sin] of ROUND) {
+        const nx = cos * across[at] + sin * low[at];
+        const ny = cos * across[at + 1] + sin * low[at + 1];
+        const nz = cos * across[at + 2] + sin * low[at + 2];
+        this.vertex(points[at] + radius * nx, points[at + 1] + radius * ny, points[at + 2] + radius * nz, nx, ny, nz);
       }
     }
+    const ring = SIDES + 1;
+    for (let index = 0; index + 1 < count; index++) this.join(first + index * ring, first + (index + 1) * ring, SIDES);
   }
 
-  private onTube(
-    points: Float32Array,
-    across: Float32Array,
-    low: Float32Array,
+  /** A ring of vertices about a point, across `axis`; normals point outward, or along `facing` where it is given. */
+  private ring(
+    centre: Vec3,
+    side: Vec3,
+    other: Vec3,
     radius: number,
-    index: number,
-    side: number,
-  ): void {
-    const angle = (2 * Math.PI * side) / SIDES;
-    const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-    const at = 3 * index;
-    const nx = cos * across[at] + sin * low[at];
-    const ny = cos * across[at + 1] + sin * low[at + 1];
-    const nz = cos * across[at + 2] + sin * low[at + 2];
-    this.vertex(points[at] + radius * nx, points[at + 1] + radius * ny, points[at + 2] + radius * nz, nx, ny, nz);
+    round: [number, number][],
+    facing: Vec3 | null,
+  ): number {
+    const first = this.vertexCount;
+    for (const [cos, sin] of round) {
+      const nx = cos * side[0] + sin * other[0];
+      const ny = cos * side[1] + sin * other[1];
+      const nz = cos * side[2] + sin * other[2];
+      const [fx, fy, fz] = facing ?? [nx, ny, nz];
+      this.vertex(centre[0] + radius * nx, centre[1] + radius * ny, centre[2] + radius * nz, fx, fy, fz);
+    }
+    return first;
   }
 
   /** A short thick piece of tube about a point, along `axis`. */
   collar(centre: Vec3, axis: Vec3, radius: number, length: number): void {
-    const side = normalise(cross(axis, Math.abs(axis[1]) > 0.9 ? [1, 0, 0] : [0, 1, 0]));
-    const other = cross(axis, side);
-    const half = length / 2;
-    const rim = (turn: number, end: number): [Vec3, Vec3] => {
-      const angle = (2 * Math.PI * turn) / SIDES;
-      const normal = [0, 1, 2].map((k) => Math.cos(angle) * side[k] + Math.sin(angle) * other[k]) as Vec3;
-      return [[0, 1, 2].map((k) => centre[k] + radius * normal[k] + end * axis[k]) as Vec3, normal];
-    };
-    for (let turn = 0; turn < SIDES; turn++) {
-      const wall: [number, number][] = [
-        [turn, -half],
-        [turn + 1, -half],
-        [turn, half],
-        [turn, half],
-        [turn + 1, -half],
-        [turn + 1, half],
-      ];
-      for (const [at, end] of wall) {
-        const [p, n] = rim(at, end);
-        this.vertex(...p, ...n);
-      }
-      for (const end of [-half, half]) {
-        const facing = (end > 0 ? axis : axis.map((value) => -value)) as Vec3;
-        this.vertex(...(centre.map((value, k) => value + end * axis[k]) as Vec3), ...facing);
-        const order = end > 0 ? [turn, turn + 1] : [turn + 1, turn];
-        for (const at of order) this.vertex(...rim(at, end)[0], ...facing);
+    const [side, other] = plane(axis);
+    const upper = along(centre, axis, -length / 2);
+    const lower = along(centre, axis, length / 2);
+    const a = this.ring(upper, side, other, radius, ROUND, null);
+    const b = this.ring(lower, side, other, radius, ROUND, null);
+    this.join(a, b, SIDES);
+    const back: Vec3 = [-axis[0], -axis[1], -axis[2]];
+    for (const [at, facing] of [
+      [upper, back],
+      [lower, axis],
+    ] as const) {
+      const middle = this.vertexCount;
+      this.vertex(...at, ...facing);
+      const rim = this.ring(at, side, other, radius, ROUND, facing);
+      for (let turn = 0; turn < SIDES; turn++) {
+        if (facing === axis) this.triangle(middle, rim + turn, rim + turn + 1);
+        else this.triangle(middle, rim + turn + 1, rim + turn);
       }
     }
   }
 
   /** An arrow from `tail` to `tip`. */
   arrow(tail: Vec3, tip: Vec3, width: number): void {
-    const axis = normalise([tip[0] - tail[0], tip[1] - tail[1], tip[2] - tail[2]]);
-    const length = Math.hypot(tip[0] - tail[0], tip[1] - tail[1], tip[2] - tail[2]);
-    const head = Math.min(length, 5 * width);
-    const side = normalise(cross(axis, Math.abs(axis[1]) > 0.9 ? [1, 0, 0] : [0, 1, 0]));
-    const other = cross(axis, side);
-    const ring = (turn: number, along: number, radius: number): [Vec3, Vec3] => {
-      const angle = (2 * Math.PI * turn) / SIDES_OF_ARROW;
-      const normal = [0, 1, 2].map((k) => Math.cos(angle) * side[k] + Math.sin(angle) * other[k]) as Vec3;
-      return [[0, 1, 2].map((k) => tail[k] + along * axis[k] + radius * normal[k]) as Vec3, normal];
-    };
-    const neck = length - head;
-    for (let turn = 0; turn < SIDES_OF_ARROW; turn++) {
-      const quad: [number, number][] = [
-        [turn, 0],
-        [turn + 1, 0],
-        [turn, neck],
-        [turn, neck],
-        [turn + 1, 0],
-        [turn + 1, neck],
-      ];
-      for (const [at, along] of quad) {
-        const [p, n] = ring(at, along, width / 2);
-        this.vertex(...p, ...n);
-      }
-      for (const [at, along, radius] of [
-        [turn, neck, 1.6 * width],
-        [turn + 1, neck, 1.6 * width],
-        [turn, length, 0],
-      ] as const) {
-        const [p, n] = ring(at, along, radius);
-        this.vertex(...p, ...n);
-      }
-    }
+    const span: Vec3 = [tip[0] - tail[0], tip[1] - tail[1], tip[2] - tail[2]];
+    const axis = normalise(span);
+    const length = Math.hypot(...span);
+    const neck = along(tail, axis, length - Math.min(length, 5 * width));
+    const [side, other] = plane(axis);
+    const a = this.ring(tail, side, other, width / 2, ROUND_ARROW, null);
+    const b = this.ring(neck, side, other, width / 2, ROUND_ARROW, null);
+    this.join(a, b, SIDES_OF_ARROW);
+    const rim = this.ring(neck, side, other, 1.6 * width, ROUND_ARROW, null);
+    const point = this.ring(tip, side, other, 0, ROUND_ARROW, null);
+    this.join(rim, point, SIDES_OF_ARROW);
   }
+}
+
+/** Two directions across an axis. */
+function plane(axis: Vec3): [Vec3, Vec3] {
+  const side = normalise(cross(axis, Math.abs(axis[1]) > 0.9 ? [1, 0, 0] : [0, 1, 0]));
+  return [side, cross(axis, side)];
+}
+
+function along(point: Vec3, axis: Vec3, by: number): Vec3 {
+  return [point[0] + by * axis[0], point[1] + by * axis[1], point[2] + by * axis[2]];
 }

@@ -38,11 +38,14 @@ export class Renderer {
   readonly gl: WebGL2RenderingContext;
   private readonly program: WebGLProgram;
   private readonly uniforms: Record<"matrix" | "eye" | "colour" | "rim", WebGLUniformLocation | null>;
-  private readonly buffers = new Map<Mesh, { array: WebGLVertexArrayObject; buffer: WebGLBuffer; bytes: number }>();
+  private readonly buffers = new Map<
+    Mesh,
+    { array: WebGLVertexArrayObject; vertices: WebGLBuffer; indices: WebGLBuffer; vertexBytes: number; indexBytes: number }
+  >();
 
   /** Throws when the browser has no WebGL2. */
   constructor(canvas: HTMLCanvasElement) {
-    const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "low-power" });
+    const gl = canvas.getContext("webgl2", { antialias: !drawnBySoftware(), alpha: false, powerPreference: "low-power" });
     if (!gl) throw new Error("this browser has no WebGL2");
     this.gl = gl;
     this.program = link(gl);
@@ -70,30 +73,38 @@ export class Renderer {
     let entry = this.buffers.get(mesh);
     if (!entry) {
       const array = gl.createVertexArray();
-      const buffer = gl.createBuffer();
-      if (!array || !buffer) return;
-      entry = { array, buffer, bytes: 0 };
+      const vertices = gl.createBuffer();
+      const indices = gl.createBuffer();
+      if (!array || !vertices || !indices) return;
+      entry = { array, vertices, indices, vertexBytes: 0, indexBytes: 0 };
       this.buffers.set(mesh, entry);
       gl.bindVertexArray(array);
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
       gl.enableVertexAttribArray(0);
       gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 24, 0);
       gl.enableVertexAttribArray(1);
       gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 24, 12);
     }
-    gl.bindBuffer(gl.ARRAY_BUFFER, entry.buffer);
-    if (entry.bytes < mesh.data.byteLength) {
-      gl.bufferData(gl.ARRAY_BUFFER, mesh.data.byteLength, gl.DYNAMIC_DRAW);
-      entry.bytes = mesh.data.byteLength;
+    gl.bindVertexArray(entry.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, entry.vertices);
+    if (entry.vertexBytes < mesh.vertices.byteLength) {
+      gl.bufferData(gl.ARRAY_BUFFER, mesh.vertices.byteLength, gl.DYNAMIC_DRAW);
+      entry.vertexBytes = mesh.vertices.byteLength;
     }
-    gl.bufferSubData(gl.ARRAY_BUFFER, 0, mesh.data, 0, 6 * mesh.count);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, mesh.vertices, 0, 6 * mesh.vertexCount);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, entry.indices);
+    if (entry.indexBytes < mesh.indices.byteLength) {
+      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.indices.byteLength, gl.DYNAMIC_DRAW);
+      entry.indexBytes = mesh.indices.byteLength;
+    }
+    gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, 0, mesh.indices, 0, mesh.indexCount);
   }
 
   /** Draws a mesh in one colour; a translucent one leaves the depth as it is. `rim` makes edges less translucent. */
   draw(mesh: Mesh, colour: readonly [number, number, number], alpha: number, faces: Faces = "all", rim = 0): void {
     const { gl } = this;
     const entry = this.buffers.get(mesh);
-    if (!entry || mesh.count === 0) return;
+    if (!entry || mesh.indexCount === 0) return;
     gl.uniform4f(this.uniforms.colour, ...colour, alpha);
     gl.uniform1f(this.uniforms.rim, rim);
     gl.depthMask(alpha >= 1);
@@ -103,8 +114,18 @@ export class Renderer {
       gl.cullFace(faces === "back" ? gl.BACK : gl.FRONT);
     }
     gl.bindVertexArray(entry.array);
-    gl.drawArrays(gl.TRIANGLES, 0, mesh.count);
+    gl.drawElements(gl.TRIANGLES, mesh.indexCount, gl.UNSIGNED_INT, 0);
   }
+}
+
+/** Whether pictures are drawn by the processor: smoothing of edges then costs as much as all the rest. */
+function drawnBySoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) return false;
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
 function link(gl: WebGL2RenderingContext): WebGLProgram {

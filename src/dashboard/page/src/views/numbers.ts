@@ -185,14 +185,12 @@ export class Numbers implements View {
         read: (moment) => {
           const moments = moment.layout.vector(moment.row, "joint_stop_moment");
           const most = moments.reduce((a, b) => Math.max(a, b), 0);
-          const rated = setting("joint_load.rated_moment_nm");
           const limit = store.geometry?.jointLimit ?? NaN;
           return {
             value: number(at(moment, "joints_at_limit"), 0),
             note:
-              `bend ${withUnit(at(moment, "max_bend_angle"), "angle", system())} of ${withUnit(limit, "angle", system())}` +
-              ` · stop ${withUnit(most, "torque", system())}` +
-              (Number.isFinite(rated) ? `, rated ${digits(rated, "torque", system())}` : ""),
+              `bend ${withUnit(at(moment, "max_bend_angle"), "angle", system())} / ${withUnit(limit, "angle", system())}` +
+              ` · stop's peak ${withUnit(most, "torque", system())}`,
             level: 0,
           };
         },
@@ -212,7 +210,7 @@ export class Numbers implements View {
           const late = Number.isFinite(lateness) ? `behind ${number(lateness * 1e3, 1)} ms · ` : "";
           return {
             value: number(factor, 2),
-            note: `${late}of real time · limits 0.98, 0.90`,
+            note: `${late}limits 0.98, 0.90`,
             level: factor < 0.9 ? 2 : factor < 0.98 ? 1 : 0,
           };
         },

@@ -72,11 +72,11 @@ export function drawOrbit(
   pencil.fillStyle = palette.muted;
   pencil.font = "11px system-ui, sans-serif";
   pencil.textAlign = "center";
-  pencil.fillText("high side", cx, 11);
+  pencil.fillText("high side", cx - 14, 11);
   pencil.fillText("low side", cx, height - 4);
   pencil.textAlign = "right";
   const unit = quantity("gap", settings.units).unit;
-  pencil.fillText(`± ${digits(reach, "gap", settings.units)} ${unit}`, width - 4, height - 4);
+  pencil.fillText(`± ${digits(reach, "gap", settings.units)} ${unit}`, width - 4, 11);
 }
 
 /** Full spectrum: backward to the left, forward to the right; marks at multiples of the tool's speed. */
@@ -124,14 +124,14 @@ export function drawSpectrum(
         pencil.fillRect(x(lines.frequency[index]) - wide / 2, floor - tall, wide, tall);
       }
       pencil.fillStyle = palette.muted;
-      pencil.textAlign = "right";
+      pencil.textAlign = "center";
       const unit = quantity("gap", settings.units).unit;
-      pencil.fillText(`highest ${digits(top, "gap", settings.units)} ${unit}`, width - 4, 11);
+      pencil.fillText(`highest ${digits(top, "gap", settings.units)} ${unit}`, width / 2, 11);
     }
   }
   pencil.fillStyle = palette.ink;
   pencil.textAlign = "left";
   pencil.fillText("◂ backward", 4, 11);
-  pencil.textAlign = "center";
-  pencil.fillText("forward ▸", width / 2 + 44, 11);
+  pencil.textAlign = "right";
+  pencil.fillText("forward ▸", width - 4, 11);
 }

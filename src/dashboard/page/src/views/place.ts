@@ -58,7 +58,7 @@ export class PlaceView implements View {
       () => [rated()].filter(Number.isFinite),
       () => convert(10, "torque", units()),
     );
-    const go = (by: number) => h("button", { type: "button", onclick: () => this.step(by) }, by < 0 ? "◂ joint" : "joint ▸");
+    const go = (by: number) => h("button", { type: "button", "aria-label": by < 0 ? "joint above" : "joint below", onclick: () => this.step(by) }, by < 0 ? "◂" : "▸");
     this.body = h(
       "div",
       { class: "place-body" },

@@ -185,7 +185,9 @@ export class Scene implements View {
     show(this.trouble, renderer === null);
     if (!moment || !geometry || !renderer || canvas.clientWidth === 0) return;
     const { width, height } = fit(canvas, 1.5);
-    const key = `${store.shapeRevision} ${moment.time} ${context.revision} ${store.cursor} ${width}x${height}`;
+    // The picture changes with the shape, ten times a second; what else it shows comes along.
+    const past = store.cursor === null ? "" : moment.time;
+    const key = `${store.shapeRevision} ${past} ${context.revision} ${width}x${height}`;
     if (key === this.drawnKey && !this.moved) return;
     const framing = `${geometry.stationDepth.length} ${geometry.stationDepth.at(-1)} ${width}x${height}`;
     if (framing !== this.framed) {
@@ -210,7 +212,7 @@ export class Scene implements View {
     const [ink, muted, trace] = [palette.ink, palette.muted, palette.trace].map(channels);
     const pipe = theme === "day" ? ([0.42, 0.45, 0.48] as const) : ([0.72, 0.75, 0.78] as const);
     const guide = theme === "day" ? ([0.62, 0.66, 0.7] as const) : ([0.42, 0.47, 0.52] as const);
-    const bore = theme === "day" ? ([0.78, 0.75, 0.7] as const) : ([0.2, 0.19, 0.18] as const);
+    const bore = theme === "day" ? ([0.78, 0.75, 0.7] as const) : ([0.36, 0.34, 0.31] as const);
     renderer.begin(this.matrix, this.camera.eye, channels(palette.well));
     renderer.draw(meshes.bore, bore, 1, "back");
     renderer.draw(meshes.guide, guide, 0.35, "back");
@@ -261,7 +263,7 @@ export class Scene implements View {
       this.legend,
       `Clearances ×${number(settings.exaggeration, 0)}. Arrows: largest force of the last second on the pipe (blue) and ` +
         `on the guide (${this.context.theme === "day" ? "black" : "white"}), longest ${scale}. ` +
-        `Thick dark collars: joints at their stop. Rings: backward or chaotic whirl.`,
+        `Thick collars: joints at their stop. Rings: backward or chaotic whirl.`,
     );
   }
 }
