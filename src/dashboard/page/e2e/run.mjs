@@ -1,7 +1,7 @@
 // The page in headless Chromium against running programs: a twin, a rig that plays a log into it, the server.
 //
-// `node e2e/run.mjs --flexdrill FILE [--shots FOLDER]`, in a network of its own (launch_scripts/page_test.sh makes one).
-// Every step has a bound; what was started is stopped; the last line sums up.
+// `node e2e/run.mjs --flexdrill FILE [--shots FOLDER] [--dist FOLDER]`, in a network of its own (launch_scripts/page_test.sh makes one).
+// With --dist the page comes from that folder instead of out of the program. Every step has a bound; what was started is stopped; the last line sums up.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, openSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -85,10 +85,25 @@ const server = (...more) => start("server", "dashboard", "--listen", `127.0.0.1:
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
   // As on a machine without graphics hardware: the processor draws everything.
-  args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"],
+  // A page that was put in place of the server's own counts as from elsewhere: it may not reach this machine without
+  // the last one.
+  args: [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--enable-unsafe-swiftshader",
+    ...(option("dist", "") === "" ? [] : ["--disable-features=LocalNetworkAccessChecks"]),
+  ],
 });
 const page = await browser.newPage({ viewport: { width: 1920, height: 1080 } });
 page.setDefaultTimeout(30_000);
+const dist = option("dist", "");
+if (dist !== "") {
+  const pieces = { "/": "index.html", "/page.js": "page.js", "/page.css": "page.css" };
+  await page.route("**/*", (route) => {
+    const piece = pieces[new URL(route.request().url()).pathname];
+    return piece ? route.fulfill({ path: join(dist, piece) }) : route.continue();
+  });
+}
 const troubles = [];
 page.on("pageerror", (error) => troubles.push(String(error)));
 
@@ -235,13 +250,13 @@ try {
     const box = await page.locator("#timeline").boundingBox();
     await page.mouse.move(box.x + box.width - 4, box.y + 20);
     await page.mouse.down();
-    await page.mouse.move(box.x + box.width * 0.95, box.y + 20, { steps: 5 });
+    await page.mouse.move(box.x + box.width * 0.985, box.y + 20, { steps: 5 });
     await page.mouse.up();
     await until("a past time", 5, async () => / ago$/.test(await page.textContent("#shown-time")));
     assert.ok(await page.evaluate(() => document.body.classList.contains("past")));
     const before = await page.evaluate(() => window.flexdrill.store.moment().time);
     await page.focus("#timeline");
-    await page.keyboard.press("Shift+ArrowLeft");
+    for (let second = 0; second < 3; second++) await page.keyboard.press("ArrowLeft");
     const after = await page.evaluate(() => window.flexdrill.store.moment().time);
     assert.ok(after < before, `${after} is before ${before}`);
     await shot("past");

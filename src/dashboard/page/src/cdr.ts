@@ -29,8 +29,8 @@ export class CdrReader {
    * its newer fields, which are then zero or empty.
    */
   private next(size: number, count = 1): number {
-    if (this.position >= this.buffer.byteLength) return -1;
     const at = Math.ceil(this.position / size) * size;
+    if (at >= this.buffer.byteLength) return -1;
     const end = at + size * count;
     if (end > this.buffer.byteLength) {
       throw new Error(`message ends at byte ${this.buffer.byteLength}, a field needs ${end}`);

@@ -133,7 +133,11 @@ export class Alarms implements View {
     const quiet = (alarms ?? []).filter((alarm) => !calls(alarm));
     // The button that has the keyboard keeps it.
     const focused = (document.activeElement as HTMLElement | null)?.dataset.key;
-    const empty = alarms ? "No alarm. Nothing to do." : "What stood at this time is not known; the journal below goes on.";
+    const unknown =
+      this.context.store.cursor === null
+        ? "Nothing heard of the alarms yet."
+        : "What stood at this time is not known; the journal below goes on.";
+    const empty = alarms ? "No alarm. Nothing to do." : unknown;
     this.list.replaceChildren(
       ...(loud.length > 0 ? loud.map((alarm) => this.entry(alarm, allowed)) : [h("li", { class: "calm" }, empty)]),
     );

@@ -182,8 +182,11 @@ export class Scene implements View {
     const { store, settings, place } = context;
     const moment = store.moment();
     const geometry = store.geometry;
-    show(this.trouble, renderer === null);
-    if (!moment || !geometry || !renderer || canvas.clientWidth === 0) return;
+    const known = moment !== null && geometry !== null;
+    if (renderer) setText(this.trouble, known ? "" : "Nothing heard of a tool yet.");
+    show(this.canvas, known);
+    show(this.legend, known);
+    if (!known || !renderer || canvas.clientWidth === 0) return;
     const { width, height } = fit(canvas, 1.5);
     // The picture changes with the shape, ten times a second; what else it shows comes along.
     const past = store.cursor === null ? "" : moment.time;
