@@ -60,7 +60,9 @@ export class HeatMap implements View {
     if (!layout || !geometry || this.canvas.clientWidth === 0) return;
     const [from, to] = context.range;
     const size = fit(this.canvas);
-    const key = `${store.hourRevision} ${from.toFixed(1)} ${to.toFixed(1)} ${store.cursor} ${context.revision} ${size.width}x${size.height}`;
+    const shown = store.isBag ? Math.floor(2 * store.now) : store.cursor;
+    const range = `${from.toFixed(0)} ${to.toFixed(0)}`;
+    const key = `${store.hourRevision} ${range} ${shown} ${context.revision} ${size.width}x${size.height}`;
     if (key === this.drawn || !(to > from)) return;
     this.drawn = key;
     this.fill(from, to);

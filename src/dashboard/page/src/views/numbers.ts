@@ -236,7 +236,8 @@ export class Numbers implements View {
       setText(fields.age, store.isBag || !moment?.live ? "" : old ? `OLD ${lapse(age)}` : age < 1 ? "" : lapse(age));
     }
     const [from, to] = context.range;
-    const key = `${store.hourRevision} ${from} ${Math.floor(to)} ${store.cursor} ${context.revision}`;
+    const shown = store.isBag ? Math.floor(2 * store.now) : store.cursor;
+    const key = `${store.hourRevision} ${Math.floor(from)} ${Math.floor(to)} ${shown} ${context.revision}`;
     if (key === this.drawn || !moment) return;
     this.drawn = key;
     this.drawStrips(moment.layout, from, to);

@@ -5,7 +5,7 @@ import { Camera, project, type Vec3 } from "../scene/matrix";
 import { Renderer } from "../scene/renderer";
 import { ToolMeshes } from "../scene/tool";
 import { channels } from "../theme";
-import { number, withUnit } from "../units";
+import { clock, lapse, number, withUnit } from "../units";
 import { PRIORITY_SHAPE } from "../words";
 import type { Context, View } from "../view";
 
@@ -25,6 +25,7 @@ export class Scene implements View {
   });
   private readonly overlay = h("div", { class: "overlay", "aria-hidden": "true" });
   private readonly legend = h("p", { class: "legend" });
+  private readonly past = h("p", { class: "past-mark" });
   private readonly trouble = h("p", { class: "trouble" });
   private readonly camera = new Camera();
   private readonly meshes = new ToolMeshes();
@@ -57,6 +58,7 @@ export class Scene implements View {
       this.canvas,
       this.overlay,
       this.trouble,
+      this.past,
       h("div", { class: "scene-tools" }, h("label", {}, "clearances ", slider, output), all),
       this.legend,
     );
@@ -182,6 +184,8 @@ export class Scene implements View {
     const { store, settings, place } = context;
     const moment = store.moment();
     const geometry = store.geometry;
+    show(this.past, store.cursor !== null);
+    if (store.cursor !== null) setText(this.past, `PAST: ${clock(store.cursor)}, ${lapse(store.now - store.cursor)} ago`);
     const known = moment !== null && geometry !== null;
     if (renderer) setText(this.trouble, known ? "" : "Nothing heard of a tool yet.");
     show(this.canvas, known);
