@@ -11,6 +11,7 @@
 //!   logs. [`health`]: what is said of the node's state.
 //! - [`rig_inputs`]: who sends the rig's inputs, when they were measured, and what is refused.
 //! - [`alarms`]: what the motion and the node's state mean for an operator.
+//! - [`report`]: a recording as one page.
 //! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
 //! - [`told`]: text of others that is shown and not run, and log lines that do not flood.
 //!
@@ -24,6 +25,7 @@ pub mod dds;
 pub mod field_log;
 pub mod health;
 pub mod messages;
+pub mod report;
 pub mod rig_inputs;
 pub mod ros;
 pub mod told;

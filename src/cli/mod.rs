@@ -7,6 +7,7 @@ mod paper;
 mod progress;
 mod recover;
 mod replay;
+mod report;
 mod rig;
 mod run;
 mod signals;
@@ -35,6 +36,7 @@ enum Command {
     Run(run::RunArgs),
     Rig(rig::RigArgs),
     Replay(replay::ReplayArgs),
+    Report(report::ReportArgs),
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
     Recover(recover::RecoverArgs),
@@ -75,6 +77,7 @@ pub fn main() -> ExitCode {
         Command::Rig(args) => rig::run(&args, &ros_args),
         _ if !ros_args.is_empty() => Err(WrongUse::new("only `run` and `rig` take --ros-args").into()),
         Command::Replay(args) => replay::run(&args),
+        Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
         Command::Recover(args) => recover::run(&args),
