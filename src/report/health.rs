@@ -1,9 +1,12 @@
 //! How the twin itself fared: pace, model, recording.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::history::History;
 use crate::messages::TwinStatus;
+
+/// Most publishers of an input that are named.
+const DRIVERS: usize = 8;
 
 /// What the status messages say.
 #[derive(Debug, Default)]
@@ -19,6 +22,8 @@ pub(super) struct Health {
     pub quality_cause: String,
     /// Messages by the state of each input.
     pub inputs: BTreeMap<String, BTreeMap<u8, u64>>,
+    /// Publishers that drove each input.
+    pub drivers: BTreeMap<String, BTreeSet<String>>,
     /// Messages by state of the twin.
     pub states: BTreeMap<u8, u64>,
     /// Longest time between two heartbeats (s), and when (s from the beginning).
@@ -40,6 +45,12 @@ impl Health {
         }
         for (name, state) in status.input_name.iter().zip(&status.input_state) {
             *self.inputs.entry(name.clone()).or_default().entry(*state).or_default() += 1;
+        }
+        for (name, driver) in status.input_name.iter().zip(&status.input_driver) {
+            let drivers = self.drivers.entry(name.clone()).or_default();
+            if !driver.is_empty() && drivers.len() < DRIVERS {
+                drivers.insert(driver.clone());
+            }
         }
         *self.states.entry(status.state).or_default() += 1;
         if let Some(last) = self.last_time.filter(|last| time - last > self.longest_silence.0) {

@@ -118,11 +118,16 @@ mod tests {
     /// Words of an enumeration in the schema.
     fn words(schema: &Value) -> Vec<String> {
         let each = schema["oneOf"].as_array().map(Vec::as_slice).unwrap_or_default();
-        each.iter().map(|word| word["const"].as_str().unwrap().to_owned()).collect()
+        each.iter()
+            .map(|word| word["const"].as_str().unwrap().to_owned())
+            .collect()
     }
 
     fn holds<Schema: JsonSchema, Real: DeserializeOwned>(count: usize) {
-        let schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<Schema>().to_value();
+        let schema = SchemaSettings::draft2020_12()
+            .into_generator()
+            .into_root_schema_for::<Schema>()
+            .to_value();
         let words = words(&schema);
         assert_eq!(words.len(), count, "{words:?}");
         for word in words {

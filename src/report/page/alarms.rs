@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::priority_class;
-use super::text::{duration, number, place};
+use super::text::{capital, duration, number, percent, place};
 use crate::messages::words;
 use crate::report::incidents::Incident;
 use crate::report::reading::Summary;
@@ -31,7 +31,7 @@ pub(super) fn section(summary: &Summary) -> Markup {
                     tbody { @for group in &groups {
                         tr {
                             td { (priority(group.priority)) }
-                            td { (group.name) }
+                            td { (capital(&group.name)) }
                             td.n { (group.times) }
                             td.n { (duration(group.active)) }
                             td { (group.what_to_do) }
@@ -47,8 +47,8 @@ pub(super) fn section(summary: &Summary) -> Markup {
             }
             @if let Some(list) = &incidents.newest {
                 p.note {
-                    (number(list.annunciations_per_hour)) " calls per hour; " (number(100.0 * list.flood_share))
-                    " % of the time in flood (more than 10 in 10 min); " (list.unacknowledged)
+                    (number(list.annunciations_per_hour)) " calls per hour; " (percent(list.flood_share))
+                    " of the time in flood (more than 10 in 10 min); " (list.unacknowledged)
                     " to be acknowledged at the end."
                 }
             }
@@ -69,7 +69,7 @@ fn row(incident: &Incident) -> Markup {
                 None => "to the end",
             } }
             td { (priority(incident.priority)) }
-            td { (incident.name) @if !incident.known_by.is_empty() { small { " known to " (incident.known_by) } } }
+            td { (capital(&incident.name)) @if !incident.known_by.is_empty() { small { " known to " (incident.known_by) } } }
             td { (place(incident.body, incident.measured_depth, incident.inclination)) }
             td { (incident.evidence) }
         }

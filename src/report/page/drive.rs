@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::drawn;
-use super::text::number;
+use super::text::{number, percent};
 use crate::messages::words;
 use crate::report::ReportError;
 use crate::report::history::History;
@@ -61,9 +61,9 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                                 td { code { (name) } }
                                 td { @for (at, (state, count)) in states.iter().enumerate() {
                                     @if at > 0 { ", " }
-                                    (words::input_state(*state)) " " (number(100.0 * *count as f64 / all as f64)) " %"
+                                    (words::input_state(*state)) " " (percent(*count as f64 / all as f64))
                                 } }
-                                td { @if let Some(driver) = index.and_then(|index| newest?.input_driver.get(index)) { (driver) } }
+                                td { @for (at, driver) in summary.health.drivers.get(name).into_iter().flatten().enumerate() { @if at > 0 { ", " } (driver) } }
                                 td.n { @if let Some(count) = index.and_then(|index| newest?.input_rejected.get(index)) { (count) } }
                             }
                         }
@@ -75,7 +75,7 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                     "State of the inputs, the worse of both: "
                     @for (at, (state, count)) in drive.input_quality.iter().enumerate() {
                         @if at > 0 { ", " }
-                        (words::input_state(*state)) " " (number(100.0 * *count as f64 / all as f64)) " %"
+                        (words::input_state(*state)) " " (percent(*count as f64 / all as f64))
                     }
                     "."
                 }
@@ -99,7 +99,7 @@ pub(super) fn torque(summary: &Summary) -> Result<Markup, ReportError> {
             @match drive.transfer.means() {
                 Some([top, bit]) => p {
                     "While the drive turned, " (number(top)) " N m went in at the uppermost joint and " (number(bit))
-                    " N m came to the bit on average: " b { (number(100.0 * bit / top)) " %" } ". Friction along the tool took "
+                    " N m came to the bit on average: " b { (percent(bit / top)) } ". Friction along the tool took "
                     (number(top - bit)) " N m."
                 },
                 None => p { "The drive did not turn, or the bag has not both torques." },

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::drawn;
-use super::text::{duration, number};
+use super::text::{duration, number, percent};
 use crate::messages::{TwinStatus, words};
 use crate::report::ReportError;
 use crate::report::plots;
@@ -57,7 +57,7 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                                 (format!("{:.2}", status.last_rejection_measured_depth)) " m"
                             }
                         } }
-                        tr { th { "energy error over the drive's work" } td { (number(100.0 * status.energy_error_ratio)) " %" } }
+                        tr { th { "energy error over the drive's work" } td { (percent(status.energy_error_ratio)) } }
                         tr { th { "longest time without a heartbeat" } td {
                             (duration(health.longest_silence.0)) " at " (format!("{:.1}", health.longest_silence.1)) " s"
                         } }
@@ -83,7 +83,7 @@ fn shares(counts: &std::collections::BTreeMap<u8, u64>, word: impl Fn(u8) -> &'s
     html! {
         @for (index, (code, count)) in counts.iter().enumerate() {
             @if index > 0 { ", " }
-            (word(*code)) " " (number(100.0 * *count as f64 / all as f64)) " %"
+            (word(*code)) " " (percent(*count as f64 / all as f64))
         }
     }
 }

@@ -8,10 +8,11 @@ mod text;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use self::text::{duration, instant, number};
+use self::text::{capital, duration, number, percent, times};
 use super::ReportError;
 use super::reading::Summary;
 use crate::messages::{Alarm, TwinStatus, words};
+use crate::told::instant;
 use flexdrill_plot::{Figure, svg};
 
 const STYLE: &str = include_str!("style.css");
@@ -100,8 +101,8 @@ fn tiles(summary: &Summary) -> Markup {
         div.tiles {
             @if let Some(group) = worst {
                 div.tile.(priority_class(group.priority)) {
-                    b { (words::alarm_priority(group.priority).to_uppercase()) } (group.name)
-                    small { (group.times) " times, " (duration(group.active)) " in all" }
+                    b { (words::alarm_priority(group.priority).to_uppercase()) } (capital(&group.name))
+                    small { (times(group.times)) ", " (duration(group.active)) " in all" }
                 }
             } @else if !summary.has_alarms() {
                 div.tile.unknown { b { "?" } "no alarms in the bag" }
@@ -118,7 +119,7 @@ fn tiles(summary: &Summary) -> Markup {
             }
             @if let Some([top, bit]) = drive.transfer.means() {
                 div.tile {
-                    b { (number(100.0 * bit / top)) " %" } "of the torque reaches the bit"
+                    b { (percent(bit / top)) } "of the torque reaches the bit"
                     small { (number(bit)) " of " (number(top)) " N m, mean" }
                 }
             }
@@ -127,7 +128,7 @@ fn tiles(summary: &Summary) -> Markup {
             }
             @match summary.trust() {
                 Some((share, class)) => div.tile.(class) {
-                    b { (number(100.0 * share)) " %" } "of the time the model is good" small { "see Health" }
+                    b { (percent(share)) } "of the time the model is good" small { "see Health" }
                 },
                 None => div.tile.unknown { b { "?" } "health of the model" small { "no status in the bag" } },
             }

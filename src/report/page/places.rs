@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::drawn;
-use super::text::{number, place};
+use super::text::{number, percent, place};
 use crate::messages::{WhirlState, words};
 use crate::report::ReportError;
 use crate::report::places::{NAMED, WhirlPlace};
@@ -130,12 +130,12 @@ fn whirl_row(at: &WhirlPlace) -> Markup {
             td { (body) ", " (place(0, at.measured_depth, at.inclination)) }
             td.n { (format!("{:.1}", at.time)) }
             td.n { (number(at.ratio)) }
-            td.n { (number(100.0 * at.clearance_ratio)) " %" }
-            td.n { (number(100.0 * at.duty)) " %" }
+            td.n { (percent(at.clearance_ratio)) }
+            td.n { (percent(at.duty)) }
             td {
                 @for (index, (kind, count)) in at.kinds.iter().enumerate() {
                     @if index > 0 { ", " }
-                    (words::whirl_kind(*kind)) " " (number(100.0 * *count as f64 / at.evaluations as f64)) " %"
+                    (words::whirl_kind(*kind)) " " (percent(*count as f64 / at.evaluations as f64))
                 }
             }
         }

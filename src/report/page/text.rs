@@ -8,7 +8,8 @@ pub(super) fn number(value: f64) -> String {
     let size = value.abs();
     let text = match size {
         _ if !value.is_finite() => return "–".to_owned(),
-        0.0 => "0".to_owned(),
+        // Rounding, in any unit that is used here.
+        ..1e-6 => "0".to_owned(),
         ..1e-3 => format!("{value:.1e}"),
         ..1.0 => format!("{value:.3}"),
         ..10.0 => format!("{value:.2}"),
@@ -24,6 +25,34 @@ pub(super) fn number(value: f64) -> String {
     text.replace('-', "−")
 }
 
+/// A share (0 to 1) in per cent.
+pub(super) fn percent(share: f64) -> String {
+    match 100.0 * share {
+        value if !value.is_finite() => "–".to_owned(),
+        // What there is is not nothing, and what is not all is not all.
+        value if value > 0.0 && value < 0.1 => "below 0.1 %".to_owned(),
+        value if value > 99.9 && value < 100.0 => "above 99.9 %".to_owned(),
+        value => format!("{} %", number((value * 10.0).round() / 10.0)),
+    }
+}
+
+/// How often.
+pub(super) fn times(count: u64) -> String {
+    if count == 1 {
+        "once".to_owned()
+    } else {
+        format!("{count} times")
+    }
+}
+
+/// A sentence's beginning: the first letter large.
+pub(super) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters
+        .next()
+        .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// A duration as a person says it.
 pub(super) fn duration(seconds: f64) -> String {
     let whole = seconds.round() as u64;
@@ -32,33 +61,6 @@ pub(super) fn duration(seconds: f64) -> String {
         ..3600.0 => format!("{} min {:02} s", whole / 60, whole % 60),
         _ => format!("{} h {:02} min", whole / 3600, whole % 3600 / 60),
     }
-}
-
-/// An instant in ns since 1970 as date and time, UTC. A model that began at time 0 shows 1970.
-pub(super) fn instant(nanoseconds: i64) -> String {
-    let seconds = nanoseconds.div_euclid(1_000_000_000);
-    let (days, of_day) = (seconds.div_euclid(86_400), seconds.rem_euclid(86_400));
-    let (year, month, day) = civil(days);
-    format!(
-        "{year:04}-{month:02}-{day:02} {:02}:{:02}:{:02} UTC",
-        of_day / 3600,
-        of_day % 3600 / 60,
-        of_day % 60
-    )
-}
-
-/// Year, month and day of a day since 1970-01-01 in the Gregorian calendar (Hinnant, "chrono-compatible low-level date
-/// algorithms").
-fn civil(days: i64) -> (i64, i64, i64) {
-    let shifted = days + 719_468;
-    let era = shifted.div_euclid(146_097);
-    let day_of_era = shifted.rem_euclid(146_097);
-    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
-    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let march = (5 * day_of_year + 2) / 153;
-    let day = day_of_year - (153 * march + 2) / 5 + 1;
-    let month = if march < 10 { march + 3 } else { march - 9 };
-    (year_of_era + era * 400 + i64::from(month <= 2), month, day)
 }
 
 /// Depth and inclination of a place; empty where there is none.
@@ -88,6 +90,7 @@ mod tests {
             (123.456, "123.5"),
             (98_765.4, "98765"),
             (f64::NAN, "–"),
+            (-1.9e-9, "0"),
         ];
         for (value, text) in cases {
             assert_eq!(number(value), text);
@@ -95,21 +98,19 @@ mod tests {
         assert_eq!(duration(59.94), "59.9 s");
         assert_eq!(duration(125.0), "2 min 05 s");
         assert_eq!(duration(7260.0), "2 h 01 min");
-    }
-
-    #[test]
-    fn instants_are_those_of_the_calendar() {
-        // date -u -d @N
-        let cases = [
-            (0, "1970-01-01 00:00:00 UTC"),
-            (951_782_400, "2000-02-29 00:00:00 UTC"),
-            (1_700_000_000, "2023-11-14 22:13:20 UTC"),
-            (4_107_542_399, "2100-02-28 23:59:59 UTC"),
-            (4_107_542_400, "2100-03-01 00:00:00 UTC"),
-            (-1, "1969-12-31 23:59:59 UTC"),
+        let shares = [
+            (0.0, "0 %"),
+            (0.0004, "below 0.1 %"),
+            (0.5657, "56.6 %"),
+            (0.9999, "above 99.9 %"),
+            (1.0, "100 %"),
         ];
-        for (seconds, text) in cases {
-            assert_eq!(instant(seconds * 1_000_000_000), text);
+        for (share, text) in shares {
+            assert_eq!(percent(share), text);
         }
+        assert_eq!(
+            (times(1).as_str(), times(3).as_str(), capital("shock").as_str()),
+            ("once", "3 times", "Shock")
+        );
     }
 }
