@@ -13,6 +13,7 @@
 //! - [`dashboard`]: the page beside the rig, its server, and steering from it.
 //! - [`live`]: what is published, over WebSocket in Foxglove's protocol, from the node or a bag.
 //! - [`alarms`]: what the motion and the node's state mean for an operator.
+//! - [`report`]: a recording as one page.
 //! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
 //! - [`told`]: text of others that is shown and not run, and log lines that do not flood.
 //!
@@ -28,6 +29,7 @@ pub mod field_log;
 pub mod health;
 pub mod live;
 pub mod messages;
+pub mod report;
 pub mod rig_inputs;
 pub mod ros;
 pub mod told;

@@ -2,10 +2,11 @@
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
+use std::time::SystemTime;
 
 use clap::Args;
 
-use super::{WrongUse, numbers, signals};
+use super::{WrongUse, numbers, record_name, signals};
 use crate::alarms::state_file;
 use crate::cli::output::say;
 use crate::dds::network::Network;
@@ -35,7 +36,8 @@ pub(super) struct RunArgs {
     /// Configuration (YAML); without it the paper's case, built in.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Record inputs and outputs: FILE.mcap, or a folder as rosbag2 makes them.
+    /// Record inputs and outputs: FILE.mcap, or a folder as rosbag2 makes them. {start} in the name becomes the time of
+    /// the start (UTC), for a supervisor that starts the same command again.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// DDS domain, 0 to 232; wins over ROS_DOMAIN_ID.
@@ -95,11 +97,14 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         identity,
         remapping: ros_args.remapping.clone(),
         mapping: args.service_mapping,
-        record: args.record.clone(),
         live: args.foxglove.map(|address| LiveAddress {
             address,
             origins: args.allow_origin.clone(),
         }),
+        record: args
+            .record
+            .as_deref()
+            .map(|path| record_name::at_start(path, SystemTime::now())),
         use_sim_time: started.use_sim_time,
         rosout: ros_args.rosout.unwrap_or(true),
         checkpoint: args.checkpoint.clone(),

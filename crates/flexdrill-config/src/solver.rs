@@ -1,13 +1,15 @@
 //! `solver`: time integration.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use flexdrill_core::dynamics::Scheme;
 
 /// Time scheme with Newton-Raphson, Eq. 36 to 44.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "Given")]
+#[schemars(!from, default, deny_unknown_fields)]
 pub struct Solver {
     /// Time step (s). Default 0.0005.
     pub time_step: f64,
@@ -25,7 +27,7 @@ pub struct Solver {
 }
 
 /// `solver.scheme`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TimeScheme {
     /// The paper's, with `gamma`.
