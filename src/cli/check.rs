@@ -101,11 +101,7 @@ impl fmt::Display for Summary<'_> {
         )?;
         row(
             "step",
-            format!(
-                "{} ms, {}",
-                config.solver.time_step * 1e3,
-                config.solver.scheme_in_words()
-            ),
+            format!("{}, {}", config.solver.step_in_words(), config.solver.scheme_in_words()),
         )?;
         let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
         row(

@@ -154,11 +154,11 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     row(
         "model",
         format!(
-            "{} links of {} elements, {} unknowns, step {} ms",
+            "{} links of {} elements, {} unknowns, step {}",
             config.tool.links,
             config.tool.elements_per_link,
             config.unknowns().total(),
-            config.solver.time_step * 1e3
+            config.solver.step_in_words()
         ),
     );
     row("network", setup.network.describe());

@@ -196,6 +196,8 @@ impl StatusKeeper {
             energy_error_share: self.quality.energy_error_share,
             frames_dropped: gauges.frames_dropped.load(Ordering::Relaxed),
             events_lost: gauges.events_lost.load(Ordering::Relaxed),
+            step_in_force: self.part_of_step(self.quality.choice.in_force),
+            step_wanted: self.part_of_step(self.quality.choice.wanted),
             config_hash: self.config_hash.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             ..TwinStatus::default()
@@ -205,6 +207,11 @@ impl StatusKeeper {
         fill_outputs(&mut status, sources);
         fill_network(&mut status, sources);
         status
+    }
+
+    /// Length of the parts in which a refined step is taken (s).
+    fn part_of_step(&self, refinement: u32) -> f64 {
+        self.time_step / f64::from(1_u32 << refinement)
     }
 
     fn fill_phases(&mut self, status: &mut TwinStatus, gauges: &Gauges) {

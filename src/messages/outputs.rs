@@ -286,6 +286,7 @@ impl Outputs {
             parameter_name: changes.iter().map(|change| change.name.clone()).collect(),
             parameter_value: changes.iter().map(|change| change.value).collect(),
             parameter_asked_by: changes.iter().map(|change| change.asked_by.clone()).collect(),
+            refinement: u8::try_from(inputs.refinement).unwrap_or(u8::MAX),
         };
         to_cdr_into(&message, &mut self.bytes)?;
         send(Encoded {
@@ -373,6 +374,7 @@ pub fn run_inputs(message: &AppliedInputs, config: &Config) -> RunInputs {
         },
         whirl: config.whirl_settings(),
         input_quality: message.input_quality,
+        refinement: message.refinement.into(),
         schedule: schedule(config),
     }
 }

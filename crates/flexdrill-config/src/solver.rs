@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use flexdrill_core::dynamics::Scheme;
+use flexdrill_core::twin::StepRule;
 
 /// Time scheme with Newton-Raphson, Eq. 36 to 44.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -13,6 +14,8 @@ use flexdrill_core::dynamics::Scheme;
 pub struct Solver {
     /// Time step (s). Default 0.0005.
     pub time_step: f64,
+    /// Whether the step is taken whole or in two or four parts. Default `auto`.
+    pub step: StepRule,
     /// Default `generalised_alpha`.
     pub scheme: TimeScheme,
     /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Default 0.55. Given alone, it means `scheme: newmark`.
@@ -46,6 +49,7 @@ const HHT_LEAST: f64 = 0.5;
 #[serde(deny_unknown_fields, rename = "Solver")]
 struct Given {
     time_step: Option<f64>,
+    step: Option<StepRule>,
     scheme: Option<TimeScheme>,
     gamma: Option<f64>,
     rho_infinity: Option<f64>,
@@ -69,6 +73,7 @@ impl From<Given> for Solver {
         };
         Self {
             time_step: given.time_step.unwrap_or(default.time_step),
+            step: given.step.unwrap_or(default.step),
             scheme,
             gamma: given.gamma.unwrap_or(default.gamma),
             rho_infinity: given.rho_infinity.unwrap_or(rho_infinity),
@@ -82,6 +87,7 @@ impl Default for Solver {
     fn default() -> Self {
         Self {
             time_step: 0.0005,
+            step: StepRule::Auto,
             scheme: TimeScheme::GeneralisedAlpha,
             gamma: 0.55,
             rho_infinity: 0.45,
@@ -106,6 +112,19 @@ impl Solver {
             TimeScheme::Newmark => format!("Newmark gamma {}", self.gamma),
             TimeScheme::Hht => format!("HHT-alpha, rho_infinity {}", self.rho_infinity),
             TimeScheme::GeneralisedAlpha => format!("generalised-alpha, rho_infinity {}", self.rho_infinity),
+        }
+    }
+
+    /// The step and how it is taken, for people.
+    pub fn step_in_words(&self) -> String {
+        let whole = self.time_step * 1e3;
+        match self.step {
+            StepRule::Fixed => format!("{whole} ms"),
+            StepRule::Auto => format!(
+                "{whole} ms, in parts of {} or {} ms (step: auto)",
+                whole / 2.0,
+                whole / 4.0
+            ),
         }
     }
 

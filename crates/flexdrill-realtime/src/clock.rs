@@ -17,6 +17,10 @@ pub trait Clock: Send {
     fn rig_time(&self) -> u64;
     /// Lateness that is caught up rather than skipped (s).
     fn tolerance(&self) -> f64;
+    /// The machine's time (ns), whatever the clock of the model is: by it is judged what computing costs.
+    fn machine_time(&self) -> u64 {
+        monotonic::now()
+    }
     /// How far the clock may jump at once (ns): no more lateness than that tells of a slow machine.
     fn jump(&self) -> u64 {
         0

@@ -20,6 +20,7 @@ pub mod monotonic;
 mod pacer;
 mod real_time_factor;
 mod real_time_loop;
+mod step_pace;
 
 /// Length of a period of the solver (s): inputs take effect this fast, live and in replays of foreign inputs.
 pub const INPUT_PERIOD: f64 = 5e-3;
@@ -27,3 +28,4 @@ pub const INPUT_PERIOD: f64 = 5e-3;
 pub use pacer::{Paced, Pacer, whole_periods};
 pub use real_time_factor::{FAR_BEHIND, KEEPS_UP, RealTimeFactor};
 pub use real_time_loop::RealTimeLoop;
+pub use step_pace::StepPace;

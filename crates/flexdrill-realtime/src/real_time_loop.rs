@@ -2,15 +2,15 @@
 //! and hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
 //!
 //! A period is a whole number of model steps. A little lateness is caught up; when the solver is late by more, whole
-//! periods are skipped and counted: model and clock stay together, and the model is never integrated with another step
-//! than the configured one.
+//! periods are skipped and counted: model and clock stay together. How fine a step is taken is what the motion asks for, as
+//! far as the pace allows it ([`StepPace`]); it acts like an input, and is handed out as one.
 
 use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use crate::Pacer;
-use flexdrill_core::dynamics::StepOutcome;
+use crate::{Pacer, StepPace};
+use flexdrill_core::dynamics::{MOST_REFINEMENT, StepOutcome};
 use flexdrill_core::twin::{Frame, Run, RunInputs};
 use rtrb::PushError;
 
@@ -45,6 +45,10 @@ pub struct RealTimeLoop<C: Clock> {
     published: Option<RunInputs>,
     /// The state at the start or after a reset has not been published yet.
     first: bool,
+    /// How fine a step there is time for.
+    pace: StepPace,
+    /// Periods were skipped since the last one that was computed.
+    late: bool,
 }
 
 impl<C: Clock> RealTimeLoop<C> {
@@ -70,6 +74,8 @@ impl<C: Clock> RealTimeLoop<C> {
             wanted: run.applied(),
             published: None,
             first: true,
+            pace: StepPace::new(MOST_REFINEMENT),
+            late: false,
             run,
             clock,
             end,
@@ -113,6 +119,7 @@ impl<C: Clock> RealTimeLoop<C> {
             let steps = paced.skipped * self.steps_per_period;
             self.run.skip(steps);
             if !self.paused && !self.failed {
+                self.late = true;
                 self.end.gauges.steps_late.fetch_add(steps, Ordering::Relaxed);
             }
         }
@@ -150,10 +157,12 @@ impl<C: Clock> RealTimeLoop<C> {
         let (inputs, quality) = self.end.targets.get();
         self.wanted.inputs = inputs;
         self.wanted.input_quality = quality;
+        self.wanted.refinement = self.run.wanted_refinement().min(self.pace.allowed());
         let current = self.run.applied();
         let new_inputs = inputs != current.inputs;
         if self.paused && !self.reset_asked || self.failed && !new_inputs && !self.changed {
             self.run.skip(self.steps_per_period);
+            self.pace.forget();
             return;
         }
         self.apply(&current);
@@ -164,6 +173,7 @@ impl<C: Clock> RealTimeLoop<C> {
         }
         self.publish_first();
         let end = self.pacer.deadline().saturating_add(self.period);
+        let start = self.clock.machine_time();
         let mut began = Instant::now();
         for taken in 0..self.steps_per_period {
             let outcome = self.run.advance();
@@ -196,6 +206,9 @@ impl<C: Clock> RealTimeLoop<C> {
             }
         }
         self.changed = false;
+        let late = std::mem::take(&mut self.late);
+        self.pace
+            .note((start, self.clock.machine_time()), late, self.run.applied().refinement);
     }
 
     /// Hands the newest inputs and settings to the run; publishes them when anything has changed.

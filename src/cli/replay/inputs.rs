@@ -62,6 +62,7 @@ pub(super) fn replay(
         let inputs = RunInputs {
             inputs: conditioner.targets(now),
             input_quality: conditioner.quality(now) as u8,
+            refinement: player.wanted_refinement(),
             ..player.inputs()
         };
         let same = applied.is_some_and(|applied| {

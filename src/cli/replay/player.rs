@@ -100,6 +100,11 @@ impl Player {
         self.run.applied()
     }
 
+    /// The refinement of steps that the motion asks for: nothing here has to keep pace.
+    pub(super) fn wanted_refinement(&self) -> u32 {
+        self.run.wanted_refinement()
+    }
+
     /// Takes over a changed configuration.
     pub(super) fn reconfigure(&mut self, config: Config) {
         self.outputs.reconfigure(&config);

@@ -321,15 +321,15 @@ fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]
 }
 
 /// What drives the model, as a recorded message has it. In recordings of a twin that did not tell who asked for its
-/// parameters that list is empty.
+/// parameters that list is empty, and steps were taken whole.
 fn applied_inputs(message: &BagMessage) -> Result<AppliedInputs, BagError> {
     let schema = &message.topic.schema;
-    if schema.is_empty() || schema.contains("parameter_asked_by") {
+    if schema.is_empty() || schema.contains("refinement") {
         return message.decode();
     }
     let mut whole = message.clone();
-    // The body ends with numbers of eight bytes: the length of another list, 0, follows without a gap.
-    whole.data.extend([0; 4]);
+    // The body ends with numbers of eight bytes: the length of another list, 0, follows without a gap, then refinement.
+    whole.data.extend([0; 5]);
     whole.decode()
 }
 
@@ -373,7 +373,9 @@ mod tests {
 
     #[test]
     fn applied_inputs_without_who_asked_are_read() {
-        let schema = AppliedInputs::SCHEMA.replace("parameter_asked_by", "");
+        let schema = AppliedInputs::SCHEMA
+            .replace("parameter_asked_by", "")
+            .replace("refinement", "");
         for (names, values) in [(vec![], vec![]), (vec!["whirl.hysteresis".to_owned()], vec![0.25])] {
             let mut message = AppliedInputs {
                 rotary_speed: 4.0,
@@ -381,7 +383,7 @@ mod tests {
                 parameter_value: values,
                 ..AppliedInputs::default()
             };
-            let old = recorded(&message, schema.clone(), 4);
+            let old = recorded(&message, schema.clone(), 5);
             assert_eq!(applied_inputs(&old).unwrap(), message);
             assert!(changes_of(&message).iter().all(|change| change.asked_by.is_empty()));
             message.parameter_asked_by = vec!["somebody".to_owned(); message.parameter_name.len()];

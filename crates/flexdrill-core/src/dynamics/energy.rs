@@ -284,6 +284,7 @@ impl EnergyAudit {
             *moved = q1 - q0;
         }
         let moved = &*room;
+        let (error_before, foresight_before) = (self.error, self.axial_foresight);
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         if let Some(driven) = places.driven {
             self.drive += mean(e0.drive_torque, e1.drive_torque) * moved[driven];
@@ -315,6 +316,9 @@ impl EnergyAudit {
         let worked_in = self.drive + self.weight_on_bit + self.gravity + self.loads + self.axial_update;
         let taken = self.bit + self.friction + self.contact_damping + self.rayleigh_damping + self.numerical_damping;
         self.error = worked_in - taken - self.stored;
+        let foresight = self.axial_foresight - foresight_before;
+        self.foresight_magnitude += foresight.abs();
+        self.against_laws += (self.error - error_before - foresight).abs();
     }
 }
 

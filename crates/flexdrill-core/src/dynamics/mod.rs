@@ -21,7 +21,7 @@ pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
 pub use scheme::Scheme;
 pub use state::State;
 pub use statics::StartError;
-pub use stepper::SolverKind;
+pub use stepper::{MOST_REFINEMENT, SolverKind};
 
 #[cfg(test)]
 mod tests;

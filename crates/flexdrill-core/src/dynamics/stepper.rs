@@ -70,7 +70,11 @@ pub struct StepperCheckpoint {
     live: LiveParameters,
     turns: f64,
     weight_on_bit: f64,
+    refinement: u32,
 }
+
+/// Finest refinement: a step in four parts.
+pub const MOST_REFINEMENT: u32 = 2;
 
 /// Whole turns after which they are taken off the pipe's spins, so that the rounding of the angles stays below that of
 /// the forces however long the tool runs.
@@ -109,6 +113,8 @@ pub struct Stepper {
     newton: Newton,
     scheme: Scheme,
     max_halvings: u32,
+    /// Steps are taken in 2^refinement parts.
+    refinement: u32,
     live: LiveParameters,
     track: Track,
     /// The tool over its joints, if it has that form, and the state as the model numbers it.
@@ -154,6 +160,7 @@ impl Stepper {
             newton: Newton::new(&model, solver, tolerances, instructions),
             scheme,
             max_halvings,
+            refinement: 0,
             live: LiveParameters::of(description),
             reduced: reduced.map(|reduced| (reduced, state.clone())),
             over_joints: false,
@@ -199,7 +206,22 @@ impl Stepper {
     /// Most Newton corrections (each an assembly and a solution) that one [`Stepper::advance`] can make, whatever
     /// happens.
     pub fn most_iterations(&self) -> u64 {
-        most_attempts(self.max_halvings) * u64::from(self.newton.tolerances.max_iterations)
+        most_attempts(self.max_halvings.max(self.refinement)) * u64::from(self.newton.tolerances.max_iterations)
+    }
+
+    /// Halvings of the smallest sub-step that there can be.
+    fn finest_level(&self) -> u32 {
+        self.max_halvings.max(MOST_REFINEMENT)
+    }
+
+    /// Steps are taken in 2^this parts.
+    pub fn refinement(&self) -> u32 {
+        self.refinement
+    }
+
+    /// Takes steps in 2^`refinement` parts from the next one on, [`MOST_REFINEMENT`] at most.
+    pub fn set_refinement(&mut self, refinement: u32) {
+        self.refinement = refinement.min(MOST_REFINEMENT);
     }
 
     /// Times the phases of [`Stepper::advance`] while it runs.
@@ -318,6 +340,7 @@ impl Stepper {
             live: self.live,
             turns: self.turns,
             weight_on_bit: self.weight_on_bit,
+            refinement: self.refinement,
         }
     }
 
@@ -339,6 +362,7 @@ impl Stepper {
         self.counters = checkpoint.counters;
         self.turns = checkpoint.turns;
         self.weight_on_bit = checkpoint.weight_on_bit;
+        self.set_refinement(checkpoint.refinement);
         true
     }
 
@@ -373,7 +397,7 @@ impl Stepper {
         let first = self.condensed_for == 0.0;
         self.condensed_for = h;
         let over_joints = self.over_joints || first && self.reduced.as_ref().is_some_and(|(tool, _)| tool.holds_for(h));
-        for level in 0..=self.max_halvings {
+        for level in 0..=self.finest_level() {
             let factors = self.scheme.factors(h / f64::from(1_u32 << level));
             match &mut self.reduced {
                 Some((reduced, _)) if over_joints => reduced.prepare(&self.model, &conditions, factors),
@@ -388,13 +412,16 @@ impl Stepper {
         }
     }
 
-    /// Advances by `h` (s) under `forcing`. A sub-step that does not converge is halved and retried; when the smallest
+    /// Advances by `h` (s) under `forcing`, in the parts of [`Stepper::set_refinement`]. A sub-step that does not converge is halved and retried; when the smallest
     /// one fails, the state stays that before the step.
     pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
         self.prepare(h);
         let start = (self.track.state.time, self.track.state.drive_angle);
         let audit_before = self.audit;
-        let mut sub_steps = SubSteps::new(self.max_halvings);
+        let mut sub_steps = SubSteps::new(self.max_halvings, self.refinement);
+        if self.refinement > 0 {
+            self.keep_before_step();
+        }
         let mut iterations = 0;
         while let Some(part) = sub_steps.part() {
             match self.sub_step(h, start, forcing, part) {
@@ -406,11 +433,9 @@ impl Stepper {
                     iterations += made;
                     self.counters.rejected += 1;
                     self.counters.last_rejection = Some(failure);
-                    if sub_steps.is_whole() {
+                    if sub_steps.is_first() {
                         // Nothing has changed yet. From here on a later part may fail after an earlier one was taken.
-                        let track = &mut self.track;
-                        track.before_step.copy_from(&track.state);
-                        track.energy_before_step.copy_from(&track.energy);
+                        self.keep_before_step();
                     }
                     if !sub_steps.reject() {
                         let track = &mut self.track;
@@ -437,6 +462,13 @@ impl Stepper {
             iterations,
             halvings: deepest,
         }
+    }
+
+    /// Keeps the present state for a retreat from the step.
+    fn keep_before_step(&mut self) {
+        let track = &mut self.track;
+        track.before_step.copy_from(&track.state);
+        track.energy_before_step.copy_from(&track.energy);
     }
 
     /// The sub-step between two parts (0 to 1) of a step of size `h` that begins at time `start` with the drive at

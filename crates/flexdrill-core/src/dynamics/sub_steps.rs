@@ -5,20 +5,25 @@
 pub struct SubSteps {
     whole: u64,
     most: u32,
+    /// Level that the size does not grow beyond.
+    coarsest: u32,
     done: u64,
     level: u32,
     deepest: u32,
 }
 
 impl SubSteps {
-    /// At the beginning of a step that may be halved `most` times.
-    pub fn new(most: u32) -> Self {
+    /// At the beginning of a step that is taken in 2^`coarsest` parts, each of which may be halved until the step has been
+    /// halved `most` times.
+    pub fn new(most: u32, coarsest: u32) -> Self {
+        let most = most.max(coarsest);
         Self {
             whole: 1 << most,
             most,
+            coarsest,
             done: 0,
-            level: 0,
-            deepest: 0,
+            level: coarsest,
+            deepest: coarsest,
         }
     }
 
@@ -32,7 +37,7 @@ impl SubSteps {
     /// The sub-step was taken.
     pub fn accept(&mut self) {
         self.done += self.size();
-        if self.level > 0 && self.done.is_multiple_of(self.size() * 2) {
+        if self.level > self.coarsest && self.done.is_multiple_of(self.size() * 2) {
             self.level -= 1;
         }
     }
@@ -47,14 +52,14 @@ impl SubSteps {
         true
     }
 
-    /// Whether the whole step is being tried.
-    pub fn is_whole(&self) -> bool {
-        self.done == 0 && self.level == 0
+    /// Whether the step's first part is being tried, for the first time.
+    pub fn is_first(&self) -> bool {
+        self.done == 0 && self.level == self.coarsest
     }
 
-    /// Deepest split so far.
+    /// Most halvings so far beyond the parts that it was to be taken in.
     pub fn deepest(&self) -> u32 {
-        self.deepest
+        self.deepest - self.coarsest
     }
 
     fn size(&self) -> u64 {
@@ -99,7 +104,7 @@ mod tests {
     fn the_bound_is_the_worst_of_all_ways_through_a_step() {
         for most in 0..=12 {
             assert_eq!(
-                worst(SubSteps::new(most), &mut HashMap::new()),
+                worst(SubSteps::new(most, 0), &mut HashMap::new()),
                 most_attempts(most),
                 "{most}"
             );
@@ -109,15 +114,36 @@ mod tests {
 
     #[test]
     fn a_step_without_trouble_is_taken_whole() {
-        let mut sub_steps = SubSteps::new(6);
+        let mut sub_steps = SubSteps::new(6, 0);
         assert_eq!(sub_steps.part(), Some((0.0, 1.0)));
         sub_steps.accept();
         assert_eq!((sub_steps.part(), sub_steps.deepest()), (None, 0));
     }
 
     #[test]
+    fn a_refined_step_is_taken_in_its_parts() {
+        let mut sub_steps = SubSteps::new(6, 1);
+        assert!(sub_steps.is_first());
+        assert_eq!(sub_steps.part(), Some((0.0, 0.5)));
+        assert!(sub_steps.reject() && !sub_steps.is_first());
+        for part in [(0.0, 0.25), (0.25, 0.5), (0.5, 1.0)] {
+            assert_eq!(sub_steps.part(), Some(part));
+            sub_steps.accept();
+        }
+        assert_eq!((sub_steps.part(), sub_steps.deepest()), (None, 1));
+        // Where no halving is allowed, the parts are.
+        let mut sub_steps = SubSteps::new(0, 2);
+        assert_eq!(sub_steps.part(), Some((0.0, 0.25)));
+        assert!(!sub_steps.reject());
+        // A refined step never takes more attempts than one that is halved as often as it may.
+        for (most, coarsest) in [(6, 1), (6, 2), (2, 2)] {
+            assert!(worst(SubSteps::new(most, coarsest), &mut HashMap::new()) <= most_attempts(most));
+        }
+    }
+
+    #[test]
     fn the_size_grows_again_on_its_own_grid() {
-        let mut sub_steps = SubSteps::new(2);
+        let mut sub_steps = SubSteps::new(2, 0);
         assert!(sub_steps.reject() && sub_steps.reject() && !sub_steps.reject());
         assert_eq!(sub_steps.part(), Some((0.0, 0.25)));
         sub_steps.accept();

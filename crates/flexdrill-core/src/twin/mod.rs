@@ -11,6 +11,7 @@ mod schedule;
 mod settings;
 mod simulation;
 mod snapshot;
+mod step_choice;
 mod validation;
 
 pub use checkpoint::CheckpointError;
@@ -24,3 +25,4 @@ pub use schedule::{Due, Output, Schedule, Timeline};
 pub use settings::SimulationSettings;
 pub use simulation::{BuildError, Simulation};
 pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot, SolverCounters};
+pub use step_choice::{StepChoice, StepRule};

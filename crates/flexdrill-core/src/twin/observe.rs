@@ -67,7 +67,7 @@ impl Observer {
             joint_load: JointLoadWatch::new(&settings.joint_load, model.joints.len()),
             ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),
-            quality: QualityWatch::default(),
+            quality: QualityWatch::new(settings.step),
             input_trust: 1.0,
             samples: vec![StationSample::default(); watched.len()],
             watched,
@@ -99,6 +99,11 @@ impl Observer {
     fn pass_on_trust(&mut self) {
         self.whirl
             .set_input_trust(self.input_trust * self.quality.quality().level.trust());
+    }
+
+    /// Steps are taken in 2^`refinement` parts from here on.
+    pub(super) fn set_refinement(&mut self, refinement: u32) {
+        self.quality.set_refinement(refinement);
     }
 
     /// How far the motion can be trusted.

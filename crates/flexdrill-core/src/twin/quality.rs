@@ -9,6 +9,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::step_choice::{StepChoice, StepRule};
 use crate::dynamics::outcome::EnergyAudit;
 
 /// Blocks that make up the window; it moves by one of them.
@@ -118,6 +119,8 @@ pub struct ModelQuality {
     pub numerical_share: f64,
     /// Whether the window has been full since the start; before, the word says nothing.
     pub judged: bool,
+    /// The step in force, and the one that the motion asks for.
+    pub choice: StepChoice,
 }
 
 impl fmt::Display for ModelQuality {
@@ -136,10 +139,11 @@ impl fmt::Display for ModelQuality {
         };
         write!(
             f,
-            "{what} {:.0} % of what contacts and damping take ({} from {:.0} %); a smaller solver.time_step is needed",
+            "{what} {:.0} % of what contacts and damping take ({} from {:.0} %); {}",
             100.0 * self.value,
             self.level,
-            100.0 * self.bound
+            100.0 * self.bound,
+            self.choice.remedy()
         )
     }
 }
@@ -176,8 +180,8 @@ impl QualityWatch {
         let before = std::mem::replace(&mut self.audit, *audit);
         let block = &mut self.blocks[self.current];
         block.duration += dt;
-        block.error += (against_laws(audit) - against_laws(&before)).abs();
-        block.axial += (audit.axial_foresight - before.axial_foresight).abs();
+        block.error += audit.against_laws - before.against_laws;
+        block.axial += audit.foresight_magnitude - before.foresight_magnitude;
         block.taken += taken(audit) - taken(&before);
         block.numerical += audit.numerical_damping - before.numerical_damping;
         // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
@@ -261,7 +265,9 @@ impl QualityWatch {
             energy_error_share: error,
             numerical_share: numerical,
             judged: true,
+            choice: self.quality.choice,
         };
+        self.quality.choice.judge(error);
         level != level_before
     }
 
@@ -270,16 +276,30 @@ impl QualityWatch {
         self.quality
     }
 
-    /// Forgets everything; the audit starts at zero too.
-    pub(super) fn reset(&mut self) {
-        *self = Self::default();
+    /// At the start of a run whose step is chosen so.
+    pub(super) fn new(rule: StepRule) -> Self {
+        let mut watch = Self::default();
+        watch.quality.choice = StepChoice::new(rule);
+        watch
     }
-}
 
-/// Energy that the steps so far have taken against the laws (J): the audit's error, and what foreseen axial forces did
-/// beyond the true ones.
-fn against_laws(audit: &EnergyAudit) -> f64 {
-    audit.error - audit.axial_foresight
+    /// Steps are taken in 2^`refinement` parts from here on: what was judged with others says nothing of them, and the
+    /// word stays until a window of theirs is full.
+    pub(super) fn set_refinement(&mut self, refinement: u32) {
+        if refinement != self.quality.choice.in_force {
+            self.quality.choice.in_force = refinement;
+            self.blocks = Default::default();
+            (self.current, self.filled, self.better) = (0, 0, CALM - 1);
+        }
+    }
+
+    /// Forgets everything but how the step is chosen; the audit starts at zero too.
+    pub(super) fn reset(&mut self) {
+        let mut choice = StepChoice::new(self.quality.choice.rule);
+        choice.in_force = self.quality.choice.in_force;
+        *self = Self::default();
+        self.quality.choice = choice;
+    }
 }
 
 /// Energy taken from vibration so far (J).
@@ -319,6 +339,7 @@ mod tests {
                 self.steps += 1;
                 let sign = if self.steps.is_multiple_of(2) { 1.0 } else { -1.0 };
                 self.audit.error += sign * error * TAKEN * DT;
+                self.audit.against_laws += error * TAKEN * DT;
                 self.audit.numerical_damping += numerical * TAKEN * DT;
                 self.audit.rayleigh_damping += (1.0 - numerical) * TAKEN * DT;
                 // Most work goes into the rock, and says nothing.
@@ -363,7 +384,8 @@ mod tests {
         let mut watch = QualityWatch::default();
         let mut audit = EnergyAudit::default();
         for _ in 0..(11.0 / DT) as u32 {
-            audit.axial_foresight += 0.502 * TAKEN * DT;
+            audit.against_laws += 0.502 * TAKEN * DT;
+            audit.foresight_magnitude += 0.502 * TAKEN * DT;
             audit.contact_damping += TAKEN * DT;
             watch.push(DT, &audit);
         }
@@ -376,12 +398,11 @@ mod tests {
         let level = |axial: f64, error: f64| {
             let mut fed = Fed::new();
             for _ in 0..(11.0 / DT) as u32 {
-                fed.audit.axial_foresight += axial * TAKEN * DT;
+                fed.audit.foresight_magnitude += axial * TAKEN * DT;
                 fed.run(DT, error, 0.1);
             }
             (fed.level(), fed.watch.quality().cause)
         };
-        // The error alternates in sign, the foresight does not: magnitudes of their difference come to the larger one.
         assert_eq!(level(0.25, 0.57), (QualityLevel::Poor, Some(QualityCause::AxialForce)));
         assert_eq!(
             level(0.09, 0.57),
@@ -445,7 +466,7 @@ mod tests {
         let mut fed = Fed::new();
         // Rounding of a tool at rest: errors of the size of what is taken, both a billionth of what drilling takes.
         for _ in 0..(12.0 / DT) as u32 {
-            fed.audit.error += 1e-9 * DT;
+            fed.audit.against_laws += 1e-9 * DT;
             fed.audit.rayleigh_damping += 1e-9 * DT;
             fed.watch.push(DT, &fed.audit);
         }

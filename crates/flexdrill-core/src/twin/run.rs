@@ -30,6 +30,8 @@ pub struct RunInputs {
     pub whirl: WhirlSettings,
     /// How the inputs are, as the whirl warnings tell it: the messages' INPUT_ constants.
     pub input_quality: u8,
+    /// Every step is taken in 2^this equal parts.
+    pub refinement: u32,
     /// Which outputs are due when.
     pub schedule: Schedule,
 }
@@ -57,7 +59,7 @@ pub struct Run {
 
 impl Run {
     /// Takes over a simulation at its start.
-    pub fn new(simulation: Simulation, schedule: Schedule) -> Self {
+    pub fn new(mut simulation: Simulation, schedule: Schedule) -> Self {
         let settings = simulation.settings();
         let applied = RunInputs {
             step: 0,
@@ -68,8 +70,10 @@ impl Run {
             live: simulation.live(),
             whirl: settings.whirl,
             input_quality: 0,
+            refinement: simulation.quality().choice.wanted,
             schedule,
         };
+        simulation.set_refinement(applied.refinement);
         Self {
             simulation,
             applied,
@@ -102,6 +106,7 @@ impl Run {
         if applied.whirl != self.applied.whirl {
             self.simulation.replace_whirl(&applied.whirl);
         }
+        self.simulation.set_refinement(applied.refinement);
         let trust = &applied.whirl.input_trust;
         self.simulation.set_input_trust(match applied.input_quality {
             quality if quality == InputState::NotReceived as u8 => trust.not_received,
@@ -116,6 +121,11 @@ impl Run {
     /// Advances by one step.
     pub fn advance(&mut self) -> StepOutcome {
         self.simulation.advance(&self.applied.inputs)
+    }
+
+    /// The refinement that the motion asks for.
+    pub fn wanted_refinement(&self) -> u32 {
+        self.simulation.quality().choice.wanted
     }
 
     /// Counts steps as skipped, without the model moving.

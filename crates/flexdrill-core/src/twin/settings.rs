@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::step_choice::StepRule;
 use crate::dynamics::Scheme;
 use crate::inputs::Inputs;
 use crate::motion::{AgeingSettings, JointLoadSettings, ShockSettings, StickSlipSettings, WhirlSettings};
@@ -13,6 +14,8 @@ use crate::units::{kn_to_n, rpm_to_rad_per_s};
 pub struct SimulationSettings {
     /// Model step (s).
     pub time_step: f64,
+    /// Whether a step is taken whole or, where the motion asks for it and the pace allows it, in parts.
+    pub step: StepRule,
     /// How time is integrated.
     pub scheme: Scheme,
     /// Most Newton iterations per sub-step.
@@ -47,6 +50,7 @@ impl Default for SimulationSettings {
     fn default() -> Self {
         Self {
             time_step: 0.5e-3,
+            step: StepRule::Auto,
             scheme: Scheme::generalised_alpha(0.45),
             max_iterations: 15,
             max_halvings: 6,

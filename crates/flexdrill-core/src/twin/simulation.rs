@@ -222,6 +222,13 @@ impl Simulation {
         Ok(())
     }
 
+    /// Takes every step in 2^`refinement` equal parts from the next one on, at most in four. It changes the motion as another
+    /// step does, and nothing else: inputs, samples and outputs keep the model step.
+    pub fn set_refinement(&mut self, refinement: u32) {
+        self.stepper.set_refinement(refinement);
+        self.observer.set_refinement(self.stepper.refinement());
+    }
+
     pub(super) fn replace_whirl(&mut self, whirl: &WhirlSettings) {
         self.observer.set_whirl(whirl);
     }

@@ -138,8 +138,10 @@ pub(super) fn pace(board: &Board) -> Paragraph<'static> {
         };
         lines.push(Line::from(vec![
             Span::raw(format!(
-                "newton {:.1} halved {} model ",
-                status.newton_iterations_mean, status.halved_steps
+                "newton {:.1} at {} ms halved {} model ",
+                status.newton_iterations_mean,
+                1e3 * status.step_in_force,
+                status.halved_steps
             )),
             Span::styled(texts::quality(status), color),
         ]));

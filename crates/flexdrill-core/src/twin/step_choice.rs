@@ -1,0 +1,141 @@
+//! How fine the steps are to be: what the motion asks for, from the energy that steps make up.
+//!
+//! The model step stays what it is, and with it every grid of inputs, samples and outputs; it is taken in 2^n equal parts.
+//! What is asked for is a function of the motion alone. What is taken is an input of the run
+//! ([`RunInputs::refinement`](super::RunInputs)), so that a recording replays to the bit: live, the pace may allow less.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dynamics::stepper::MOST_REFINEMENT;
+
+/// `solver.step`: how a model step is taken.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepRule {
+    /// Whole, or in the parts that are set.
+    #[default]
+    Fixed,
+    /// In as many parts as the motion asks for.
+    Auto,
+}
+
+/// What a run begins with, and returns to: half of a step. Its statistics are those of an eighth within what runs scatter,
+/// and a rig should have that answer where it costs nothing.
+const USUAL: u32 = 1;
+
+/// Share of the energy error from which the next finer step is asked for.
+const FINER_FROM: f64 = 0.30;
+/// Share below which the next coarser one is. An error falls to a half or a third with half the step, so that what was
+/// left is not asked for again at once.
+const COARSER_BELOW: f64 = 0.09;
+/// Judgements in a row, one a second, for a coarser step.
+const CALM: u32 = 10;
+
+/// The refinement in force and the one that the motion asks for: a step is taken in 2^refinement parts.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StepChoice {
+    /// How it is chosen.
+    pub rule: StepRule,
+    /// In force.
+    pub in_force: u32,
+    /// Asked for by the motion; 0 with [`StepRule::Fixed`].
+    pub wanted: u32,
+    calm: u32,
+}
+
+impl StepChoice {
+    /// At the start of a run.
+    pub(super) fn new(rule: StepRule) -> Self {
+        Self {
+            rule,
+            wanted: match rule {
+                StepRule::Fixed => 0,
+                StepRule::Auto => USUAL,
+            },
+            ..Self::default()
+        }
+    }
+
+    /// Takes the share of the energy error over a window with the refinement in force.
+    pub(super) fn judge(&mut self, error_share: f64) {
+        if self.rule == StepRule::Fixed {
+            return;
+        }
+        if error_share >= FINER_FROM {
+            self.calm = 0;
+            self.wanted = self.wanted.max((self.in_force + 1).min(MOST_REFINEMENT));
+        } else if self.wanted > USUAL && self.in_force == self.wanted && error_share < COARSER_BELOW {
+            self.calm += 1;
+            if self.calm == CALM {
+                self.calm = 0;
+                self.wanted -= 1;
+            }
+        } else {
+            self.calm = 0;
+        }
+    }
+
+    /// What would make the motion better.
+    pub(super) fn remedy(&self) -> &'static str {
+        match self.rule {
+            StepRule::Auto if self.wanted > self.in_force => {
+                "a finer step is asked for, and this machine is too slow for it"
+            }
+            _ => "a smaller solver.time_step is needed",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judged so many times.
+    fn judged(mut choice: StepChoice, times: u32, share: f64) -> StepChoice {
+        (0..times).for_each(|_| choice.judge(share));
+        choice
+    }
+
+    fn auto(in_force: u32) -> StepChoice {
+        StepChoice {
+            in_force,
+            ..StepChoice::new(StepRule::Auto)
+        }
+    }
+
+    #[test]
+    fn errors_ask_for_a_finer_step_at_once_and_calm_for_a_coarser_one_after_a_while() {
+        let mut choice = auto(1);
+        assert_eq!(choice.wanted, 1);
+        choice.judge(0.31);
+        assert_eq!(choice.wanted, 2);
+        choice.in_force = 2;
+        choice = judged(choice, CALM - 1, 0.08);
+        assert_eq!(choice.wanted, 2);
+        // An interruption counts anew.
+        choice.judge(0.10);
+        choice = judged(choice, CALM - 1, 0.08);
+        assert_eq!(choice.wanted, 2);
+        choice.judge(0.08);
+        assert_eq!(choice.wanted, 1);
+    }
+
+    #[test]
+    fn it_never_asks_for_less_than_the_usual_or_more_than_the_finest() {
+        assert_eq!(judged(auto(1), 100, 0.0).wanted, USUAL);
+        assert_eq!(judged(auto(2), 100, 2.0).wanted, MOST_REFINEMENT);
+    }
+
+    #[test]
+    fn a_pace_that_allows_less_is_told() {
+        let choice = judged(auto(0), 1, 0.5);
+        assert_eq!(choice.wanted, 1);
+        assert!(choice.remedy().contains("too slow"));
+        assert!(!judged(auto(2), 1, 0.5).remedy().contains("too slow"));
+        let fixed = judged(StepChoice::new(StepRule::Fixed), 3, 0.5);
+        assert_eq!(
+            (fixed.wanted, fixed.remedy()),
+            (0, "a smaller solver.time_step is needed")
+        );
+    }
+}
