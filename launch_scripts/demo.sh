@@ -14,10 +14,12 @@ usage: launch_scripts/demo.sh [options] [LOG]
   --record FILE   record a bag meanwhile
   --seconds N     end after N seconds of viewing (for CI)
   --plain         print lines instead of a full screen
+  --web           show it in this machine's browser instead of this terminal; the address is printed too
+  --steer         with --web: no rig plays a log, the page steers
 EOT
 }
 
-log="" mapping="" config="" seconds="" rig_options=() node_options=() watch_options=()
+log="" mapping="" config="" seconds="" rig_options=() node_options=() watch_options=() web="" steer=""
 while [ $# -gt 0 ]; do
     case $1 in
     --mapping) mapping=${2:?--mapping needs a file} && shift ;;
@@ -26,6 +28,8 @@ while [ $# -gt 0 ]; do
     --record) node_options+=(--record "${2:?--record needs a file}") && shift ;;
     --seconds) seconds=${2:?--seconds needs a number} && shift ;;
     --plain) watch_options+=(--plain) ;;
+    --web) web=1 ;;
+    --steer) steer=1 ;;
     -h | --help) usage && exit 0 ;;
     -*) usage >&2 && exit 2 ;;
     *) log=$1 ;;
@@ -33,6 +37,7 @@ while [ $# -gt 0 ]; do
     shift
 done
 [ -n "$seconds" ] && watch_options+=(--duration "$seconds")
+[ -z "$steer" ] || [ -n "$web" ] || fail "--steer goes with --web: in the terminal nobody steers"
 
 build
 local_dds
@@ -47,7 +52,7 @@ case $log in
 esac
 
 work=$(mktemp -d)
-node_pid="" rig_pid=""
+node_pid="" rig_pid="" web_pid=""
 # Ends a program that this script started: politely, so that recordings are finished, then firmly.
 end() {
     local pid=$1
@@ -63,6 +68,7 @@ end() {
 finish() {
     local code=$?
     trap - EXIT INT TERM
+    end "$web_pid"
     end "$rig_pid"
     end "$node_pid"
     if [ $code -ne 0 ] && [ -s "$work/node.log" ]; then
@@ -110,10 +116,24 @@ fi
 
 say "starting the twin: $config"
 start_node "$config" ${node_options[@]+"${node_options[@]}"}
-say "starting the rig: $log"
-"$flexdrill" rig "$log" --loop ${rig_options[@]+"${rig_options[@]}"} >"$work/rig.log" 2>&1 &
-rig_pid=$!
+if [ -z "$steer" ]; then
+    say "starting the rig: $log"
+    "$flexdrill" rig "$log" --loop ${rig_options[@]+"${rig_options[@]}"} >"$work/rig.log" 2>&1 &
+    rig_pid=$!
+fi
 sleep 2
 kill -0 "$node_pid" 2>/dev/null || fail "the twin ended at once"
-kill -0 "$rig_pid" 2>/dev/null || fail "the rig ended at once: $(tail -n 5 "$work/rig.log")"
-"$flexdrill" watch ${watch_options[@]+"${watch_options[@]}"}
+[ -n "$steer" ] || kill -0 "$rig_pid" 2>/dev/null || fail "the rig ended at once: $(tail -n 5 "$work/rig.log")"
+if [ -z "$web" ]; then
+    "$flexdrill" watch ${watch_options[@]+"${watch_options[@]}"}
+    exit
+fi
+[ -n "$steer" ] || say "the rig drives, so the page may not; --steer leaves the rig out"
+"$flexdrill" dashboard --open --allow-control &
+web_pid=$!
+if [ -n "$seconds" ]; then
+    sleep "$seconds"
+    kill -0 "$web_pid" 2>/dev/null || fail "the dashboard ended"
+else
+    wait "$web_pid"
+fi

@@ -420,3 +420,54 @@ fn the_first_messages_are_on_the_disk_at_once() {
     assert!(!folder.path().join("metadata.yaml").exists());
     recording.finish().unwrap();
 }
+
+/// The index of a file's chunks is in memory until the file ends: two chunks a second must not add up for ever.
+#[test]
+fn after_six_hours_it_goes_on_in_another_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run");
+    let recording = start(Disk, &path).unwrap();
+    let count = 43_210_usize;
+    for index in 0..count {
+        let (_, log_time, bytes) = message(0);
+        // A chunk for each.
+        let log_time = log_time + index as i64 * 500_000_000;
+        recording.record(&topics::ROTARY_SPEED_RPM, log_time, &bytes);
+        let began = Instant::now();
+        while index % 4000 == 3999 && (recording.health().messages() as usize) < index - 2 {
+            assert!(
+                began.elapsed() < Duration::from_secs(60),
+                "{}",
+                recording.health().messages()
+            );
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+    let ended = recording.finish();
+    assert_eq!(told(&ended), (count as u64, 0, 0));
+    let files = ["run_0.mcap", "run_1.mcap"].map(|name| bag::open(&path.join(name)).unwrap().count());
+    assert_eq!(files, [43_200, 10]);
+    let times: Vec<i64> = bag::open(&path).unwrap().map(|read| read.unwrap().log_time).collect();
+    assert!(times.len() == count && times.windows(2).all(|pair| pair[1] - pair[0] == 500_000_000));
+}
+
+/// What was lost on its way to the recorder shows like what the recorder lost.
+#[test]
+fn messages_that_did_not_reach_it_are_counted_and_missing_by_their_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run");
+    let recording = start(Disk, &path).unwrap();
+    send(&recording, 0, 30);
+    recording.lose(&topics::BIT_STATE, 7);
+    assert_eq!(recording.health().drops(), 7);
+    send(&recording, 30, 60);
+    assert_eq!(told(&recording.finish()), (60, 7, 0));
+    let mut gaps = Gaps::default();
+    bag::open(&path).unwrap().for_each(|read| gaps.observe(&read.unwrap()));
+    let found = gaps.found();
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(
+        found[0].topic.is("twin/bit_state") && found[0].messages == 7,
+        "{found:?}"
+    );
+}

@@ -177,6 +177,15 @@ fn parameters_set_before_the_first_tick_act_and_a_standing_clock_ends_a_run() {
         .unwrap()
         .clone();
     assert_eq!(last, friction(count));
+    let asked_by = applied[0]["parameter_asked_by"].as_array().unwrap();
+    assert_eq!(asked_by.len(), 2 * count as usize, "one for each change");
+    let asked_by = asked_by[0].as_str().unwrap();
+    // A plain DDS program has no node; its address and the id of its writer are known.
+    assert!(
+        asked_by.starts_with("service set_parameters, client unnamed node @ ") && !asked_by.contains("unknown host"),
+        "{asked_by}"
+    );
+    assert!(line.contains(asked_by), "{asked_by} in {line}");
     twin.wait_for("model time has stood still for the configured duration of 8 s");
     assert_eq!(twin.end(), Some(0));
 }

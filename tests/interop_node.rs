@@ -252,6 +252,125 @@ fn parameters_and_services_answer_both_kinds_of_clients() {
     });
 }
 
+/// Tools without our package learn the types from the node. The hash is made anew from what comes over the wire.
+#[test]
+fn types_are_described_to_both_kinds_of_clients() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    let ask = |peer: &mut common::Peer, name: &str, hash: &str, header: bool| {
+        let kind = "type_description_interfaces/srv/GetTypeDescription";
+        let request = json!({"type_name": name, "type_hash": hash, "include_type_sources": true});
+        let service = "/flexdrill/get_type_description";
+        if header {
+            peer.call_as_rmw_cyclone(service, kind, request)
+        } else {
+            peer.call(service, kind, request)
+        }
+    };
+    let inputs = [
+        "std_msgs/msg/Float64",
+        "flexdrill/msg/RigInputs",
+        "rosgraph_msgs/msg/Clock",
+    ];
+    let outputs = OUTPUTS.map(|(_, kind, _)| kind);
+    for (index, name) in inputs.into_iter().chain(outputs).enumerate() {
+        let reply = ask(&mut peer, name, "", index % 2 == 0);
+        assert_eq!(reply["successful"], true, "{name}: {reply}");
+        let hash = reply["extra_information"][0]["value"].as_str().unwrap().to_owned();
+        let again = peer.command(json!({"do": "rihs01", "description": reply["type_description"]}));
+        assert_eq!(again["hash"], hash, "{name}");
+        assert_eq!(flexdrill::messages::find_type(name).unwrap().rihs01, hash, "{name}");
+        let parts = 1 + length(&reply["type_description"], "referenced_type_descriptions");
+        assert_eq!(length(&reply, "type_sources"), parts, "{name}");
+        let own = &reply["type_sources"][0];
+        assert_eq!((&own["type_name"], &own["encoding"]), (&json!(name), &json!("msg")));
+        assert_eq!(
+            ask(&mut peer, name, &hash, index % 2 == 1)["successful"],
+            true,
+            "{name}"
+        );
+    }
+    let status = ask(&mut peer, STATUS.1, "", false);
+    let text = std::fs::read_to_string(common::root().join("msg/TwinStatus.msg")).unwrap();
+    assert_eq!(status["type_sources"][0]["raw_file_contents"], text);
+    let other = format!("RIHS01_{}", "0".repeat(64));
+    for (name, hash, words) in [
+        (
+            STATUS.1,
+            other.as_str(),
+            "the definition that is asked for is another one",
+        ),
+        (
+            "flexdrill/msg/Nothing",
+            "",
+            "knows no message type 'flexdrill/msg/Nothing'",
+        ),
+    ] {
+        let refused = ask(&mut peer, name, hash, true);
+        assert_eq!(refused["successful"], false);
+        assert!(refused["failure_reason"].as_str().unwrap().contains(words), "{refused}");
+    }
+    twin.signal("INT");
+    assert_eq!(twin.end(), Some(0));
+}
+
+/// No client waits for a reply that is too long to send.
+#[test]
+fn replies_that_are_too_long_are_answered_all_the_same() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    let all = peer.call(
+        "/flexdrill/list_parameters",
+        "rcl_interfaces/srv/ListParameters",
+        json!({}),
+    );
+    let names: Vec<Value> = all["result"]["names"].as_array().unwrap().clone();
+    let many: Vec<Value> = names.iter().cycle().take(5 * names.len()).cloned().collect();
+    let describe = "rcl_interfaces/srv/DescribeParameters";
+    let once = peer.call("/flexdrill/describe_parameters", describe, json!({ "names": names }));
+    assert_eq!(length(&once, "descriptors"), names.len());
+    let began = std::time::Instant::now();
+    for header in [false, true] {
+        let request = json!({ "names": many });
+        let reply = if header {
+            peer.call_as_rmw_cyclone("/flexdrill/describe_parameters", describe, request)
+        } else {
+            peer.call("/flexdrill/describe_parameters", describe, request)
+        };
+        assert_eq!(length(&reply, "descriptors"), 0, "{reply}");
+    }
+    assert!(
+        twin.wait_for("was shortened")
+            .contains("service /flexdrill/describe_parameters")
+    );
+    // Reasons are cut; which parameters were set stays told.
+    let friction = json!({"name": "contact.inner.friction_axial", "value": {"type": 3, "double_value": 0.25}});
+    let wrong = json!({"name": format!("nothing.{}", "x".repeat(20)), "value": {"type": 1}});
+    let parameters: Vec<&Value> = std::iter::repeat_n(&wrong, 700).chain([&friction]).collect();
+    let set = peer.call(
+        "/flexdrill/set_parameters",
+        "rcl_interfaces/srv/SetParameters",
+        json!({ "parameters": parameters }),
+    );
+    assert_eq!(length(&set, "results"), 701);
+    for (index, result) in set["results"].as_array().unwrap().iter().enumerate() {
+        assert_eq!(result["successful"], index == 700, "{index}: {result}");
+        let reason = result["reason"].as_str().unwrap();
+        assert!(reason.is_empty() == (index == 700) && reason.len() < 43, "{reason}");
+    }
+    assert!(
+        began.elapsed() < std::time::Duration::from_secs(5),
+        "{:?}",
+        began.elapsed()
+    );
+    twin.signal("INT");
+    assert_eq!(twin.end(), Some(0));
+}
+
 #[test]
 fn a_managed_node_follows_its_transitions() {
     let Some(network) = Network::new() else { return };

@@ -28,6 +28,17 @@ fn regenerating_gives_the_checked_in_file() {
 }
 
 #[test]
+fn regenerating_gives_the_page_its_checked_in_messages() {
+    let fresh = xtask::messages::generate_typescript(root()).unwrap();
+    let checked_in = std::fs::read_to_string(root().join(xtask::messages::PAGE_OUTPUT)).unwrap();
+    assert!(
+        fresh == checked_in,
+        "{} is old: run `cargo xtask messages`",
+        xtask::messages::PAGE_OUTPUT
+    );
+}
+
+#[test]
 fn every_definition_has_a_type_and_its_whole_schema() {
     let catalogue = Catalogue::read(root()).unwrap();
     assert_eq!(catalogue.iter().count(), TYPES.len());

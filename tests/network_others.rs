@@ -12,15 +12,6 @@ const STATUS: (&str, &str) = ("/twin/status", "flexdrill/msg/TwinStatus");
 const JOINTS: (&str, &str) = ("/twin/joint_deflections", "flexdrill/msg/JointDeflections");
 const ALARMS: (&str, &str) = ("/twin/alarms", "flexdrill/msg/AlarmList");
 
-/// Runs a command in the network; whether it succeeded.
-fn done(network: &Network, command: &[&str]) -> bool {
-    network
-        .command(command[0])
-        .args(&command[1..])
-        .output()
-        .is_ok_and(|out| out.status.success())
-}
-
 #[test]
 fn lost_packets_are_sent_again_to_who_asked_for_every_sample() {
     let Some(network) = Network::new() else { return };
@@ -31,7 +22,7 @@ fn lost_packets_are_sent_again_to_who_asked_for_every_sample() {
     peer.subscribe(JOINTS.0, JOINTS.1, "reliable");
     peer.status_with(STATUS.0, |_| true);
     let table = "add table ip lossy; add chain ip lossy input { type filter hook input priority 0; }";
-    if !done(&network, &["nft", table]) {
+    if !network.done(&["nft", table]) {
         skipped::<()>("packets cannot be lost without nftables");
         return;
     }
@@ -39,7 +30,7 @@ fn lost_packets_are_sent_again_to_who_asked_for_every_sample() {
         let rule = format!(
             "flush chain ip lossy input; add rule ip lossy input udp dport >= 7400 numgen random mod 100 < {percent} drop"
         );
-        assert!(done(&network, &["nft", &rule]));
+        assert!(network.done(&["nft", &rule]));
         let received = peer.listen(&[JOINTS.0], 5.0).remove(0);
         assert!(
             received.len() >= least,
@@ -55,7 +46,7 @@ fn lost_packets_are_sent_again_to_who_asked_for_every_sample() {
             "{percent} % lost: none is missing between those that have come"
         );
     }
-    assert!(done(&network, &["nft", "delete table ip lossy"]));
+    assert!(network.done(&["nft", "delete table ip lossy"]));
     let status = peer.status_with(STATUS.0, |_| true);
     assert_eq!(status["dds_restarts"], 0, "{}", status["dds_restart_cause"]);
     twin.signal("INT");
@@ -70,10 +61,10 @@ fn an_interface_that_goes_and_comes_back_is_used_again() {
     twin.wait_for("model time runs");
     peer.subscribe(STATUS.0, STATUS.1, "reliable");
     let before = peer.status_with(STATUS.0, |_| true);
-    assert!(done(&network, &["ip", "link", "set", "lo", "down"]));
+    assert!(network.done(&["ip", "link", "set", "lo", "down"]));
     std::thread::sleep(Duration::from_secs(3));
-    assert!(done(&network, &["ip", "link", "set", "lo", "up"]));
-    assert!(done(&network, &["ip", "route", "replace", "224.0.0.0/4", "dev", "lo"]));
+    assert!(network.done(&["ip", "link", "set", "lo", "up"]));
+    assert!(network.done(&["ip", "route", "replace", "224.0.0.0/4", "dev", "lo"]));
     let began = Instant::now();
     let after = peer.status_with(STATUS.0, |status| {
         status["sequence"].as_u64() > before["sequence"].as_u64().map(|sequence| sequence + 15)
@@ -124,8 +115,8 @@ fn two_nodes_of_one_name_are_told() {
 #[test]
 fn on_this_machine_alone_and_without_multicast_it_stays_up() {
     let Some(network) = Network::new() else { return };
-    assert!(done(&network, &["ip", "route", "del", "224.0.0.0/4", "dev", "lo"]));
-    assert!(done(&network, &["ip", "link", "set", "lo", "multicast", "off"]));
+    assert!(network.done(&["ip", "route", "del", "224.0.0.0/4", "dev", "lo"]));
+    assert!(network.done(&["ip", "link", "set", "lo", "multicast", "off"]));
     let local = |arguments: &[&str]| {
         let mut command = network.command("env");
         command.args(["ROS_LOCALHOST_ONLY=1", env!("CARGO_BIN_EXE_flexdrill")]);

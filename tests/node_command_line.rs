@@ -145,3 +145,90 @@ fn a_rig_drives_the_twin_and_both_end_on_signals() {
     assert_eq!(twin.end(), Some(0));
     assert!(twin.said().contains("ended after"), "{}", twin.said());
 }
+
+/// Standard output of each subcommand on a device that is full, and on a pipe that nobody reads.
+#[test]
+fn a_standard_output_that_takes_nothing_is_told_and_ends_no_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (bag, again) = (place("first"), place("again"));
+    let log = root().join("config/field_logs/demo.csv");
+    let (log, small) = (log.to_str().unwrap().to_owned(), common::small_config());
+    let small = small.to_str().unwrap();
+    let replay = |out: &str| -> Vec<String> {
+        let arguments = [
+            "replay",
+            &log,
+            "--config",
+            small,
+            "--from",
+            "60",
+            "--duration",
+            "1",
+            "--out",
+            out,
+        ];
+        arguments.map(str::to_owned).to_vec()
+    };
+    let made = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args(replay(&bag))
+        .output()
+        .unwrap();
+    assert!(made.status.success());
+    let Some(network) = Network::new() else { return };
+    let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<String>>();
+    let commands = [
+        words("check config/default.yaml"),
+        words("check config/default.yaml --full"),
+        words(&format!("recover {bag} --out {again}")),
+        replay(&place("other")),
+        words(&format!("run --config {small} --duration 1")),
+        words(&format!("rig {log} --from 60 --to 62")),
+        words(&format!("bench --config {small} --duration 1")),
+        words("verify --only sliding_mass"),
+        words("watch --plain --interval 0.2 --duration 20"),
+        words(&format!(
+            "paper --config {small} --turns 1 --no-step-check --out {}",
+            place("paper")
+        )),
+    ];
+    for arguments in commands {
+        for out in ["/dev/full", "a closed pipe"] {
+            let _ = std::fs::remove_dir_all(&again);
+            let _ = std::fs::remove_dir_all(place("other"));
+            let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+            command
+                .args(&arguments)
+                .current_dir(root())
+                .stderr(std::process::Stdio::piped());
+            let stdout: std::process::Stdio = match out {
+                "/dev/full" => std::fs::File::create(out).unwrap().into(),
+                // The reader goes at once.
+                _ => std::io::pipe().unwrap().1.into(),
+            };
+            let ended = command.stdout(stdout).output().unwrap();
+            let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+            assert!(!said.contains("panicked"), "{arguments:?} on {out}: {said}");
+            let told = out == "/dev/full";
+            assert_eq!(
+                ended.status.code(),
+                Some(i32::from(told)),
+                "{arguments:?} on {out}: {said}"
+            );
+            assert_eq!(
+                said.contains("standard output does not take what is printed: No space left"),
+                told,
+                "{arguments:?} on {out}: {said}"
+            );
+        }
+    }
+    // Without standard error nobody can be told, and the work is done all the same.
+    let _ = std::fs::remove_dir_all(place("other"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
+    command.args(replay(&place("other")));
+    let full = || std::fs::File::create("/dev/full").unwrap();
+    let ended = command.stdout(full()).stderr(full()).status().unwrap();
+    assert_eq!(ended.code(), Some(1));
+    let whole = |path: &str| flexdrill::bag::open(path.as_ref()).unwrap().count();
+    assert_eq!(whole(&place("other")), whole(&bag));
+}

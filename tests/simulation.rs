@@ -1,5 +1,6 @@
 //! The node's world, simulated: one seed decides clock, rig, operator, machine and network, on one thread and far faster
 //! than time. The solver's loop, the inputs' judgement, messages, status and alarms are the real ones; the tool is small.
+//! Every fiftieth seed records with the real recorder, on a disk that is full from time to time.
 //!
 //! `FLEXDRILL_SEEDS=10000 cargo test --release --test simulation` runs so many; `FLEXDRILL_SEED=17` one, and tells of it.
 
@@ -9,11 +10,14 @@
     reason = "helpers of tests fail by panicking"
 )]
 
+mod bag_support;
+
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
 
+use bag_support::witness::Witness;
 use flexdrill::alarms::{AlarmBook, NodeState};
 use flexdrill::dds::port::{Health, Restart};
 use flexdrill::health::status::{OutputCount, Sources, StatusKeeper};
@@ -90,6 +94,7 @@ enum Happening {
     Weight,
     Operator,
     Network,
+    Disk,
 }
 
 /// Everything but the solver's loop.
@@ -114,6 +119,8 @@ struct World {
     paused: bool,
     sequence: u64,
     next_status: u64,
+    /// In some worlds, a recording of all that is published.
+    witness: Option<Witness>,
     /// Of all that was published but the status, which tells of this machine's speed.
     digest: DefaultHasher,
 }
@@ -177,6 +184,13 @@ impl World {
                 } else {
                     self.chance.below(3 * SECOND)
                 }
+            }
+            Happening::Disk => {
+                if let Some(witness) = &mut self.witness {
+                    witness.turn();
+                }
+                // The recorder lives in real time, a thousand times slower than this world: most worlds see one fault.
+                10 * SECOND + self.chance.below(20 * SECOND)
             }
         }
     }
@@ -304,6 +318,9 @@ impl World {
                 "{topic}: a stamp went back"
             );
             *self.counts.entry(topic).or_default() += 1;
+            if let Some(witness) = &mut self.witness {
+                witness.record(topic, *stamp, bytes);
+            }
             (topic, stamp, bytes).hash(&mut self.digest);
         }
     }
@@ -332,7 +349,7 @@ impl World {
             now: self.seconds(),
             pace_time: self.now,
             outputs: &counts,
-            recording: None,
+            recording: self.witness.as_ref().map(Witness::recording),
             dds: &self.dds,
             namesakes: &[],
         };
@@ -357,6 +374,8 @@ impl World {
         assert!(numbers.iter().all(|number| number.is_finite()), "{numbers:?}");
         assert_eq!(status.dds_restarts, self.dds.restarts);
         assert_eq!(status.dds_up, self.dds.is_up);
+        let off = status.recording_state == TwinStatus::RECORDING_OFF;
+        assert_eq!(off, self.witness.is_none());
         // What was due is taken, given up or still to come; the loop says which.
         let gauges = &self.gauges;
         let [ticks, taken, skipped] =
@@ -466,11 +485,15 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         Happening::Weight,
         Happening::Operator,
         Happening::Network,
+        Happening::Disk,
     ];
     let mut chance = Chance(seed);
     let next = happenings
         .into_iter()
-        .map(|what| (what, BEGIN + chance.below(SECOND / 2)))
+        .map(|what| {
+            let first = if what == Happening::Disk { LENGTH } else { SECOND / 2 };
+            (what, BEGIN + chance.below(first))
+        })
         .collect();
     let world = World {
         chance,
@@ -496,6 +519,7 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         paused: false,
         sequence: 0,
         next_status: BEGIN,
+        witness: (seed % 50 == 0).then(Witness::new),
         digest: DefaultHasher::new(),
     };
     let world = Arc::new(Mutex::new(world));
@@ -509,6 +533,9 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         0,
         "no event found the ring full"
     );
+    if let Some(witness) = world.witness.take() {
+        witness.check();
+    }
     world.digest.finish()
 }
 

@@ -1,6 +1,7 @@
 //! rosbag2's `metadata.yaml`, version 9: written beside a recording at its end, read to
 //! find a bag's files.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -145,7 +146,7 @@ struct Information {
     relative_file_paths: Vec<String>,
 }
 
-/// The files of the bag in `folder`, by its metadata.yaml.
+/// The files of the bag in `folder`, by its metadata.yaml, each once.
 ///
 /// # Errors
 /// When the metadata cannot be read, or the bag is compressed in a way that we do not read.
@@ -164,6 +165,8 @@ pub(super) fn files(folder: &Path, metadata: &Path) -> Result<Vec<PathBuf>, BagE
             remedy: "convert it with `ros2 bag convert` to a bag without rosbag2's own compression",
         });
     }
+    // A file that is named twice holds its messages once.
+    let mut seen = BTreeSet::new();
     Ok(information
         .relative_file_paths
         .iter()
@@ -175,5 +178,6 @@ pub(super) fn files(folder: &Path, metadata: &Path) -> Result<Vec<PathBuf>, BagE
                 _ => path,
             }
         })
+        .filter(|path| seen.insert(path.canonicalize().unwrap_or_else(|_| path.clone())))
         .collect())
 }

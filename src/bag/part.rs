@@ -23,8 +23,10 @@ const FIRST_SPAN: Duration = Duration::from_millis(100);
 const LONGEST_SPAN: Duration = Duration::from_millis(500);
 /// Bytes that a message takes in a chunk beside its own.
 const MESSAGE_HEAD: usize = 31;
-/// Size beyond which a recording goes on in another file (bytes): below the 4 GiB that a FAT file system takes. It also
-/// bounds the index, which is in memory until the file ends.
+/// Chunks after which a recording goes on in another file: six hours at two a second. The index of the chunks is in memory
+/// until the file ends, some 400 bytes each, 20 MB in all.
+const MOST_CHUNKS: u32 = 43_200;
+/// Size beyond which a recording goes on in another file (bytes): below the 4 GiB that a FAT file system takes.
 const LARGEST_FILE: u64 = (4 << 30) - (64 << 20);
 /// Bytes of the index per chunk, and per channel in each chunk.
 const CHUNK_INDEX: u64 = 128;
@@ -202,8 +204,12 @@ impl Part {
         self.sync_if_due()
     }
 
-    /// Whether the file is to be ended before it takes another chunk: then its end would have no room.
+    /// Whether the file is to be ended before it takes another chunk: its end would have no room then, or its index would
+    /// take too much memory.
     pub fn is_full(&self) -> bool {
+        if self.chunks >= MOST_CHUNKS {
+            return true;
+        }
         let index = u64::from(self.chunks) * (CHUNK_INDEX + CHANNEL_INDEX * self.channels.len() as u64);
         // The next chunk may be larger than any before.
         self.length + 2 * self.largest_chunk + index + self.end_size > self.largest

@@ -45,23 +45,7 @@ impl BagMessage {
                 expected: M::ROS_TYPE,
             });
         }
-        self.decoded(&self.data)
-    }
-
-    /// The same of a message whose type has had up to `added` bytes of fields put at its end since: they are zero.
-    ///
-    /// # Errors
-    /// As [`BagMessage::decode`].
-    pub fn decode_extended<M: Message>(&self, added: usize) -> Result<M, BagError> {
-        self.decode().or_else(|error| {
-            let mut longer = self.data.to_vec();
-            longer.resize(longer.len() + added, 0);
-            self.decoded(&longer).map_err(|_| error)
-        })
-    }
-
-    fn decoded<M: Message>(&self, data: &[u8]) -> Result<M, BagError> {
-        from_cdr(data).map_err(|source| BagError::Decode {
+        from_cdr(&self.data).map_err(|source| BagError::Decode {
             topic: self.topic.name.clone(),
             log_time: self.log_time,
             source,
@@ -114,6 +98,13 @@ impl Stream {
         match self {
             Self::Mcap(stream) => stream.next(),
             Self::Sqlite(stream) => stream.next(),
+        }
+    }
+
+    fn seek(&mut self, time: i64) {
+        match self {
+            Self::Mcap(stream) => stream.seek(time),
+            Self::Sqlite(stream) => stream.seek(time),
         }
     }
 
@@ -258,6 +249,16 @@ impl Bag {
                 Stream::Mcap(stream) => stream.set_wanted(flags),
                 Stream::Sqlite(stream) => stream.set_wanted(flags),
             }
+        }
+    }
+
+    /// Goes on with the first message of `time` or later (ns since the clock's epoch), forward or back. Costs no more than
+    /// unpacking the chunks that hold it.
+    pub fn seek(&mut self, time: i64) {
+        for source in &mut self.sources {
+            source.stream.seek(time);
+            source.ahead = None;
+            source.ended = false;
         }
     }
 

@@ -93,6 +93,12 @@ impl RecordingHealth {
         }
     }
 
+    /// Counts messages that are lost before they were on their way.
+    pub(super) fn refuse(&self, messages: u32) {
+        self.offered.fetch_add(messages.into(), Ordering::Relaxed);
+        self.refused.fetch_add(messages.into(), Ordering::Relaxed);
+    }
+
     pub(super) fn set_counts(&self, counts: Counts) {
         self.written.store(counts.written, Ordering::Relaxed);
         self.safe.store(counts.safe, Ordering::Relaxed);

@@ -95,6 +95,18 @@ impl RecordingThread {
         })
     }
 
+    /// Counts messages of a topic that did not get as far as here: lost, and left out of its numbers.
+    pub fn lose(&self, topic: &TopicInfo, messages: u32) {
+        if let Some(sequence) = topics::ALL
+            .iter()
+            .position(|known| known.name == topic.name)
+            .and_then(|index| self.sequences.get(index))
+        {
+            sequence.fetch_add(messages, Ordering::Relaxed);
+            self.health.refuse(messages);
+        }
+    }
+
     /// Hands over a message; counts it as lost when there is no room. Never waits.
     pub fn record(&self, topic: &TopicInfo, log_time: i64, cdr: &[u8]) {
         let Some(index) = topics::ALL.iter().position(|known| known.name == topic.name) else {

@@ -112,6 +112,13 @@ impl SqliteStream {
         self.bounds
     }
 
+    /// Goes to the first message of `time` or later (ns since the epoch).
+    pub fn seek(&mut self, time: i64) {
+        self.batch.clear();
+        self.finished = false;
+        self.last = time.checked_sub(1).map(|before| (before, i64::MAX));
+    }
+
     /// The next message; nothing after an error.
     pub fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
         while self.batch.is_empty() && !self.finished {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::output::say_text;
 use flexdrill_config::Config;
 use flexdrill_core::tool::JointKind;
 use flexdrill_core::units::kn_to_n;
@@ -13,20 +14,28 @@ use flexdrill_core::units::kn_to_n;
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
     /// The configuration file (YAML).
-    config: PathBuf,
+    #[arg(required_unless_present = "schema")]
+    config: Option<PathBuf>,
     /// Print the complete configuration, defaults included, instead of the summary.
     #[arg(long)]
     full: bool,
+    /// Print the JSON Schema of all configurations, for editors, and check nothing.
+    #[arg(long, conflicts_with_all = ["config", "full"])]
+    schema: bool,
 }
 
 /// # Errors
 /// When the configuration is refused; the error lists every problem.
 pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
-    let config = Config::load(&args.config)?;
+    let Some(path) = &args.config else {
+        println!("{}", serde_json::to_string_pretty(&flexdrill_config::json_schema())?);
+        return Ok(());
+    };
+    let config = Config::load(path)?;
     if args.full {
-        print!("{}", config.to_yaml()?);
+        say_text!("{}", config.to_yaml()?);
     } else {
-        print!("{}", Summary(&config));
+        say_text!("{}", Summary(&config));
     }
     Ok(())
 }

@@ -2,13 +2,20 @@
 
 mod bench;
 mod check;
+mod dashboard;
+mod first_start;
 mod numbers;
+mod output;
 mod paper;
 mod progress;
+mod record_name;
 mod recover;
+mod reference;
 mod replay;
+mod report;
 mod rig;
 mod run;
+mod shell;
 mod signals;
 mod source;
 mod verify;
@@ -16,11 +23,13 @@ mod watch;
 
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
+use crate::cli::output::tell;
 use crate::dds::side;
 use crate::ros::args;
-use crate::told::printable_lines;
+use crate::told::{printable, printable_lines};
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
 #[derive(Debug, Parser)]
@@ -35,12 +44,17 @@ enum Command {
     Run(run::RunArgs),
     Rig(rig::RigArgs),
     Replay(replay::ReplayArgs),
+    Report(report::ReportArgs),
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
+    Dashboard(dashboard::DashboardArgs),
     Recover(recover::RecoverArgs),
     Verify(verify::VerifyArgs),
     Paper(Box<paper::PaperArgs>),
     Bench(bench::BenchArgs),
+    Completions(shell::CompletionsArgs),
+    Man(shell::ManArgs),
+    Reference(reference::ReferenceArgs),
 }
 
 /// The command line cannot be used as it is: exit code 2.
@@ -56,6 +70,41 @@ impl WrongUse {
 
 const WRONG_USE: u8 = 2;
 
+/// Says what is wrong with the command line, or what was asked for (`--help`), with the command that was probably meant,
+/// and ends the program.
+fn wrong_use(error: &clap::Error, arguments: &[String]) -> ! {
+    if error.kind() == ErrorKind::InvalidSubcommand
+        && let Some(command) = arguments.get(1).and_then(|word| first_start::meant(word))
+    {
+        let word = arguments
+            .get(1)
+            .map(|word| printable(word).to_string())
+            .unwrap_or_default();
+        eprintln!(
+            "error: '{word}' is no command of flexdrill\n\n  try: {}\n",
+            printable(&command)
+        );
+        eprintln!("For more information, try 'flexdrill --help'.");
+        std::process::exit(i32::from(WRONG_USE));
+    }
+    error.exit()
+}
+
+/// Whether a command line, the program's name first, can be understood; nothing is run.
+///
+/// # Errors
+/// What is wrong with it, in the words that a user would read.
+pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), String> {
+    let (arguments, ros_args) = args::split(arguments);
+    match Cli::try_parse_from(arguments) {
+        Err(error) if error.use_stderr() => return Err(error.to_string()),
+        _ => {}
+    }
+    args::RosArgs::parse(&ros_args)
+        .map(drop)
+        .map_err(|error| error.to_string())
+}
+
 /// Parses the command line, runs the subcommand, reports a failure on standard error.
 pub fn main() -> ExitCode {
     // The node's own child, not a subcommand for people.
@@ -66,26 +115,41 @@ pub fn main() -> ExitCode {
         return side::main();
     }
     let (arguments, ros_args) = args::split(std::env::args());
-    let cli = Cli::parse_from(arguments);
+    if arguments.len() < 2 {
+        eprint!("{}", first_start::WELCOME);
+        return ExitCode::from(WRONG_USE);
+    }
+    let cli = Cli::try_parse_from(&arguments).unwrap_or_else(|error| wrong_use(&error, &arguments));
     if let Err(error) = signals::outlive_file_size_limit() {
-        eprintln!("warning: a limit of the file size will end the program: {error}");
+        tell!("warning: a limit of the file size will end the program: {error}");
     }
     let result: anyhow::Result<()> = match cli.command {
         Command::Run(args) => run::run(&args, &ros_args),
         Command::Rig(args) => rig::run(&args, &ros_args),
         _ if !ros_args.is_empty() => Err(WrongUse::new("only `run` and `rig` take --ros-args").into()),
         Command::Replay(args) => replay::run(&args),
+        Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
+        Command::Dashboard(args) => dashboard::run(&args),
         Command::Recover(args) => recover::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Completions(args) => {
+            shell::completions(&args);
+            Ok(())
+        }
+        Command::Man(args) => shell::man(&args),
+        Command::Reference(args) => {
+            reference::run(&args);
+            Ok(())
+        }
     };
-    match result {
+    match result.and_then(|()| Ok(output::end()?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", printable_lines(&format!("{error:#}")));
+            tell!("error: {}", printable_lines(&format!("{error:#}")));
             if error.is::<WrongUse>() {
                 ExitCode::from(WRONG_USE)
             } else {

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::numbers;
 use super::progress::Progress;
+use crate::cli::output::{say, tell};
 use flexdrill_config::Config;
 use flexdrill_paper::hinge::Hinge;
 use flexdrill_paper::search::{self, Outcome, Plan, Stage};
@@ -114,7 +115,7 @@ fn case(args: &PaperArgs) -> anyhow::Result<Case> {
 }
 
 fn recorded(case: &Case, what: &str) -> Result<Record, PaperError> {
-    eprintln!(
+    tell!(
         "{what}: {:.1} s of model time at a step of {} ms",
         case.times()[1],
         1e3 * case.config.solver.time_step
@@ -139,7 +140,7 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
         };
         Some(findings(&recorded(&half, "the same at half the step")?))
     };
-    eprintln!("the hinge of Fig. 9");
+    tell!("the hinge of Fig. 9");
     let hinge = Hinge::run()?;
     let figures = write_figures(&args.out, figures::figures(&run, &hinge))?;
     let report = Report {
@@ -153,9 +154,9 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
     write_text(&args.out, "findings.csv", &findings_csv(&found))?;
     write_text(&args.out, "report.md", &report.markdown())?;
     write_text(&args.out, "report.html", &report.html())?;
-    println!("{:<16} {:<6} {:<8} ours", "finding", "figure", "agrees?");
+    say!("{:<16} {:<6} {:<8} ours", "finding", "figure", "agrees?");
     for finding in &found {
-        println!(
+        say!(
             "{:<16} {:<6} {:<8} {}",
             finding.key,
             finding.figure,
@@ -164,7 +165,7 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
         );
     }
     let agree = found.iter().filter(|f| f.verdict == Verdict::Agrees).count();
-    println!(
+    say!(
         "{agree} of {} agree; energy error {:.1e} of the drive's work; report: {}",
         found.len(),
         run.energy_error(),
@@ -205,7 +206,7 @@ fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
     progress.done();
     for (stage, trial) in search::leaders(&trials) {
         let (closeness, agree) = trial.outcome.score();
-        println!(
+        say!(
             "{stage:<12} best: trial {:>4}, score {closeness:.3}, {agree} agree",
             trial.index
         );
@@ -213,10 +214,10 @@ fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
             let name = "best.yaml";
             let config = trial.config(&plan.full)?;
             write_text(Path::new(&args.out), name, &config.to_yaml()?)?;
-            println!("written: {}", args.out.join(name).display());
+            say!("written: {}", args.out.join(name).display());
         }
     }
-    println!("{} trials: {}", trials.len(), path.display());
+    say!("{} trials: {}", trials.len(), path.display());
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! A progress bar on a terminal, a line now and then elsewhere.
 
+use crate::cli::output::tell;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
@@ -8,11 +9,21 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Time between two lines where there is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
+/// What is counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Of {
+    /// s of model time.
+    ModelTime,
+    Things,
+    /// 0 to 1.
+    Share,
+}
+
 /// Progress of model time towards an end (s).
 pub(super) struct Progress {
     bar: Option<ProgressBar>,
     end: f64,
-    counted: bool,
+    of: Of,
     began: Instant,
     printed: Instant,
 }
@@ -32,16 +43,24 @@ impl Progress {
         Self {
             bar,
             end,
-            counted: false,
+            of: Of::ModelTime,
             began: now,
             printed: now,
+        }
+    }
+
+    /// A bar of how much is done (0 to 1).
+    pub(super) fn share() -> Self {
+        Self {
+            of: Of::Share,
+            ..Self::new(1.0)
         }
     }
 
     /// A bar up to a number of things.
     pub(super) fn counted(end: f64) -> Self {
         Self {
-            counted: true,
+            of: Of::Things,
             ..Self::new(end)
         }
     }
@@ -50,12 +69,21 @@ impl Progress {
     pub(super) fn at(&mut self, time: f64) {
         let wall = self.began.elapsed().as_secs_f64();
         let speed = if wall > 0.0 { time / wall } else { 0.0 };
-        if self.counted {
+        if self.of == Of::Share {
+            if let Some(bar) = &self.bar {
+                bar.set_position((time * 1e3) as u64);
+            } else if self.printed.elapsed() >= LINE_EVERY {
+                self.printed = Instant::now();
+                eprintln!("{:.0} % after {wall:.0} s", 100.0 * time);
+            }
+            return;
+        }
+        if self.of == Of::Things {
             if let Some(bar) = &self.bar {
                 bar.set_position((time * 1e3) as u64);
                 bar.set_message(format!("{time} of {}", self.end));
             } else {
-                eprintln!("{time} of {} after {wall:.0} s", self.end);
+                tell!("{time} of {} after {wall:.0} s", self.end);
             }
             return;
         }
@@ -64,7 +92,7 @@ impl Progress {
             bar.set_message(format!("{time:.1} of {:.1} s, {speed:.2} x real time", self.end));
         } else if self.printed.elapsed() >= LINE_EVERY {
             self.printed = Instant::now();
-            eprintln!("{time:.1} of {:.1} s of model time, {speed:.2} x real time", self.end);
+            tell!("{time:.1} of {:.1} s of model time, {speed:.2} x real time", self.end);
         }
     }
 

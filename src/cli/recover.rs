@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::bag;
+use crate::cli::output::{say, tell};
 use crate::told::printable;
 
 /// Make a whole bag of one that was cut short or damaged.
@@ -36,22 +37,22 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
     bar.finish_and_clear();
     let recovered = recovered?;
     for cut in &recovered.cuts {
-        eprintln!("{}: {} (byte {})", cut.path.display(), cut.reason, cut.offset);
+        tell!("{}: {} (byte {})", cut.path.display(), cut.reason, cut.offset);
     }
     for damage in &recovered.damaged {
-        eprintln!("left out: {}", printable(&damage.to_string()));
+        tell!("left out: {}", printable(&damage.to_string()));
     }
     for gap in &recovered.gaps {
-        eprintln!("lost while it was recorded: {gap}");
+        tell!("lost while it was recorded: {gap}");
     }
     for (topic, count) in recovered.topics.iter().zip(&recovered.recording.per_topic) {
-        println!(
+        say!(
             "{count:>10}  {}  {}",
             printable(&topic.name),
             printable(&topic.ros_type)
         );
     }
-    println!(
+    say!(
         "{:>10}  messages in {}",
         recovered.recording.messages,
         recovered.recording.path.display()

@@ -5,8 +5,10 @@ mod incidents;
 mod inputs;
 mod player;
 mod recording;
+mod show;
 mod summary;
 
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -17,6 +19,7 @@ use super::progress::Progress;
 use super::run::load_config;
 use super::{WrongUse, numbers, source};
 use crate::bag;
+use crate::cli::output::{say, say_text, tell};
 use crate::messages::topics;
 use crate::told::printable;
 
@@ -30,8 +33,15 @@ pub(super) struct ReplayArgs {
     /// Bag (MCAP, SQLite or their folder) or field log (CSV).
     input: PathBuf,
     /// Bag to write: FILE.mcap or a folder.
-    #[arg(long, value_name = "OUT")]
-    out: PathBuf,
+    #[arg(long, value_name = "OUT", required_unless_present = "foxglove")]
+    out: Option<PathBuf>,
+    /// Show a recording as it is to Foxglove and Lichtblick, which play, pause and jump; 127.0.0.1:8765 is their default. With
+    /// --out, what was written there.
+    #[arg(long, value_name = "ADDRESS:PORT")]
+    foxglove: Option<SocketAddr>,
+    /// Let a viewer from this page in too, as https://viewer.example; pages of this machine and of Foxglove always may.
+    #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
+    allow_origin: Vec<String>,
     /// Configuration, where the input does not bring its own; without it the paper's case, built in.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
@@ -48,6 +58,22 @@ pub(super) struct ReplayArgs {
 /// # Errors
 /// When the input cannot be used, a step fails, or the bag cannot be written.
 pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
+    if let Some(out) = &args.out {
+        replay(args, out)?;
+    }
+    let Some(address) = args.foxglove else { return Ok(()) };
+    let shown = args.out.as_deref().unwrap_or(&args.input);
+    if !source::is_bag(shown)? {
+        return Err(WrongUse::new(format!(
+            "{}: --foxglove shows a recording; with --out FILE.mcap this log is replayed into one first",
+            shown.display()
+        ))
+        .into());
+    }
+    show::show(shown, address, &args.allow_origin)
+}
+
+fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     if source::is_bag(&args.input)? && recording::is_ours(&bag::open(&args.input)?) {
         if args.config.is_some() || args.source.is_given() {
             return Err(WrongUse::new("a recording of flexdrill brings its own configuration and inputs: leave out --config, --from, --to and --mapping, or use another bag").into());
@@ -55,10 +81,10 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         let script = recording::Script::read(&args.input)?;
         let exactness = script.exactness();
         for departure in &exactness.departures {
-            eprintln!("not exact: {}", printable(departure));
+            tell!("not exact: {}", printable(departure));
         }
         for note in &exactness.notes {
-            eprintln!("{}", printable(note));
+            tell!("{}", printable(note));
         }
         let done = if script.is_empty() {
             let samples = args.source.read(&args.input).with_context(|| {
@@ -68,21 +94,21 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
                     topics::APPLIED_INPUTS.name
                 )
             })?;
-            inputs::replay(script.config()?, &samples, &args.out, args.duration)?
+            inputs::replay(script.config()?, &samples, out, args.duration)?
         } else {
-            script.replay(&args.out, args.duration)?
+            script.replay(out, args.duration)?
         };
         finish(done, args.incidents.as_deref())?;
         match exactness.departures.as_slice() {
-            [] => println!("  exact: nothing of what drove the model is missing in the recording"),
-            departures => println!("  not exact: {}", printable(&departures.join("; "))),
+            [] => say!("  exact: nothing of what drove the model is missing in the recording"),
+            departures => say!("  not exact: {}", printable(&departures.join("; "))),
         }
         return Ok(());
     }
     let (config, name) = load_config(args.config.as_deref())?;
-    println!("configuration {name}, hash {}", &config.hash()[..12]);
+    say!("configuration {name}, hash {}", &config.hash()[..12]);
     let samples = args.source.read(&args.input)?;
-    let done = inputs::replay(config, &samples, &args.out, args.duration)?;
+    let done = inputs::replay(config, &samples, out, args.duration)?;
     finish(done, args.incidents.as_deref())
 }
 
@@ -92,11 +118,11 @@ fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow
     let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);
     let joints = incidents::Joints(player.joint_stations().to_vec());
     let (recording, mut tally) = player.finish()?;
-    println!("wrote {} messages to {}", recording.messages, recording.path.display());
+    say!("wrote {} messages to {}", recording.messages, recording.path.display());
     tally.print(wall, time_step);
-    print!("{}", tally.alarms);
+    say_text!("{}", tally.alarms);
     let found = tally.incidents();
-    print!("{}", incidents::table(&found, &joints));
+    say_text!("{}", incidents::table(&found, &joints));
     if let Some(path) = json {
         incidents::write_json(path, &found, &joints)?;
     }

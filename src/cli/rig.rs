@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::source::{self, Sample};
 use super::{WrongUse, numbers, signals};
+use crate::cli::output::say;
 use crate::dds::network::Network;
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
@@ -56,13 +57,13 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
         tracing::warn!("{note}");
     }
     let node = RigNode::new(&network, &identity, &ros_args.remapping)?;
-    println!(
+    say!(
         "playing {} ({} samples) at {} x real time",
         args.log.display(),
         samples.len(),
         args.rate
     );
-    println!(
+    say!(
         "to {} and {}, domain {}; Ctrl-C ends it",
         node.topics()[0],
         node.topics()[1],
@@ -77,7 +78,7 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
         }
         anyhow::Ok(())
     })?;
-    println!("stopped");
+    say!("stopped");
     Ok(())
 }
 
@@ -88,7 +89,7 @@ async fn play(node: &RigNode, samples: &[Sample], rate: f64, again: bool) {
         if !again {
             return;
         }
-        println!("from the beginning again");
+        say!("from the beginning again");
     }
 }
 
@@ -128,7 +129,7 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
             } else {
                 String::new()
             };
-            println!(
+            say!(
                 "{now:.0} of {:.0} s: {} r/min, {} kN, {sent} samples sent{late}, {} listening",
                 at(last),
                 show(newest[0]),
@@ -140,5 +141,5 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
     }
     // The last samples reach the other side before the node goes.
     tokio::time::sleep(DISCOVERY).await;
-    println!("end of the log after {:.1} s: {sent} samples sent", at(last));
+    say!("end of the log after {:.1} s: {sent} samples sent", at(last));
 }

@@ -1,16 +1,19 @@
 //! `flexdrill run`: the node.
 
+use std::net::SocketAddr;
 use std::path::PathBuf;
+use std::time::SystemTime;
 
 use clap::Args;
 
-use super::{WrongUse, numbers, signals};
+use super::{WrongUse, numbers, record_name, signals};
 use crate::alarms::state_file;
+use crate::cli::output::say;
 use crate::dds::network::Network;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
-use crate::ros::node::{self, NodeSetup, RunSummary};
+use crate::ros::node::{self, LiveAddress, NodeSetup, RunSummary};
 use crate::ros::parameters;
 use crate::ros::service::ServiceMapping;
 use crate::ros::{DEFAULT_NODE_NAME, logging};
@@ -33,7 +36,8 @@ pub(super) struct RunArgs {
     /// Configuration (YAML); without it the paper's case, built in.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Record inputs and outputs: FILE.mcap, or a folder as rosbag2 makes them.
+    /// Record inputs and outputs: FILE.mcap, or a folder as rosbag2 makes them. {start} in the name becomes the time of
+    /// the start (UTC), for a supervisor that starts the same command again.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// DDS domain, 0 to 232; wins over ROS_DOMAIN_ID.
@@ -55,6 +59,13 @@ pub(super) struct RunArgs {
     /// ~/.local/state/flexdrill.
     #[arg(long, value_name = "DIR")]
     state_dir: Option<PathBuf>,
+    /// Also show what is published over WebSocket, to Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Reading
+    /// only: nothing that a viewer sends acts on the twin.
+    #[arg(long, value_name = "ADDRESS:PORT")]
+    foxglove: Option<SocketAddr>,
+    /// Let a viewer from this page in too, as https://viewer.example; pages of this machine and of Foxglove always may.
+    #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
+    allow_origin: Vec<String>,
     /// Start from a state that ~/save_checkpoint has written. A recording of such a run cannot be replayed.
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
@@ -86,7 +97,14 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         identity,
         remapping: ros_args.remapping.clone(),
         mapping: args.service_mapping,
-        record: args.record.clone(),
+        live: args.foxglove.map(|address| LiveAddress {
+            address,
+            origins: args.allow_origin.clone(),
+        }),
+        record: args
+            .record
+            .as_deref()
+            .map(|path| record_name::at_start(path, SystemTime::now())),
         use_sim_time: started.use_sim_time,
         rosout: ros_args.rosout.unwrap_or(true),
         checkpoint: args.checkpoint.clone(),
@@ -123,8 +141,8 @@ pub(super) fn load_config(path: Option<&std::path::Path>) -> anyhow::Result<(Con
 
 fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     let config = &setup.config;
-    let row = |name: &str, value: String| println!("  {name:<14} {value}");
-    println!(
+    let row = |name: &str, value: String| say!("  {name:<14} {value}");
+    say!(
         "flexdrill {}, node {}",
         env!("CARGO_PKG_VERSION"),
         setup.identity.full_name()
@@ -177,7 +195,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     if let Some(path) = &setup.record {
         row("recording", path.display().to_string());
     }
-    println!("  Ctrl-C ends it.");
+    say!("  Ctrl-C ends it.");
     Ok(())
 }
 
@@ -212,7 +230,7 @@ fn print_summary(summary: &RunSummary) {
         failed_steps,
         ..
     } = summary.status;
-    println!(
+    say!(
         "ended after {model_time:.2} s of model time: {step_count} steps, {steps_skipped} skipped, {deadline_misses} late, \
          {halved_steps} halved, {failed_steps} failed"
     );
@@ -221,19 +239,19 @@ fn print_summary(summary: &RunSummary) {
             1 => String::new(),
             files => format!(" and {} more", files - 1),
         };
-        println!(
+        say!(
             "recorded {} messages to {}{files}",
             recording.messages,
             recording.path.display()
         );
         if recording.lost > 0 {
-            println!(
+            say!(
                 "{} messages did not get into the recording: the disk was too slow, or failed for a while",
                 recording.lost
             );
         }
         if recording.doubtful > 0 {
-            println!(
+            say!(
                 "{} messages of the recording may be lost: the disk refused to keep them",
                 recording.doubtful
             );

@@ -1,6 +1,7 @@
 //! Ctrl-C, SIGTERM and a terminal that goes away: the first asks for an orderly end, a later one insists. A file size
 //! limit is an error of a write.
 
+use crate::cli::output::tell;
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -95,7 +96,7 @@ pub(super) fn shutdown(recording: bool) -> io::Result<impl Future<Output = ()>> 
                     Request::Wait if insisted => {}
                     Request::Wait => {
                         insisted = true;
-                        eprintln!(
+                        tell!(
                             "the end of the recording is being written; that takes at most {} s",
                             left.as_secs()
                         );
@@ -103,7 +104,7 @@ pub(super) fn shutdown(recording: bool) -> io::Result<impl Future<Output = ()>> 
                     Request::Insist => break,
                 }
             }
-            eprintln!("ended at once");
+            tell!("ended at once");
             std::process::exit(FORCED);
         });
     })

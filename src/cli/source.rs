@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::WrongUse;
 use crate::bag::{self, BagError};
+use crate::cli::output::{tell, tell_text};
 use crate::field_log::{self, Mapping, Position};
 use crate::messages::std_msgs::Float64;
 use crate::messages::{Message, RigInputs, topics};
@@ -117,7 +118,7 @@ impl SourceArgs {
             to: self.to,
         };
         let (sequence, report) = field_log::read_range(path, &mapping, &range)?;
-        eprint!("{report}");
+        tell_text!("{report}");
         let samples = sequence.inputs.iter().map(|input| Sample {
             // Times of a log begin at 0 and are at most some years.
             time: (input.time * 1e9).round() as i64,
@@ -203,7 +204,7 @@ fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
         }
     }
     for cut in bag.cuts() {
-        eprintln!(
+        tell!(
             "{} was cut short ({}); what is there is used",
             cut.path.display(),
             cut.reason

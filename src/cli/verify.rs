@@ -5,6 +5,7 @@ use std::io::IsTerminal;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::cli::output::say;
 use flexdrill_verify::{CASES, title};
 
 /// Runs the closed-form verification cases and compares them with theory; fails when one is off.
@@ -35,19 +36,19 @@ pub fn run(args: &VerifyArgs) -> anyhow::Result<()> {
     } else {
         ProgressBar::hidden()
     };
-    println!("{}", title());
+    say!("{}", title());
     let (mut passed, mut failed) = (0, 0);
     for case in cases {
         bar.set_message(format!("{}: {}", case.name, case.shows));
         let rows = (case.run)()?;
-        bar.suspend(|| rows.iter().for_each(|row| println!("{row}")));
+        bar.suspend(|| rows.iter().for_each(|row| say!("{row}")));
         let good = rows.iter().filter(|row| row.passed()).count();
         passed += good;
         failed += rows.len() - good;
         bar.inc(1);
     }
     bar.finish_and_clear();
-    println!("{passed} within their limits, {failed} outside");
+    say!("{passed} within their limits, {failed} outside");
     anyhow::ensure!(failed == 0, "{failed} verification values are outside their limits");
     Ok(())
 }

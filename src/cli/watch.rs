@@ -17,6 +17,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 
 use super::{numbers, signals};
+use crate::cli::output::{self, tell};
 use crate::dds::network::Network;
 use board::Board;
 use feed::Feed;
@@ -63,9 +64,12 @@ pub(super) fn run(args: &WatchArgs) -> anyhow::Result<()> {
     let deadline = args.duration.map(Duration::from_secs_f64);
     if args.once || args.plain || !std::io::stdout().is_terminal() {
         for note in notes {
-            eprintln!("note: {note}");
+            tell!("note: {note}");
         }
         print_blocks(args, &mut feed, &mut board, deadline, &stop)?;
+        if output::has_failed() {
+            return Ok(());
+        }
     } else {
         let mut terminal =
             ratatui::try_init().context("the terminal cannot be switched to full screen; use --plain")?;
@@ -105,15 +109,19 @@ fn print_blocks(
         let now = Instant::now();
         feed.drain(board, now);
         if args.once && board.is_complete() {
-            return plain::print(board, now);
+            plain::print(board, now);
+            break;
         }
         if !args.once && now >= next {
             next = now + interval;
-            plain::print(board, now)?;
+            plain::print(board, now);
+            if output::has_failed() {
+                break;
+            }
         }
         if patience.is_some_and(|patience| now - start >= patience) {
             if args.once {
-                plain::print(board, now)?;
+                plain::print(board, now);
                 bail!("not everything was heard in time: {}", board.missing().join(", "));
             }
             break;

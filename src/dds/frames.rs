@@ -68,7 +68,7 @@ pub enum FromSide {
         /// Goes back with the reply.
         ticket: u64,
         /// Who asks.
-        client: Guid,
+        client: Peer,
         /// The CDR body.
         #[serde(with = "serde_bytes")]
         body: Vec<u8>,

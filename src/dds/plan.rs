@@ -7,6 +7,9 @@ use crate::dds::network::Network;
 /// Time that a reader may stall before writes are refused (s): longer than the lease after which DDS drops a dead one.
 const STALL_TIME: f64 = 15.0;
 
+/// Longest reply of a service (bytes): the library breaks those that need more than one datagram.
+pub const MOST_REPLY: usize = 60_000;
+
 /// Bytes of the prefix that all endpoints of a participant share.
 pub type GuidPrefix = [u8; 12];
 /// The global id of an endpoint on the network.
@@ -51,6 +54,8 @@ pub struct ReaderPlan {
     pub dds_type: String,
     /// Asks for what was written before, and for what was lost.
     pub latched: bool,
+    /// Asks for what was lost.
+    pub reliable: bool,
 }
 
 /// A service.
@@ -94,9 +99,25 @@ impl Offer {
     }
 }
 
-/// The DDS name of an absolute ROS topic: `/a/b` is `rt/a/b`.
+/// The DDS name of an absolute ROS topic: `/a/b` is `rt/a/b`. What does not begin with a slash is a DDS name already, such as
+/// those of a service ([`service_topics`]).
 pub fn dds_topic_name(topic: &str) -> String {
-    format!("rt{topic}")
+    match topic.strip_prefix('/') {
+        Some(_) => format!("rt{topic}"),
+        None => topic.to_owned(),
+    }
+}
+
+/// The DDS topics of a service, with their types: its requests and its replies. `/a/b` is `rq/a/bRequest` and `rr/a/bReply`,
+/// `std_srvs/srv/Trigger` is `std_srvs::srv::dds_::Trigger_Request_` and `..._Response_`.
+pub fn service_topics(name: &str, ros_type: &str) -> [(String, String); 2] {
+    let (package, kind) = ros_type.split_once('/').unwrap_or((ros_type, ""));
+    let kind = kind.rsplit('/').next().unwrap_or_default();
+    let dds_type = |part: &str| format!("{package}::srv::dds_::{kind}_{part}_");
+    [
+        (format!("rq{name}Request"), dds_type("Request")),
+        (format!("rr{name}Reply"), dds_type("Response")),
+    ]
 }
 
 /// The DDS name of a ROS message type: `std_msgs/msg/Float64` is `std_msgs::msg::dds_::Float64_`.
@@ -113,6 +134,11 @@ mod tests {
     #[test]
     fn names_on_the_wire() {
         assert_eq!(dds_topic_name("/rig_7/twin/status"), "rt/rig_7/twin/status");
+        let [requests, replies] = service_topics("/rig_7/flexdrill/reset", "std_srvs/srv/Trigger");
+        assert_eq!(dds_topic_name(&requests.0), "rq/rig_7/flexdrill/resetRequest");
+        assert_eq!(dds_topic_name(&replies.0), "rr/rig_7/flexdrill/resetReply");
+        assert_eq!(requests.1, "std_srvs::srv::dds_::Trigger_Request_");
+        assert_eq!(replies.1, "std_srvs::srv::dds_::Trigger_Response_");
         assert_eq!(
             dds_type_name("flexdrill/msg/TwinStatus"),
             "flexdrill::msg::dds_::TwinStatus_"

@@ -167,10 +167,11 @@ pub(super) fn inputs(status: &TwinStatus) -> Judgement {
         values.push((
             key,
             format!(
-                "{}; {} samples of others refused, {} unreadable",
+                "{}; {} samples of others refused, {} unreadable, {} came too fast to be taken",
                 if publishers.is_empty() { "none" } else { publishers },
                 count(&status.input_not_driving),
-                count(&status.input_unreadable)
+                count(&status.input_unreadable),
+                count(&status.input_overrun)
             ),
         ));
     }
@@ -194,7 +195,10 @@ pub(super) fn recording(status: &TwinStatus, previous: &TwinStatus) -> Judgement
         ),
         TwinStatus::RECORDING_ON if lost > 0 => (
             DiagnosticStatus::WARN,
-            format!("{lost} messages lost: the disk is too slow, or failed for a while"),
+            format!(
+                "{lost} messages lost: the disk is too slow or failed for a while, or samples came faster than they were \
+                 taken"
+            ),
         ),
         TwinStatus::RECORDING_ON => (DiagnosticStatus::OK, format!("recording to {}", status.recording_path)),
         _ => (DiagnosticStatus::OK, "not recording".to_owned()),

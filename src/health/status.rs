@@ -247,6 +247,7 @@ impl StatusKeeper {
             status.input_several_drivers.push(drivers.several);
             status.input_not_driving.push(drivers.refused);
             status.input_unreadable.push(intake.unreadable(kind));
+            status.input_overrun.push(intake.overrun(kind));
             status
                 .input_safe
                 .push(conditioner.is_brought_to_safe(kind, sources.now));

@@ -19,6 +19,8 @@ pub trait Message: Serialize + DeserializeOwned {
     const RIHS01: &'static str;
     /// Schema `ros2msg`, complete with the messages it is made of.
     const SCHEMA: &'static str;
+    /// The type alone as JSON: its name and fields, as the hash has them, with their default values.
+    const DESCRIPTION: &'static str;
     /// All of that as a value.
     const INFO: TypeInfo = TypeInfo {
         package: Self::PACKAGE,
@@ -27,6 +29,7 @@ pub trait Message: Serialize + DeserializeOwned {
         dds_type: Self::DDS_TYPE,
         rihs01: Self::RIHS01,
         schema: Self::SCHEMA,
+        description: Self::DESCRIPTION,
     };
 }
 
@@ -45,7 +48,19 @@ pub struct TypeInfo {
     pub rihs01: &'static str,
     /// [`Message::SCHEMA`].
     pub schema: &'static str,
+    /// [`Message::DESCRIPTION`].
+    pub description: &'static str,
 }
+
+impl TypeInfo {
+    /// The text that the type was defined by, without those that it is made of.
+    pub fn source(&self) -> &'static str {
+        self.schema.split(SEPARATOR).next().unwrap_or_default()
+    }
+}
+
+/// The line between two messages of a schema.
+const SEPARATOR: &str = "================================================================================\n";
 
 /// The type of that full name, such as `std_msgs/msg/Float64`.
 pub fn find_type(ros_type: &str) -> Option<&'static TypeInfo> {

@@ -21,6 +21,6 @@ pub use cdr::{CdrError, MOST_PADDING, from_cdr, from_cdr_body, to_cdr, to_cdr_bo
 pub use generated::flexdrill::*;
 pub use generated::{
     builtin_interfaces, diagnostic_msgs, geometry_msgs, lifecycle_msgs, rcl_interfaces, rosgraph_msgs, sensor_msgs,
-    std_msgs, std_srvs, tf2_msgs, visualization_msgs,
+    std_msgs, std_srvs, tf2_msgs, type_description_interfaces, visualization_msgs,
 };
 pub use message::{Message, TypeInfo, find_type};

@@ -37,14 +37,22 @@ pub struct Encoded<'a> {
     pub cdr: &'a [u8],
 }
 
-/// A parameter changed while running, that [`AppliedInputs`] has no field for.
-pub type ParameterChange = (String, f64);
+/// A parameter that was changed while running.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParameterChange {
+    /// Dotted name.
+    pub name: String,
+    /// In the parameter's unit.
+    pub value: f64,
+    /// Service and client that asked for it; empty where that is not known.
+    pub asked_by: String,
+}
 
 /// What drives the run, as it was sent last.
 struct Driven {
     inputs: RunInputs,
     /// Parameters changed since the start.
-    changes: BTreeMap<String, f64>,
+    changes: BTreeMap<String, ParameterChange>,
     /// When it was sent last.
     ticks: u64,
 }
@@ -220,7 +228,7 @@ impl Outputs {
         send: impl FnMut(Encoded<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
         let mut known = self.driven.take().map(|driven| driven.changes).unwrap_or_default();
-        known.extend(changes.iter().cloned());
+        known.extend(changes.iter().map(|change| (change.name.clone(), change.clone())));
         self.driven = Some(Driven {
             inputs: *inputs,
             changes: known,
@@ -251,7 +259,7 @@ impl Outputs {
             reset: false,
             ..driven.inputs
         };
-        let changes: Vec<ParameterChange> = driven.changes.clone().into_iter().collect();
+        let changes: Vec<ParameterChange> = driven.changes.values().cloned().collect();
         self.send_applied(&inputs, &changes, frame.ticks, send)
     }
 
@@ -275,8 +283,9 @@ impl Outputs {
             inner_friction: inputs.live.inner_friction,
             outer_friction: inputs.live.outer_friction,
             bit_friction_factor: inputs.live.bit_friction_factor,
-            parameter_name: changes.iter().map(|(name, _)| name.clone()).collect(),
-            parameter_value: changes.iter().map(|(_, value)| *value).collect(),
+            parameter_name: changes.iter().map(|change| change.name.clone()).collect(),
+            parameter_value: changes.iter().map(|change| change.value).collect(),
+            parameter_asked_by: changes.iter().map(|change| change.asked_by.clone()).collect(),
             refinement: u8::try_from(inputs.refinement).unwrap_or(u8::MAX),
         };
         to_cdr_into(&message, &mut self.bytes)?;

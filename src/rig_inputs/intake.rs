@@ -57,6 +57,7 @@ pub struct Intake {
     pub drivers: Drivers,
     announcer: Announcer,
     unreadable: [u64; 2],
+    overrun: [u64; 2],
     /// Of the newest good sample.
     sent: [Sent; 2],
 }
@@ -68,6 +69,7 @@ impl Intake {
             drivers: Drivers::new(Rule::of(inputs)),
             announcer: Announcer::default(),
             unreadable: [0; 2],
+            overrun: [0; 2],
             sent: Default::default(),
         }
     }
@@ -116,6 +118,18 @@ impl Intake {
     /// Samples that could not be read so far.
     pub fn unreadable(&self, kind: InputKind) -> u64 {
         self.unreadable[kind.index()]
+    }
+
+    /// Counts samples that came faster than they were taken, and that nobody has seen.
+    pub fn count_overrun(&mut self, kinds: &[InputKind], samples: u64) {
+        for kind in kinds {
+            self.overrun[kind.index()] += samples;
+        }
+    }
+
+    /// Samples that came faster than they were taken so far.
+    pub fn overrun(&self, kind: InputKind) -> u64 {
+        self.overrun[kind.index()]
     }
 
     /// What the newest good sample said of itself.

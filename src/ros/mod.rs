@@ -1,15 +1,18 @@
 //! The ROS 2 node.
 
 pub mod args;
+pub mod client;
 pub mod lifecycle;
 pub mod loggers;
 pub mod logging;
 
 pub mod node;
 pub mod parameters;
+pub mod replies;
 pub mod rig_node;
 pub mod service;
 pub mod subscriber;
+pub mod type_description;
 
 /// Name of the node unless it is remapped.
 pub const DEFAULT_NODE_NAME: &str = "flexdrill";
@@ -32,6 +35,9 @@ pub enum NodeError {
     /// The recording.
     #[error(transparent)]
     Recording(#[from] crate::bag::BagError),
+    /// The live server.
+    #[error(transparent)]
+    Live(#[from] crate::live::LiveError),
     /// A checkpoint that cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]
     Checkpoint {

@@ -9,10 +9,11 @@ use std::future::Future;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::dds::plan::Guid;
+use super::replies::Reply;
+use crate::dds::frames::Peer;
+use crate::dds::plan::MOST_REPLY;
 use crate::dds::port::{PortBuilder, Request, Requests};
 use crate::messages::{MOST_PADDING, from_cdr_body, to_cdr_body};
 
@@ -20,12 +21,17 @@ use crate::messages::{MOST_PADDING, from_cdr_body, to_cdr_body};
 const CYCLONE_HEADER: usize = 16;
 tokio::task_local! {
     /// Who asked for what is being answered.
-    static CLIENT: Guid;
+    static CLIENT: Peer;
 }
 
-/// The client whose request is being answered: the GUID of its DDS writer; none outside of a handler.
-pub fn client() -> Option<Guid> {
-    CLIENT.try_with(|client| *client).ok()
+/// The client whose request is being answered: its DDS writer; none outside of a handler.
+pub fn client() -> Option<Peer> {
+    CLIENT.try_with(Clone::clone).ok()
+}
+
+/// Who asks, to stand behind a line of the log; empty outside of a handler.
+pub fn asked_by() -> String {
+    client().map_or_else(String::new, |client| format!(": asked for by {client}"))
 }
 
 /// Which form of services is served.
@@ -139,7 +145,7 @@ impl ServiceServer {
     pub async fn serve<Req, Resp, Handler, Answer>(self, handler: Handler)
     where
         Req: DeserializeOwned,
-        Resp: Serialize,
+        Resp: Reply,
         Handler: Fn(Req) -> Answer,
         Answer: Future<Output = Resp>,
     {
@@ -156,22 +162,42 @@ impl ServiceServer {
                     continue;
                 }
             };
-            let response = CLIENT.scope(asked.client, async { handler(request).await }).await;
-            self.reply(&asked, dialect, &response);
+            let response = CLIENT
+                .scope(asked.client.clone(), async { handler(request).await })
+                .await;
+            self.reply(&asked, dialect, response);
         }
     }
 
-    fn reply<Resp: Serialize>(&self, asked: &Request, dialect: Dialect, response: &Resp) {
+    fn reply<Resp: Reply>(&self, asked: &Request, dialect: Dialect, response: Resp) {
         let mut bytes = match dialect {
             Dialect::Cyclone => asked.body.get(..CYCLONE_HEADER).unwrap_or_default().to_vec(),
             Dialect::Enhanced => Vec::new(),
         };
-        match to_cdr_body(response) {
-            Ok(encoded) => bytes.extend(encoded),
+        match encoded(response, MOST_REPLY - CYCLONE_HEADER) {
+            Ok((body, told)) => {
+                if let Some(why) = told {
+                    tracing::warn!("service {}: {why}", self.name);
+                }
+                bytes.extend(body);
+            }
             Err(error) => return tracing::error!("service {}: the reply could not be encoded: {error}", self.name),
         }
         self.requests.reply(asked, bytes);
     }
+}
+
+/// A reply as bytes; where they are more than `most`, those of a shorter one, and what was told in it.
+fn encoded<Resp: Reply>(response: Resp, most: usize) -> Result<(Vec<u8>, Option<String>), cdr_encoding::Error> {
+    let body = to_cdr_body(&response)?;
+    if body.len() <= most {
+        return Ok((body, None));
+    }
+    let why = format!(
+        "the reply would have {} bytes, more than {most}, and was shortened; ask for less at once",
+        body.len()
+    );
+    Ok((to_cdr_body(&response.shortened(&why))?, Some(why)))
 }
 
 /// A handler that needs no waiting.
@@ -187,7 +213,8 @@ pub fn shared<S, Req, Answer>(state: Arc<S>, answer: impl Fn(Arc<S>, Req) -> Ans
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde::Deserialize;
+    use ros2_client::rcl_interfaces::GetParametersResponse;
+    use serde::{Deserialize, Serialize};
 
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     struct Names {
@@ -247,6 +274,24 @@ mod tests {
             depth: 2,
         });
         both_ways(&Nothing { unused: 0 });
+    }
+
+    #[test]
+    fn a_reply_that_is_too_long_is_shortened_and_told() {
+        let reply = |bytes: usize| crate::messages::std_srvs::TriggerResponse {
+            success: true,
+            message: "x".repeat(bytes),
+        };
+        let (body, told) = encoded(reply(50), 100).unwrap();
+        assert!(body.len() > 50 && told.is_none());
+        let (body, told) = encoded(reply(400), 300).unwrap();
+        let told = told.unwrap();
+        assert!(told.contains("409 bytes, more than 300"), "{told}");
+        assert!(body.len() <= 300 && String::from_utf8_lossy(&body).contains(&told));
+        let values = vec![ros2_client::ParameterValue::NotSet.into(); 100];
+        let (body, told) = encoded(GetParametersResponse { values }, 300).unwrap();
+        assert!(told.is_some());
+        assert_eq!(body, [0; 4], "an empty list");
     }
 
     #[test]

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper of tests fails by panicking")]
 
 pub mod faulty;
+pub mod witness;
 
 use std::path::{Path, PathBuf};
 

@@ -9,11 +9,13 @@
     reason = "a helper of tests fails by panicking"
 )]
 
+mod fast;
 mod network;
 mod peer;
 pub mod program;
 pub mod python;
 mod skip;
+mod web;
 
 use std::path::{Path, PathBuf};
 

@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use super::peer::Peer;
 use super::program::Program;
 use super::skip::skipped;
-use super::{python, root, small_config};
+use super::{fast, python, root, small_config};
 
 /// A network namespace with nothing but the loopback interface, so that tests do not see each other.
 pub struct Network {
@@ -46,6 +46,11 @@ impl Network {
         Some(Self { holder, root, state })
     }
 
+    /// A process that lives in it.
+    pub fn id(&self) -> u32 {
+        self.holder.id()
+    }
+
     /// A command within it.
     pub fn command(&self, program: impl AsRef<std::ffi::OsStr>) -> Command {
         let mut command = Command::new("nsenter");
@@ -67,6 +72,12 @@ impl Network {
         command
     }
 
+    /// Runs a command within it; whether it succeeded.
+    pub fn done(&self, command: &[&str]) -> bool {
+        let out = self.command(command[0]).args(&command[1..]).output();
+        out.is_ok_and(|out| out.status.success())
+    }
+
     /// The folder that states are kept in.
     pub fn state(&self) -> &Path {
         self.state.path()
@@ -81,9 +92,20 @@ impl Network {
 
     /// The DDS program of another vendor; `None` where Python has no cyclonedds.
     pub fn peer(&self) -> Option<Peer> {
+        self.peer_with(&[])
+    }
+
+    /// The same with variables of its environment.
+    pub fn peer_with(&self, variables: &[(&str, &str)]) -> Option<Peer> {
         let mut command = self.command(python::with("cyclonedds")?);
         command.arg(root().join("tests/python/peer.py"));
+        command.envs(variables.iter().copied());
         Some(Peer::start(command))
+    }
+
+    /// The DDS program on Fast DDS; `None` where that is not.
+    pub fn fast_peer(&self) -> Option<Peer> {
+        Some(Peer::start(self.command(fast::program()?)))
     }
 }
 

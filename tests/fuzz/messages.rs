@@ -2,7 +2,7 @@
 
 use flexdrill::messages::generated::{
     TYPES, builtin_interfaces, diagnostic_msgs, flexdrill as ours, geometry_msgs, lifecycle_msgs, rcl_interfaces,
-    rosgraph_msgs, sensor_msgs, std_msgs, std_srvs, tf2_msgs, visualization_msgs,
+    rosgraph_msgs, sensor_msgs, std_msgs, std_srvs, tf2_msgs, type_description_interfaces, visualization_msgs,
 };
 use flexdrill::messages::{Message, find_type, from_cdr, from_cdr_body, to_cdr, to_cdr_body};
 use flexdrill_core::inputs::InputKind;
@@ -121,6 +121,14 @@ types! {
     std_srvs::TriggerRequest,
     std_srvs::TriggerResponse,
     tf2_msgs::TFMessage,
+    type_description_interfaces::Field,
+    type_description_interfaces::FieldType,
+    type_description_interfaces::IndividualTypeDescription,
+    type_description_interfaces::KeyValue,
+    type_description_interfaces::TypeDescription,
+    type_description_interfaces::TypeSource,
+    type_description_interfaces::GetTypeDescriptionRequest,
+    type_description_interfaces::GetTypeDescriptionResponse,
     visualization_msgs::Marker,
     visualization_msgs::MarkerArray,
     visualization_msgs::MeshFile,
@@ -245,6 +253,7 @@ const REQUESTS: &[Read] = &[
     request::<rcl_interfaces::SetParametersAtomicallyRequest>,
     request::<rcl_interfaces::GetLoggerLevelsRequest>,
     request::<rcl_interfaces::SetLoggerLevelsRequest>,
+    request::<type_description_interfaces::GetTypeDescriptionRequest>,
     request::<lifecycle_msgs::ChangeStateRequest>,
     request::<lifecycle_msgs::GetStateRequest>,
     request::<lifecycle_msgs::GetAvailableStatesRequest>,

@@ -226,6 +226,7 @@ fn frames() {
             topic: "/rig/rotary_speed_rpm".into(),
             dds_type: "std_msgs::msg::dds_::Float64_".into(),
             latched: false,
+            reliable: false,
         }],
         services: vec![ServicePlan {
             name: "/flexdrill/reset".into(),
@@ -261,7 +262,11 @@ fn frames() {
         FromSide::Request {
             service: 1,
             ticket: 7,
-            client: [3; 16],
+            client: Peer {
+                id: [3; 16],
+                node: Some("/rqt".into()),
+                address: None,
+            },
             body: vec![1; 20],
         },
         FromSide::Beat(Beat {

@@ -1,8 +1,10 @@
 """A DDS program from another vendor (Cyclone DDS), told what to do by one JSON object per line on standard input.
 
-Answers one JSON object per line. Commands: subscribe, take, listen, publish, call, matched, quit.
+Answers one JSON object per line. Commands: subscribe, take, listen, publish, call, matched,
+rihs01, quit.
 """
 
+import hashlib
 import json
 import math
 import sys
@@ -102,6 +104,14 @@ class Peer:
     def matched(self, topic):
         return {"matched": len(self.readers[topic].get_matched_publications())}
 
+    def rihs01(self, description):
+        """The hash of a type description, from itself."""
+        whole = {
+            "type_description": individual(description["type_description"]),
+            "referenced_type_descriptions": [individual(each) for each in description["referenced_type_descriptions"]],
+        }
+        return {"hash": "RIHS01_" + hashlib.sha256(json.dumps(whole).encode()).hexdigest()}
+
     def call(self, service, type, request, header=False, seconds=5.0):
         """Calls a service: plain, or with the header of rmw_cyclonedds."""
         wrap = ros_types.with_cyclone_header if header else ros_types.make
@@ -130,6 +140,12 @@ class Peer:
                     return {"reply": plain}
             time.sleep(0.002)
         return {"error": "no reply"}
+
+
+def individual(described):
+    """A type of a reply as the canonical JSON of REP-2016 has it: without default values."""
+    fields = [{"name": field["name"], "type": field["type"]} for field in described["fields"]]
+    return {"type_name": described["type_name"], "fields": fields}
 
 
 def finite(value):

@@ -9,7 +9,7 @@ use clap::Parser;
 #[derive(Debug, Parser)]
 #[command(name = "xtask")]
 enum Task {
-    /// Writes src/messages/generated.rs from msg/ and src/messages/external/.
+    /// Writes src/messages/generated.rs and the rig page's messages.ts from msg/ and src/messages/external/.
     Messages {
         /// Root of the repository.
         #[arg(long, default_value = ".")]
@@ -26,8 +26,9 @@ enum Task {
 fn main() -> anyhow::Result<()> {
     match Task::parse() {
         Task::Messages { root } => {
-            let path = xtask::messages::write(&root)?;
-            println!("wrote {}", path.display());
+            for path in xtask::messages::write(&root)? {
+                println!("wrote {}", path.display());
+            }
         }
         Task::DemoLog { file } => {
             std::fs::write(&file, xtask::demo_log::demo_log()).with_context(|| format!("{}", file.display()))?;

@@ -1,5 +1,6 @@
 //! `alarms`: which of them there are, their delays, and what an operator is told to do.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
@@ -68,7 +69,7 @@ section! {
 }
 
 /// Per alarm of the tool. What is given for an alarm replaces its default as a whole.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdviceTable {
     /// Default: below 80 r/min or above 25 kN.
@@ -103,7 +104,7 @@ impl Default for AdviceTable {
 
 /// What to bring an input to. Only what changes the present inputs in the right direction, within
 /// the inputs' own limits, is told.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Advice {
     /// Bring the weight on bit below this.

@@ -1,13 +1,15 @@
 //! `boundary`: what holds and drives the tool, Table 1 of the paper and its variants.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::Checker;
+use super::json_schema;
 use super::place::{At, Mesh};
 use flexdrill_core::tool::{Body, Direction, Location, Support, WobPath};
 
 /// Supports, drive and load path.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Boundary {
     /// `paper` or `none`. Default paper.
@@ -15,6 +17,7 @@ pub struct Boundary {
     /// Whether the preset holds u at the bottom. Default free.
     pub bottom_axial: BottomAxial,
     /// How the weight on bit reaches the tool. Default guide.
+    #[schemars(with = "json_schema::WobPath")]
     pub wob_path: WobPath,
     /// What turns the first pipe node. Default top.
     pub drive: Drive,
@@ -23,7 +26,7 @@ pub struct Boundary {
 }
 
 /// Sets of supports.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
     /// Table 1: top u, v, w of both pipes, bottom v, w of both. The guide's spin is left free: its curvature keeps it.
@@ -34,7 +37,7 @@ pub enum Preset {
 }
 
 /// The axial direction at the bottom.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BottomAxial {
     /// The text's: weight on bit moves the end.
@@ -45,7 +48,7 @@ pub enum BottomAxial {
 }
 
 /// What turns the pipe.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Drive {
     /// The first pipe node follows the commanded speed.
@@ -56,14 +59,16 @@ pub enum Drive {
 }
 
 /// Directions held at zero.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Held {
     /// Place along the tool.
     pub at: At,
     /// `pipe` or `guide`.
+    #[schemars(with = "json_schema::Body")]
     pub body: Body,
     /// Any of u (axial), v (horizontal), w (towards the low side), psi (spin), phi_y, phi_z (tilts).
+    #[schemars(with = "Vec<json_schema::Direction>")]
     pub fix: Vec<Direction>,
 }
 

@@ -1,5 +1,6 @@
 //! `inputs`: what the rig may ask for and what happens when it falls silent.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::Checker;
@@ -24,7 +25,7 @@ section! {
 }
 
 /// `inputs.driver`: which publisher drives an input when there are several.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DriverRule {
     /// `newest`, `first` or `named`. Default newest.
@@ -34,7 +35,7 @@ pub struct DriverRule {
 }
 
 /// Who drives.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DriverPolicy {
     /// Every publisher; the newest sample acts.

@@ -17,6 +17,7 @@ mod environment;
 mod error;
 mod hard_limits;
 mod inputs;
+mod json_schema;
 pub mod lines;
 mod loads;
 mod network;
@@ -38,6 +39,7 @@ mod whirl;
 use std::ops::Deref;
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -51,6 +53,7 @@ pub use environment::Environment;
 pub use error::{ConfigError, Problem};
 pub use hard_limits::{HardBounds, HardLimits};
 pub use inputs::{DriverPolicy, DriverRule, InputsConfig, RotarySpeed, StampRule, WeightOnBit};
+pub use json_schema::json_schema;
 pub use loads::{History, Load, Mass};
 pub use network::{Network, Reach};
 pub use outputs::{Outputs, Rates};
@@ -91,7 +94,7 @@ const REQUIRED: &[&str] = &[
 ];
 
 /// The whole schema, top level.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Schema {
     /// What the file is for.

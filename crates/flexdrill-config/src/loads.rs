@@ -1,8 +1,10 @@
 //! `loads` and `masses`: what acts on single nodes.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker, number};
+use super::json_schema;
 use super::place::{At, Mesh};
 use flexdrill_core::tool::{Body, Direction, LoadHistory, PointLoad, PointMass};
 use flexdrill_core::units::deg_to_rad;
@@ -13,21 +15,23 @@ const TIME: Bound = Bound::within(0.0, 1e6);
 const TIME_REASON: &str = "seconds of model time since the start";
 
 /// A force (N) or moment (N m) on one node, in the node's own frame. At a joint it acts on the end of the link above.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Place along the tool.
     pub at: At,
     /// `pipe` or `guide`.
+    #[schemars(with = "json_schema::Body")]
     pub body: Body,
     /// u, v, w for forces, psi, phi_y, phi_z for moments.
+    #[schemars(with = "json_schema::Direction")]
     pub direction: Direction,
     /// How much, when.
     pub history: History,
 }
 
 /// A load in time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum History {
     /// `constant: 500`.
@@ -57,12 +61,13 @@ pub enum History {
 }
 
 /// A rigid body added to one node, round but for its unbalance. At a joint it is on the end of the link above.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mass {
     /// Place along the tool.
     pub at: At,
     /// `pipe` or `guide`.
+    #[schemars(with = "json_schema::Body")]
     pub body: Body,
     /// Mass (kg).
     pub mass: f64,

@@ -1,5 +1,6 @@
 //! `tool.pipe` and `tool.guide`: sections of both pipes.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
@@ -9,7 +10,7 @@ const DIAMETER: Bound = Bound::above(0.0, 2.0);
 const DIAMETER_REASON: &str = "given in metres";
 
 /// The flexible pipe's links, all alike: either uniform (`outer_diameter`, `inner_diameter`) or stepped (`pieces`).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pipe {
     /// Outer diameter (m). Required unless there are pieces.
@@ -27,7 +28,7 @@ pub struct Pipe {
 }
 
 /// A piece of a stepped link. An element takes the piece at its middle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
     /// Where it begins, as a fraction of the link from its top.
@@ -41,7 +42,7 @@ pub struct Piece {
 }
 
 /// The guide pipe: one continuous tube that does not turn by itself.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Guide {
     /// Outer diameter (m). Required.

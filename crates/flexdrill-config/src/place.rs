@@ -1,5 +1,6 @@
 //! Places along the tool, as `supports`, `loads` and `masses` name them.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
@@ -7,7 +8,7 @@ use flexdrill_core::tool::Location;
 
 /// `top`, `bottom`, `all`, `{station: 12}`, `{joint: 3}` or `{measured_depth: 2.5}`. Stations and joints count from 0
 /// at the top, so that joint 0 is `joint_01` in the outputs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum At {
     /// First station.

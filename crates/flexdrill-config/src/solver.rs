@@ -1,5 +1,6 @@
 //! `solver`: time integration.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
@@ -7,8 +8,9 @@ use flexdrill_core::dynamics::Scheme;
 use flexdrill_core::twin::StepRule;
 
 /// Time scheme with Newton-Raphson, Eq. 36 to 44.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "Given")]
+#[schemars(!from, default, deny_unknown_fields)]
 pub struct Solver {
     /// Time step (s). Default 0.0005.
     pub time_step: f64,
@@ -28,7 +30,7 @@ pub struct Solver {
 }
 
 /// `solver.scheme`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TimeScheme {
     /// The paper's, with `gamma`.

@@ -1,11 +1,12 @@
 //! `start` and `initial`: how a run begins.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 
 /// How a run begins.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
     /// At rest under gravity and the initial weight on bit, so that the run does not begin with a drop.
@@ -16,7 +17,7 @@ pub enum Start {
 }
 
 /// Motion of every pipe node at the start; only with `start: as_given`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Initial {
     /// (u, v, w) in the station frame (m/s). Default 0.

@@ -1,15 +1,17 @@
 //! `tool`: the flexible pipe, its joints, the guide pipe and the bit.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::Checker;
+use super::json_schema;
 use super::pipe::{Guide, Pipe};
 use super::section::section;
 use flexdrill_core::tool::{BitDescription, HingeAngle, JointDescription, JointKind, Material as Steel, Rayleigh};
 use flexdrill_core::units::deg_to_rad;
 
 /// The tool.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
     /// Number of links; they share the well's length equally. Required.
@@ -57,6 +59,7 @@ section! {
     pub struct Joint(this) {
         /// `universal`, `ball_cage` or `revolute`. Default universal.
         #[serde(default = "universal")]
+        #[schemars(with = "json_schema::JointKind")]
         kind: JointKind;
         /// Bend angle at which the stop begins. Required.
         limit_deg: f64, above(0.0, 45.0), "deg",
@@ -76,6 +79,7 @@ section! {
         /// Angle that a `revolute` joint keeps across its hinge: `straight` links, or `as_built` in the well. Default
         /// straight.
         #[serde(default)]
+        #[schemars(with = "json_schema::HingeAngle")]
         hinge_angle: HingeAngle;
     }
 }

@@ -1,5 +1,6 @@
 //! `stick_slip`, `shock` and `joint_load`: levels of the bit's speed ripple, of collisions and of the joints' stops.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
@@ -54,7 +55,7 @@ section! {
 }
 
 /// Numbers of impulses of three levels.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Repeats {
     /// Keep an eye on it.
@@ -101,7 +102,7 @@ section! {
 }
 
 /// Thresholds of three levels.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Steps {
     /// Keep an eye on it.

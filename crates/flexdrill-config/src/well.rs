@@ -1,5 +1,6 @@
 //! `well`: the bore.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
@@ -7,7 +8,7 @@ use flexdrill_core::tool::{WellDescription, WellSection};
 use flexdrill_core::units::deg_to_rad;
 
 /// The bore: its centre line from the kick-off down and its diameter. The tool fills it from end to end.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Well {
     /// Inclination at the top, 0 is straight down, 90 horizontal. Default 0.
@@ -20,7 +21,7 @@ pub struct Well {
 }
 
 /// One section of the well path.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Section {
     /// `straight: {length: 1.0}`.

@@ -1,5 +1,6 @@
 //! `whirl`: the analysis and its warnings.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::Checker;
@@ -61,7 +62,7 @@ section! {
 }
 
 /// Which places are watched, on both pipes.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Watched {
     /// The stations of the joints.

@@ -37,6 +37,8 @@ pub(in crate::bag) struct McapStream {
     /// Messages unpacked so far, which keeps those of equal time in the file's order.
     order: u64,
     wanted: Vec<bool>,
+    /// Messages before this log time are left out.
+    begin: i64,
     messages: Option<u64>,
     cut: Option<Cut>,
 }
@@ -60,6 +62,7 @@ impl McapStream {
             waiting: BinaryHeap::new(),
             problem: None,
             order: 0,
+            begin: i64::MIN,
             messages: scan.messages,
             cut: scan.cut.map(|(offset, reason)| Cut {
                 path: path.to_owned(),
@@ -93,6 +96,14 @@ impl McapStream {
         Some((start, end))
     }
 
+    /// Goes to the first message of `time` or later (ns since the epoch).
+    pub fn seek(&mut self, time: i64) {
+        self.waiting.clear();
+        self.problem = None;
+        self.next_segment = 0;
+        self.begin = time;
+    }
+
     /// The next message, or what is wrong with a part of the file; after that, the parts that follow.
     pub fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
         loop {
@@ -107,6 +118,10 @@ impl McapStream {
                 return self.waiting.pop().map(|Reverse(message)| Ok(message));
             }
             self.next_segment += 1;
+            // A chunk without messages has zero for its end, and nothing to unpack.
+            if i64::try_from(segment.end).is_ok_and(|end| end < self.begin) {
+                continue;
+            }
             if let Err(error) = self.unpack(&segment) {
                 return Some(Err(error));
             }
@@ -152,9 +167,10 @@ impl McapStream {
             .channels
             .topic(message.channel_id)
             .ok_or(RecordProblem::UnknownChannel(message.channel_id))?;
-        if self.wanted.get(topic) == Some(&true) {
+        let log_time = i64::try_from(message.log_time).unwrap_or(i64::MAX);
+        if self.wanted.get(topic) == Some(&true) && log_time >= self.begin {
             self.waiting.push(Reverse(RawMessage {
-                log_time: i64::try_from(message.log_time).unwrap_or(i64::MAX),
+                log_time,
                 order: self.order,
                 publish_time: i64::try_from(message.publish_time).unwrap_or(i64::MAX),
                 topic,

@@ -3,6 +3,7 @@
 use super::document::Table;
 use super::machine::status_kb;
 use super::measure::{Load, run};
+use crate::cli::output::tell;
 use flexdrill_config::Config;
 
 /// Model time between two samples (s).
@@ -18,7 +19,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
     // Allocated before the run, so that the samples themselves do not show.
     let mut samples: Vec<u64> = Vec::with_capacity((duration / EVERY) as usize + 1);
     let mut next = EVERY;
-    eprintln!("memory: {duration} s of model time");
+    tell!("memory: {duration} s of model time");
     let measured = run(config, load, duration, |time| {
         // Frames are exact to rounding; a sample may be a frame late.
         if time + 1e-9 >= next {

@@ -20,6 +20,7 @@ use clap::{Args, ValueEnum};
 use self::document::Table;
 use self::measure::{Load, Measured, percentiles};
 use super::{WrongUse, numbers};
+use crate::cli::output::{say, say_text, tell};
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
@@ -206,10 +207,10 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
             path.display(),
             machine::describe()
         );
-        println!("\n### {}\n\n{text}", case.name());
+        say!("\n### {}\n\n{text}", case.name());
         if let Some(document) = &args.write {
             document::write(document, case.name(), &text)?;
-            eprintln!("written to {}", document.display());
+            tell!("written to {}", document.display());
         }
     }
     Ok(())
@@ -234,14 +235,14 @@ fn named(args: &BenchArgs) -> anyhow::Result<Vec<(String, Config)>> {
 fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
     let duration = args.duration.unwrap_or(20.0);
     for (path, config) in named(args)? {
-        println!("\n### {path}, {} r/min, {} kN, {duration} s\n", args.rpm, args.wob);
+        say!("\n### {path}, {} r/min, {} kN, {duration} s\n", args.rpm, args.wob);
         let load = Load {
             rpm: args.rpm,
             wob: args.wob,
             instructions: instructions(args)?,
         };
         let measured = measure::run(&config, load, duration, |_| {})?;
-        print!("{}", figures_of(&measured).text());
+        say_text!("{}", figures_of(&measured).text());
         if let Some(failure) = measured.failure {
             anyhow::bail!("a step failed at model time {:.4} s: {}", failure.time, failure);
         }

@@ -2,6 +2,7 @@
 
 use super::cases::{CASES, Case};
 use super::document::Table;
+use crate::cli::output::tell;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{ModelQuality, QualityLevel};
@@ -56,21 +57,21 @@ pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
         };
         let motion = Motion::of(&tool, inputs, duration);
         let run = |config: &Config| {
-            eprintln!("{}: {duration} s in steps of {} s", case.name, config.solver.time_step);
+            tell!("{}: {duration} s in steps of {} s", case.name, config.solver.time_step);
             // Intervals are whole numbers of each step.
             let motion = Motion::of(config, inputs, motion.duration);
             Record::run(config, &motion, 0.0)
         };
         let fine = run(&refined(&tool)?)?;
         let first = row(case.name, refined(&tool)?.solver.time_step, &fine, None);
-        eprintln!("{}", first.join(" | "));
+        tell!("{}", first.join(" | "));
         table.row(first);
         for (name, config) in variants(case.name, &tool, index == 0)? {
             let step = config.solver.time_step;
             match run(&config) {
                 Ok(record) => {
                     let row = row(&name, step, &record, Some(&fine));
-                    eprintln!("{}", row.join(" | "));
+                    tell!("{}", row.join(" | "));
                     table.row(row);
                 }
                 Err(StepErrorFailure::Step { failure, .. }) => {

@@ -3,6 +3,7 @@
 use super::cases::CASES;
 use super::document::Table;
 use super::measure::{Load, Measured, percentiles, run};
+use crate::cli::output::tell;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::phases::Phase;
 
@@ -28,7 +29,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
     let mut phases = Table::with_head(&names);
     let mut failures = String::new();
     for case in CASES {
-        eprintln!("{}: {duration} s of model time", case.name);
+        tell!("{}: {duration} s of model time", case.name);
         let config = (case.changes)(config)?;
         let measured = run(&config, Load { wob: case.wob, ..load }, duration, |_| {})?;
         speed.row(speed_row(case.name, &measured));

@@ -2,6 +2,7 @@
 
 use super::document::Table;
 use super::measure::{Load, percentiles, run};
+use crate::cli::output::tell;
 use flexdrill_config::Config;
 
 /// Sizes of the tool: from a quarter of the paper's to four times it.
@@ -24,7 +25,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
     ]);
     let (mut steps, mut iterations) = (Vec::new(), Vec::new());
     for links in LINKS {
-        eprintln!("{links} links: {duration} s of model time");
+        tell!("{links} links: {duration} s of model time");
         let measured = run(&config.with_links(links)?, load, duration, |_| {})?;
         if let Some(failure) = measured.failure {
             anyhow::bail!("{links} links: a step failed: {failure}");

@@ -2,6 +2,7 @@
 
 use super::cases::{CASES, Case};
 use super::document::Table;
+use crate::cli::output::tell;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
@@ -126,7 +127,7 @@ impl Tables {
 }
 
 fn calm_row(name: &str, config: &Config, motion: &Motion) -> Result<[String; 5], StepErrorFailure> {
-    eprintln!("{name}: two runs of {} s without bit torque", motion.duration);
+    tell!("{name}: two runs of {} s without bit torque", motion.duration);
     let config = config.with_value("tool.bit.friction_factor", 0.0)?;
     let coarse = Record::run(&config, motion, 0.0)?;
     let fine = Record::run(&refined(&config)?, motion, 0.0)?;
@@ -155,7 +156,7 @@ fn calm_row(name: &str, config: &Config, motion: &Motion) -> Result<[String; 5],
 type ChaoticRows = ([String; 6], Vec<[String; 8]>);
 
 fn chaotic_rows(name: &str, config: &Config, motion: &Motion) -> Result<ChaoticRows, StepErrorFailure> {
-    eprintln!(
+    tell!(
         "{name}: three runs of {} s and three of an eighth of the step",
         motion.duration
     );
@@ -177,7 +178,7 @@ fn chaotic_rows(name: &str, config: &Config, motion: &Motion) -> Result<ChaoticR
         figure(&statistics.whirl_ratio),
         format!("{}; {}", energy(&runs), energy(&fine)),
     ];
-    eprintln!("{}", row.join(" | "));
+    tell!("{}", row.join(" | "));
     let [inner, outer] = statistics.layers;
     let layers = [("both", statistics.whole), ("pipe-guide", inner), ("guide-wall", outer)];
     let profiles: Vec<_> = layers
@@ -185,7 +186,7 @@ fn chaotic_rows(name: &str, config: &Config, motion: &Motion) -> Result<ChaoticR
         .map(|(layer, profile)| profile_row(name, layer, profile))
         .collect();
     for row in &profiles {
-        eprintln!("{}", row.join(" | "));
+        tell!("{}", row.join(" | "));
     }
     Ok((row, profiles))
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use serde::Serialize;
 
+use crate::cli::output::say;
 use crate::messages::words;
 use flexdrill_core::motion::{Incident, IncidentKind, Severity, WhirlKind};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
@@ -158,7 +159,7 @@ pub(super) fn write_json(path: &Path, incidents: &[Incident], joints: &Joints) -
     let text = serde_json::to_string_pretty(&rows)?;
     std::fs::write(path, text + "\n")
         .with_context(|| format!("the incidents could not be written to {}", path.display()))?;
-    println!("wrote {} incidents to {}", rows.len(), path.display());
+    say!("wrote {} incidents to {}", rows.len(), path.display());
     Ok(())
 }
 

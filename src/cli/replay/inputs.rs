@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::player::Player;
+use crate::cli::output::tell;
 use crate::cli::progress::Progress;
 use crate::cli::source::Sample;
 use crate::messages::topics::TopicInfo;
@@ -54,7 +55,7 @@ pub(super) fn replay(
             if let Err(rejection) = taken {
                 refused += 1;
                 if refused <= 10 {
-                    eprintln!("at {at:.2} s: {rejection}");
+                    tell!("at {at:.2} s: {rejection}");
                 }
             }
         }
@@ -80,7 +81,7 @@ pub(super) fn replay(
         progress.at(player.time_of(player.step()));
     }
     if refused > 0 {
-        eprintln!("{refused} samples were refused in all");
+        tell!("{refused} samples were refused in all");
     }
     Ok((player, progress))
 }

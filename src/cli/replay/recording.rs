@@ -8,7 +8,8 @@ use std::path::Path;
 use anyhow::Context as _;
 
 use super::player::Player;
-use crate::bag::{self, Bag, BagError, Gap, Gaps};
+use crate::bag::{self, Bag, BagError, BagMessage, Gap, Gaps};
+use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
@@ -88,8 +89,7 @@ impl Script {
                     session.get_or_insert(message.decode::<SessionInfo>()?);
                 }
                 AppliedInputs::ROS_TYPE => {
-                    // `refinement` came last; a recording from before it was made with whole steps.
-                    let inputs: AppliedInputs = message.decode_extended(1)?;
+                    let inputs = applied_inputs(&message)?;
                     if inputs.reset {
                         status_step = 0;
                         newest_stamp = None;
@@ -103,7 +103,7 @@ impl Script {
             }
         }
         for cut in bag.cuts() {
-            eprintln!(
+            tell!(
                 "{} was cut short ({}); what is there is replayed",
                 cut.path.display(),
                 cut.reason
@@ -191,7 +191,7 @@ impl Script {
         let config = self.config()?;
         let time_step = config.solver.time_step;
         let total = self.total() as f64 * time_step;
-        println!(
+        say!(
             "recording of configuration {}, {} messages of inputs, {total} s",
             printable(short(&self.session.config_hash)),
             self.applied.len(),
@@ -216,7 +216,7 @@ impl Script {
                 pace.advance(&mut player, message.step)?;
             }
             let changes = changes_of(message);
-            let values = changes.iter().map(|(name, value)| (name, *value));
+            let values = changes.iter().map(|change| (&change.name, change.value));
             let changed = player.config().with_values("recorded parameters", values)?;
             // What is sent again every second changes nothing.
             if changed != *player.config() {
@@ -320,15 +320,75 @@ fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]
     before + since.round().max(0.0) as u64
 }
 
+/// What drives the model, as a recorded message has it. In recordings of a twin that did not tell who asked for its
+/// parameters that list is empty, and steps were taken whole.
+fn applied_inputs(message: &BagMessage) -> Result<AppliedInputs, BagError> {
+    let schema = &message.topic.schema;
+    if schema.is_empty() || schema.contains("refinement") {
+        return message.decode();
+    }
+    let mut whole = message.clone();
+    // The body ends with numbers of eight bytes: the length of another list, 0, follows without a gap, then refinement.
+    whole.data.extend([0; 5]);
+    whole.decode()
+}
+
 fn changes_of(message: &AppliedInputs) -> Vec<ParameterChange> {
-    message
-        .parameter_name
-        .iter()
-        .cloned()
-        .zip(message.parameter_value.iter().copied())
+    let values = message.parameter_name.iter().zip(&message.parameter_value);
+    let mut asked_by = message.parameter_asked_by.iter().cloned();
+    values
+        .map(|(name, value)| ParameterChange {
+            name: name.clone(),
+            value: *value,
+            asked_by: asked_by.next().unwrap_or_default(),
+        })
         .collect()
 }
 
 fn short(hash: &str) -> &str {
     hash.get(..12).unwrap_or(hash)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bag::Topic;
+    use crate::messages::to_cdr;
+    use std::sync::Arc;
+
+    fn recorded(message: &AppliedInputs, schema: String, shorter: usize) -> BagMessage {
+        let mut topic = Topic::new("/twin/applied_inputs", &AppliedInputs::INFO, topics::APPLIED_INPUTS.qos);
+        topic.schema = schema;
+        let mut data = to_cdr(message).unwrap();
+        data.truncate(data.len() - shorter);
+        BagMessage {
+            topic: Arc::new(topic),
+            topic_index: 0,
+            log_time: 0,
+            publish_time: 0,
+            sequence: None,
+            data,
+        }
+    }
+
+    #[test]
+    fn applied_inputs_without_who_asked_are_read() {
+        let schema = AppliedInputs::SCHEMA
+            .replace("parameter_asked_by", "")
+            .replace("refinement", "");
+        for (names, values) in [(vec![], vec![]), (vec!["whirl.hysteresis".to_owned()], vec![0.25])] {
+            let mut message = AppliedInputs {
+                rotary_speed: 4.0,
+                parameter_name: names,
+                parameter_value: values,
+                ..AppliedInputs::default()
+            };
+            let old = recorded(&message, schema.clone(), 5);
+            assert_eq!(applied_inputs(&old).unwrap(), message);
+            assert!(changes_of(&message).iter().all(|change| change.asked_by.is_empty()));
+            message.parameter_asked_by = vec!["somebody".to_owned(); message.parameter_name.len()];
+            let new = recorded(&message, AppliedInputs::SCHEMA.to_owned(), 0);
+            assert_eq!(applied_inputs(&new).unwrap(), message);
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::alarms::AlarmTally;
+use crate::cli::output::say;
 use crate::messages::words;
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
 use flexdrill_core::motion::{Ageing, Incident, IncidentLocation, IncidentLog, Observation};
@@ -229,7 +230,7 @@ impl Tally {
 
     /// Prints it. `wall` is how long it took (s), `time_step` the model's (s).
     pub(super) fn print(&self, wall: f64, time_step: f64) {
-        let row = |name: &str, value: String| println!("  {name:<22} {value}");
+        let row = |name: &str, value: String| say!("  {name:<22} {value}");
         let model = self.steps as f64 * time_step;
         row(
             "model time",

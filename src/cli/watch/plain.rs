@@ -1,18 +1,15 @@
 //! The dashboard as a block of lines, for logs, pipes and CI.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::time::Instant;
 
 use super::board::Board;
 use super::{alarms, texts};
+use crate::cli::output::say_text;
 use flexdrill_core::units::rad_per_s_to_rpm;
 
-pub(super) fn print(board: &Board, now: Instant) -> anyhow::Result<()> {
-    let mut out = std::io::stdout().lock();
-    out.write_all(block(board, now).as_bytes())?;
-    out.flush()?;
-    Ok(())
+pub(super) fn print(board: &Board, now: Instant) {
+    say_text!("{}", block(board, now));
 }
 
 fn block(board: &Board, now: Instant) -> String {

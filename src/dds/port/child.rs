@@ -217,7 +217,10 @@ impl Hearing {
             FromSide::Up(prefix) => {
                 *self.heard.up.lock().unwrap_or_else(PoisonError::into_inner) = Some(prefix);
                 self.heard.beat.store(monotonic::now(), Ordering::Release);
-                self.shared.health().is_up = true;
+                {
+                    let mut health = self.shared.health();
+                    (health.is_up, health.participant) = (true, Some(prefix));
+                }
                 self.shared.outbox.open(self.life);
                 // Who waited for that may have gone.
                 let _ = self.told.0.send(Ok(()));

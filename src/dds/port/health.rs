@@ -1,5 +1,6 @@
 //! How DDS is, for status, diagnostics and alarms.
 
+use crate::dds::plan::GuidPrefix;
 use flexdrill_realtime::monotonic;
 
 /// How long a reader that does not take, and a restart, are news (ns).
@@ -10,6 +11,8 @@ const NEWS: u64 = 60_000_000_000;
 pub struct Health {
     /// Whether it is up.
     pub is_up: bool,
+    /// What the ids of all endpoints of its present life begin with; none before the first.
+    pub participant: Option<GuidPrefix>,
     /// How often it was started again.
     pub restarts: u64,
     /// The newest times that it had to be, the last one last.

@@ -1,10 +1,12 @@
 //! What came from the network, until the part of the node that it is for has time.
 
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::Notify;
 
+use crate::dds::frames::Peer;
 use crate::dds::plan::Guid;
 
 /// A sample.
@@ -28,7 +30,7 @@ pub struct Request {
     pub(super) life: u64,
     pub(super) ticket: u64,
     /// Who asks.
-    pub client: Guid,
+    pub client: Peer,
     /// CDR without its header.
     pub body: Vec<u8>,
 }
@@ -38,6 +40,7 @@ pub struct Request {
 pub struct Inbox<T> {
     queue: Mutex<VecDeque<T>>,
     most: usize,
+    given_up: AtomicU64,
     came: Notify,
 }
 
@@ -46,6 +49,7 @@ impl<T> Inbox<T> {
         Self {
             queue: Mutex::default(),
             most,
+            given_up: AtomicU64::new(0),
             came: Notify::new(),
         }
     }
@@ -55,10 +59,16 @@ impl<T> Inbox<T> {
             let mut queue = self.lock();
             if queue.len() == self.most {
                 queue.pop_front();
+                self.given_up.fetch_add(1, Ordering::Relaxed);
             }
             queue.push_back(item);
         }
         self.came.notify_one();
+    }
+
+    /// How many went unseen so far, since they came faster than they were taken.
+    pub fn given_up(&self) -> u64 {
+        self.given_up.load(Ordering::Relaxed)
     }
 
     /// The oldest one, if there is any.
@@ -94,6 +104,7 @@ mod tests {
         }
         let left: Vec<i32> = std::iter::from_fn(|| inbox.take()).collect();
         assert_eq!(left, [2, 3, 4]);
+        assert_eq!(inbox.given_up(), 2);
     }
 
     #[tokio::test]

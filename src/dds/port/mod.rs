@@ -21,7 +21,7 @@ pub use self::inbox::{Inbox, Request, Sample};
 use self::keeper::Keeper;
 use self::outbox::Outbox;
 use super::frames::{Peer, Peers, ToSide};
-use super::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan};
+use super::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan, service_topics};
 use crate::dds::network::Network;
 
 /// Samples that wait for a part of the node that is busy.
@@ -115,11 +115,16 @@ impl PortBuilder {
 
     /// A topic to listen to. A latched one is asked for what was written before.
     pub fn subscription(&mut self, topic: &str, dds_type: &str, latched: bool) -> Arc<Inbox<Sample>> {
-        self.plan.readers.push(ReaderPlan {
+        self.read(ReaderPlan {
             topic: topic.to_owned(),
             dds_type: dds_type.to_owned(),
             latched,
-        });
+            reliable: latched,
+        })
+    }
+
+    fn read(&mut self, plan: ReaderPlan) -> Arc<Inbox<Sample>> {
+        self.plan.readers.push(plan);
         let inbox = Arc::new(Inbox::new(SAMPLES));
         self.readers.push(Arc::clone(&inbox));
         inbox
@@ -139,6 +144,27 @@ impl PortBuilder {
             service,
             inbox,
         }
+    }
+
+    /// A service to call: its absolute name, its type as `std_srvs/srv/Trigger`. Requests go out on the publisher, replies to
+    /// all clients come to the inbox.
+    pub fn client(&mut self, name: &str, ros_type: &str) -> (TopicPublisher, Arc<Inbox<Sample>>) {
+        let [requests, replies] = service_topics(name, ros_type);
+        let offer = Offer {
+            reliable: true,
+            latched: false,
+            depth: 10,
+            rate: 1.0,
+            lifespan: None,
+        };
+        let publisher = self.publisher(&requests.0, &requests.1, offer);
+        let inbox = self.read(ReaderPlan {
+            topic: replies.0,
+            dds_type: replies.1,
+            latched: false,
+            reliable: true,
+        });
+        (publisher, inbox)
     }
 
     /// Brings DDS up.

@@ -12,11 +12,11 @@ mod raw;
 mod replies;
 mod topic_writer;
 
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, Write as _};
 use std::os::fd::AsFd as _;
 use std::os::unix::net::UnixStream;
 use std::process::ExitCode;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use futures::StreamExt as _;
@@ -78,7 +78,9 @@ pub fn main() -> ExitCode {
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}; this subcommand is for flexdrill's own use");
+            let told = format!("error: {error}; this subcommand is for flexdrill's own use\n");
+            // Where nobody reads it, nobody is told.
+            let _ = io::stderr().write_all(told.as_bytes());
             ExitCode::FAILURE
         }
     }
@@ -129,6 +131,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         topic: peers::DISCOVERY_TOPIC.to_owned(),
         why,
     })?;
+    let book = Arc::new(Mutex::new(book));
     let pulse = Pulse::new(&participant).map_err(|why| SideError::Sick(format!("the pulse: {why}")))?;
     outlet.send(FromSide::Up(participant_prefix(&participant)));
 
@@ -147,7 +150,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         writers,
         node,
         participant: participant.clone(),
-        book,
+        book: Arc::clone(&book),
         pulse,
         outlet: outlet.clone(),
     };
@@ -158,7 +161,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
             .enumerate()
             .map(|(index, subscription)| hear(index as u16, subscription, outlet))
             .collect();
-        let serving = replies::serve(&servers, answered, outlet);
+        let serving = replies::serve(&servers, answered, &book, outlet);
         tokio::select! {
             () = end.notified() => Ok(()),
             sick = minder.mind() => Err(sick),
@@ -197,7 +200,8 @@ fn participant_prefix(participant: &DomainParticipant) -> super::plan::GuidPrefi
     prefix
 }
 
-/// Reads best effort, so that any writer matches; a latched topic reliably and from its newest sample on.
+/// Reads best effort, so that any writer matches, unless the plan says otherwise; a latched topic reliably and from its newest
+/// sample on.
 fn subscribe(
     node: &mut Node,
     participant: &DomainParticipant,
@@ -208,7 +212,7 @@ fn subscribe(
         why,
     };
     let policies = QosPolicyBuilder::new()
-        .reliability(if plan.latched {
+        .reliability(if plan.latched || plan.reliable {
             Reliability::Reliable {
                 max_blocking_time: rustdds::Duration::ZERO,
             }
@@ -265,8 +269,7 @@ impl Inlet {
         while let Ok(Some(frame)) = frames::read(&mut from) {
             match frame {
                 ToSide::Publish { writer, body } => {
-                    let mut writers = self.writers.lock().unwrap_or_else(PoisonError::into_inner);
-                    if let Some(writer) = writers.get_mut(usize::from(writer)) {
+                    if let Some(writer) = locked(&self.writers).get_mut(usize::from(writer)) {
                         writer.publish(body);
                     }
                 }
@@ -286,7 +289,7 @@ struct Minder {
     writers: Arc<Mutex<Vec<TopicWriter>>>,
     node: Node,
     participant: DomainParticipant,
-    book: PeerBook,
+    book: Arc<Mutex<PeerBook>>,
     pulse: Pulse,
     outlet: Outlet,
 }
@@ -315,7 +318,8 @@ impl Minder {
             }
             if now >= next_look {
                 next_look = now + LOOK;
-                if let Some(peers) = self.book.look(&self.participant) {
+                let peers = locked(&self.book).look(&self.participant);
+                if let Some(peers) = peers {
                     self.outlet.send(FromSide::Peers(peers));
                 }
             }
@@ -323,9 +327,9 @@ impl Minder {
     }
 
     fn tend_writers(&mut self, now: Instant) {
-        let mut writers = self.writers.lock().unwrap_or_else(PoisonError::into_inner);
+        let (mut writers, book) = (locked(&self.writers), locked(&self.book));
         for writer in writers.iter_mut() {
-            let stalled = writer.tend(now, &mut self.node, &self.participant, &self.book);
+            let stalled = writer.tend(now, &mut self.node, &self.participant, &book);
             if let Some(stall) = stalled {
                 self.outlet.send(FromSide::Stalled(stall));
             }
@@ -357,7 +361,10 @@ impl Minder {
     }
 
     fn with_writers<T>(&self, what: impl Fn(&TopicWriter) -> T) -> Vec<T> {
-        let writers = self.writers.lock().unwrap_or_else(PoisonError::into_inner);
-        writers.iter().map(what).collect()
+        locked(&self.writers).iter().map(what).collect()
     }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -88,12 +88,7 @@ impl PeerBook {
 
     /// Who is there; `None` when nothing has changed since it was last asked.
     pub(super) fn look(&mut self, participant: &DomainParticipant) -> Option<Peers> {
-        while let Ok(Some((announced, _))) = self.announced.take() {
-            let from = prefix(&GUID::from(announced.gid));
-            if self.nodes.len() < MOST_PARTICIPANTS || self.nodes.contains_key(&from) {
-                self.nodes.insert(from, announced.nodes);
-            }
-        }
+        self.hear();
         let written = participant.discovered_writers();
         let present: Vec<GuidPrefix> = written
             .iter()
@@ -150,6 +145,29 @@ impl PeerBook {
         }
         self.told = Some(peers.clone());
         Some(peers)
+    }
+
+    /// What is known of a writer.
+    pub(super) fn writer(&mut self, guid: GUID, participant: &DomainParticipant) -> Peer {
+        self.hear();
+        let written = participant.discovered_writers();
+        let found = written
+            .iter()
+            .find(|writer| writer.writer_proxy.remote_writer_guid == guid);
+        match found {
+            Some(writer) => self.peer(&guid, &writer.writer_proxy.unicast_locator_list),
+            None => self.peer(&guid, &[] as &[SocketAddr]),
+        }
+    }
+
+    /// Takes what nodes have said of themselves.
+    fn hear(&mut self) {
+        while let Ok(Some((announced, _))) = self.announced.take() {
+            let from = prefix(&GUID::from(announced.gid));
+            if self.nodes.len() < MOST_PARTICIPANTS || self.nodes.contains_key(&from) {
+                self.nodes.insert(from, announced.nodes);
+            }
+        }
     }
 
     /// The readers for which a writer refuses: those to which samples were sent again meanwhile or whose socket on this

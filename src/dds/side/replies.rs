@@ -1,6 +1,7 @@
 //! Services: requests are handed over with a ticket; a reply comes back with it.
 
 use std::collections::{BTreeMap, HashSet};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use futures::StreamExt as _;
@@ -11,9 +12,10 @@ use rustdds::{DomainParticipant, GUID};
 use tokio::sync::mpsc;
 
 use super::outlet::Outlet;
+use super::peers::PeerBook;
 use super::raw::RawCdr;
 use crate::dds::frames::{FromSide, LogLevel};
-use crate::dds::plan::ServicePlan;
+use crate::dds::plan::{MOST_REPLY, ServicePlan};
 
 /// Requests and replies kept per service; several clients may ask at once.
 const DEPTH: usize = 64;
@@ -26,8 +28,6 @@ const CLIENT_WAIT: Duration = Duration::from_millis(500);
 /// Discovery knows a reader some time before our writer is matched with it, on another thread; nothing tells when. Paid
 /// once per client.
 const MATCH_WAIT: Duration = Duration::from_millis(100);
-/// Longest reply: the library breaks those that need more than one datagram.
-const MOST_REPLY: usize = 60_000;
 
 /// A reply of the node.
 pub(super) struct Answer {
@@ -64,7 +64,7 @@ impl ServiceServer {
     }
 
     /// Hands requests over and sends what comes back, for as long as it is polled.
-    async fn serve(&self, service: u16, mut answers: mpsc::Receiver<Answer>, outlet: &Outlet) {
+    async fn serve(&self, service: u16, mut answers: mpsc::Receiver<Answer>, book: &Mutex<PeerBook>, outlet: &Outlet) {
         let mut requests = self.server.receive_request_stream();
         let mut open: BTreeMap<u64, RmwRequestId> = BTreeMap::new();
         let mut known = HashSet::new();
@@ -81,11 +81,12 @@ impl ServiceServer {
                         if open.len() == MOST_OPEN {
                             open.pop_first();
                         }
+                        let client = GUID::from(id.writer_gid);
                         open.insert(next, id);
                         outlet.send(FromSide::Request {
                             service,
                             ticket: next,
-                            client: GUID::from(id.writer_gid).to_bytes(),
+                            client: book.lock().unwrap_or_else(PoisonError::into_inner).writer(client, &self.participant),
                             body,
                         });
                         next += 1;
@@ -143,13 +144,18 @@ impl ServiceServer {
 }
 
 /// Runs all servers; each waits for its own clients only.
-pub(super) async fn serve(servers: &[ServiceServer], mut answers: mpsc::Receiver<Answer>, outlet: &Outlet) {
+pub(super) async fn serve(
+    servers: &[ServiceServer],
+    mut answers: mpsc::Receiver<Answer>,
+    book: &Mutex<PeerBook>,
+    outlet: &Outlet,
+) {
     let (senders, receivers): (Vec<_>, Vec<_>) = servers.iter().map(|_| mpsc::channel(DEPTH)).unzip();
     let mut serving: FuturesUnordered<_> = servers
         .iter()
         .zip(receivers)
         .enumerate()
-        .map(|(index, (server, answers))| server.serve(index as u16, answers, outlet))
+        .map(|(index, (server, answers))| server.serve(index as u16, answers, book, outlet))
         .collect();
     loop {
         tokio::select! {

@@ -6,7 +6,7 @@ use std::sync::{Arc, PoisonError};
 
 use tokio::sync::oneshot;
 
-use super::publish::{self, PublisherParts};
+use super::publish::{self, Beside, PublisherParts};
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
 use crate::dds::port::PortBuilder;
@@ -144,9 +144,12 @@ pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure
 
 /// Publishes what is due of the alarms, and keeps it.
 pub(super) fn publish(parts: &mut PublisherParts, header: Header, clock: u64) {
-    let (publishers, recording) = (&parts.publishers, parts.recording.as_ref());
+    let (publishers, beside) = (
+        &parts.publishers,
+        Beside::new(parts.recording.as_ref(), parts.live.as_ref()),
+    );
     let sent = parts.alarms.publish(header, clock, |encoded| {
-        publish::send(publishers, recording, encoded);
+        publish::send(publishers, &beside, encoded);
         Ok(())
     });
     if let Err(error) = sent {

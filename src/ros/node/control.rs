@@ -16,14 +16,14 @@ use crate::messages::outputs::{self, ParameterChange};
 use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use crate::ros::NodeError;
 use crate::ros::parameters::{ParameterStore, Refusal, Task, reconfigured, refresh_ranges};
-use crate::ros::service::{ServiceMapping, ServiceServer, at_once, shared};
+use crate::ros::service::{ServiceMapping, ServiceServer, asked_by, at_once, shared};
 use flexdrill_config::{Config, HardBounds};
 use flexdrill_core::twin::CheckpointError;
 use flexdrill_realtime::link::{Command, Gauges, RunState, Settings};
 
-/// Longest wait for the solver to hand out its state.
 /// Least time between two checkpoints.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
+/// Longest wait for the solver to hand out its state.
 const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
 
 /// Parameters that changed with the command of this number.
@@ -31,7 +31,7 @@ const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
 pub struct Change {
     /// Acts when the solver has carried out so many commands.
     pub command: u64,
-    /// Names and values.
+    /// Names, values, and who asked for them.
     pub values: Vec<ParameterChange>,
     /// The configuration with them.
     pub config: Arc<Config>,
@@ -140,17 +140,23 @@ impl Control {
     }
 
     /// Lets changed parameters act together, as one command, or refuses them and changes nothing. `candidate` is the
-    /// store with them.
+    /// store with them; `asked_by` is recorded with them.
     ///
     /// # Errors
     /// When the configuration does not make sense with them, they go beyond a hard limit, or the solver takes nothing.
-    pub fn act(&self, candidate: &mut ParameterStore, changed: &[Parameter]) -> Result<(), Refusal> {
+    pub fn act(&self, candidate: &mut ParameterStore, changed: &[Parameter], asked_by: &str) -> Result<(), Refusal> {
         let config = reconfigured(&self.config(), changed)?;
         self.hard_bounds.check(&config)?;
         let config = Arc::new(config);
         let values = changed
             .iter()
-            .filter_map(|parameter| Some((parameter.name.clone(), number(&parameter.value)?)))
+            .filter_map(|parameter| {
+                Some(ParameterChange {
+                    name: parameter.name.clone(),
+                    value: number(&parameter.value)?,
+                    asked_by: asked_by.to_owned(),
+                })
+            })
             .collect();
         let tell = |command| {
             let config = Arc::clone(&config);
@@ -174,7 +180,7 @@ impl Control {
     /// # Errors
     /// When the solver has no room for another command.
     pub fn go_back(&self) -> Result<(), ControlError> {
-        tracing::info!("reset: the model goes back to its state after the start");
+        tracing::info!("reset: the model goes back to its state after the start{}", asked_by());
         self.send(Command::Reset).map(drop)
     }
 
@@ -183,7 +189,7 @@ impl Control {
     /// # Errors
     /// As [`Control::go_back`].
     pub fn pause(&self, pause: bool) -> Result<(), ControlError> {
-        tracing::info!("{}", if pause { "paused" } else { "resumed" });
+        tracing::info!("{}{}", if pause { "paused" } else { "resumed" }, asked_by());
         self.send(Command::Pause(pause)).map(drop)
     }
 
@@ -340,7 +346,7 @@ mod tests {
         let control = Arc::clone(&bench.control);
         bench
             .store
-            .set_atomically(&[parameter], |store, changed| control.act(store, changed))
+            .set_atomically(&[parameter], |store, changed| control.act(store, changed, "a test"))
     }
 
     /// "Successful" means that it acts: what the ring has no room for is refused, and nowhere changed.
@@ -368,7 +374,12 @@ mod tests {
         assert_eq!(told.len(), accepted as usize);
         for (number, change) in (1..).zip(&told) {
             assert_eq!(change.command, number);
-            assert_eq!(change.values, [(key.to_owned(), friction(number as u32))]);
+            let expected = ParameterChange {
+                name: key.to_owned(),
+                value: friction(number as u32),
+                asked_by: "a test".to_owned(),
+            };
+            assert_eq!(change.values, [expected]);
         }
     }
 

@@ -12,10 +12,11 @@ pub mod publishers;
 pub mod rig;
 
 use std::future::Future;
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{channel, sync_channel};
+use std::sync::mpsc::channel;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use tokio::sync::Notify;
@@ -30,10 +31,11 @@ use self::rig::{Now, RigInputs, RigTime};
 use super::args::{NodeIdentity, Remapping};
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
-use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging};
-use crate::bag::{Recording, RecordingThread};
+use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging, type_description};
+use crate::bag::{Recording, RecordingThread, Topic};
 use crate::dds::network::Network;
 use crate::dds::port::PortBuilder;
+use crate::live::{Hub, LiveError, LiveServer};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
@@ -44,8 +46,6 @@ use flexdrill_realtime::link::{Gauges, Targets, link};
 use flexdrill_realtime::monotonic;
 use flexdrill_realtime::{INPUT_PERIOD, RealTimeLoop};
 
-/// Samples that may wait for the recording.
-const RECEIVED: usize = 1024;
 /// Longest wait for the solver to end: a step that is split to its limit takes this long on a slow machine.
 const SOLVER_END: Duration = Duration::from_secs(5);
 
@@ -66,6 +66,8 @@ pub struct NodeSetup {
     pub mapping: ServiceMapping,
     /// File to record to.
     pub record: Option<PathBuf>,
+    /// Show what is published live at this address, in Foxglove's protocol.
+    pub live: Option<LiveAddress>,
     /// `/clock` paces the model.
     pub use_sim_time: bool,
     /// Log lines on `/rosout`.
@@ -78,6 +80,15 @@ pub struct NodeSetup {
     pub lifecycle: bool,
     /// Model time after which it ends, or wall time for which model time may stand still (s).
     pub duration: Option<f64>,
+}
+
+/// Where and to whom the node shows what it publishes live.
+#[derive(Debug, Clone)]
+pub struct LiveAddress {
+    /// To listen at.
+    pub address: SocketAddr,
+    /// Pages that may look beside this machine's own, as `https://viewer.example`.
+    pub origins: Vec<String>,
 }
 
 /// What a node's run came to.
@@ -125,6 +136,11 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         None => None,
     };
 
+    let live = match &setup.live {
+        Some(at) => Some(start_live(&setup, at)?),
+        None => None,
+    };
+
     let simulated = Arc::new(AtomicU64::new(0));
     let now: Now = time_of_inputs(setup.use_sim_time.then(|| Arc::clone(&simulated)));
     let stamp_time = stamp_time(setup.use_sim_time.then(|| Arc::clone(&simulated)));
@@ -149,7 +165,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         &mut port,
         setup.identity.full_name(),
         store,
-        Box::new(move |candidate, changed| acting.act(candidate, changed)),
+        Box::new(move |candidate, changed, asked_by| acting.act(candidate, changed, asked_by)),
     );
 
     let mut tasks = JoinSet::new();
@@ -159,6 +175,11 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     for task in loggers::serve(&mut port, setup.mapping, &setup.identity.full_name()) {
         tasks.spawn(task);
     }
+    tasks.spawn(type_description::serve(
+        &mut port,
+        setup.mapping,
+        &setup.identity.full_name(),
+    ));
     let service_name = |name: &str| setup.remapping.service(&setup.identity, DEFAULT_NODE_NAME, name);
     for task in control::serve(&mut port, setup.mapping, &control, service_name)? {
         tasks.spawn(task);
@@ -173,7 +194,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
             tasks.spawn(task);
         }
     }
-    let (received_sender, received) = sync_channel(RECEIVED);
+    let (for_recording, received) = rig::for_recording();
     let mut plain = Vec::new();
     for (kind, topic) in [
         (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
@@ -195,7 +216,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     let door = || rig::Door {
         rig: rig_inputs.clone(),
         dds: port.monitor(),
-        record: recording.is_some().then(|| received_sender.clone()),
+        record: (recording.is_some() || live.is_some()).then(|| for_recording.clone()),
     };
     for (kind, samples) in plain {
         tasks.spawn(rig::receive_plain(door(), kind, samples));
@@ -209,6 +230,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         end: publisher_end,
         publishers,
         recording,
+        live,
         received,
         changes,
         config: Arc::clone(&config),
@@ -283,6 +305,19 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     };
     outcome?;
     Ok(RunSummary { status, recording })
+}
+
+fn start_live(setup: &NodeSetup, at: &LiveAddress) -> Result<LiveServer, NodeError> {
+    // Names were checked when the publishers were made.
+    let name = |topic: &TopicInfo| setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned());
+    let offered: Vec<Topic> = topics::ALL
+        .iter()
+        .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
+        .collect();
+    let hub = Hub::new(&offered).map_err(LiveError::from)?;
+    let live = LiveServer::start("--foxglove", at.address, hub, &at.origins)?;
+    tracing::info!("live at ws://{} for Foxglove and Lichtblick", live.address());
+    Ok(live)
 }
 
 fn build(config: &Config, checkpoint: Option<&[u8]>) -> Result<Run, BuildError> {

@@ -9,12 +9,13 @@ use std::time::Duration;
 use super::alarms::{self, AlarmDesk};
 use super::control::Change;
 use super::publishers::Publishers;
-use super::rig::{Now, Received, RigTime};
+use super::rig::{Now, Received, RigTime, ToRecord};
 use crate::bag::RecordingThread;
 use crate::dds::port::Monitor;
 use crate::health::diagnostics::{Diagnostics, Evidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
+use crate::live::LiveServer;
 use crate::messages::diagnostic_msgs::DiagnosticArray;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
 use crate::messages::std_msgs::Float64;
@@ -23,7 +24,7 @@ use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
 use crate::rig_inputs::Intake;
 use crate::told::Throttles;
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Conditioner, InputKind};
+use flexdrill_core::inputs::Conditioner;
 use flexdrill_core::twin::{Output, RunInputs};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
@@ -44,8 +45,10 @@ pub struct PublisherParts {
     pub publishers: Publishers,
     /// Recording, if any.
     pub recording: Option<RecordingThread>,
+    /// Live over WebSocket, if asked for.
+    pub live: Option<LiveServer>,
     /// Samples as received.
-    pub received: Receiver<Received>,
+    pub received: ToRecord,
     /// Parameters that changed.
     pub changes: Receiver<Change>,
     /// The configuration at the start.
@@ -130,6 +133,14 @@ impl Publisher {
         self.send_status();
         let header = self.header();
         alarms::publish(&mut self.parts, header, monotonic::now());
+        if let Some(dropped) = self
+            .parts
+            .live
+            .map(|live| live.dropped())
+            .filter(|dropped| *dropped > 0)
+        {
+            tracing::warn!("{dropped} messages were not shown live: the live thread got no processor");
+        }
         (self.parts.recording, self.newest_status)
     }
 
@@ -148,8 +159,13 @@ impl Publisher {
         while let Ok(time) = self.parts.end.step_times.pop() {
             self.status.step_times.add(time);
         }
-        while let Ok(received) = self.parts.received.try_recv() {
+        while let Some(received) = self.parts.received.take() {
             self.record_received(received);
+        }
+        if let Some(recording) = &self.parts.recording {
+            for (topic, samples) in self.parts.received.missed() {
+                recording.lose(topic, samples);
+            }
         }
         let now = monotonic::now();
         self.status.note(self.pace_time(), &self.parts.gauges);
@@ -264,19 +280,16 @@ impl Publisher {
     }
 
     fn record_received(&self, received: Received) {
-        let Some(recording) = &self.parts.recording else { return };
-        let (topic, cdr) = match received {
-            Received::Plain { kind, value } => {
-                let topic = match kind {
-                    InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
-                    InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
-                };
-                (topic, to_cdr(&Float64 { data: value }))
-            }
-            Received::Stamped(message) => (&topics::RIG_INPUTS, to_cdr(&message)),
+        if self.parts.recording.is_none() && self.parts.live.is_none() {
+            return;
+        }
+        let topic = received.topic();
+        let cdr = match received {
+            Received::Plain { value, .. } => to_cdr(&Float64 { data: value }),
+            Received::Stamped(message) => to_cdr(&message),
         };
         if let Ok(cdr) = cdr {
-            recording.record(topic, (self.parts.rig_time)(), &cdr);
+            keep(&self.parts.beside(), topic, (self.parts.rig_time)(), &cdr);
         }
     }
 
@@ -360,8 +373,12 @@ impl Publisher {
 
 impl PublisherParts {
     fn send(&self, encoded: Encoded<'_>) -> Result<(), CdrError> {
-        send(&self.publishers, self.recording.as_ref(), encoded);
+        send(&self.publishers, &self.beside(), encoded);
         Ok(())
+    }
+
+    fn beside(&self) -> Beside<'_> {
+        Beside::new(self.recording.as_ref(), self.live.as_ref())
     }
 
     fn send_message<M: Message>(&self, topic: &'static TopicInfo, message: &M, stamp: i64) {
@@ -377,11 +394,34 @@ impl PublisherParts {
     }
 }
 
-/// The same bytes to DDS and to the recording.
-pub(super) fn send(publishers: &Publishers, recording: Option<&RecordingThread>, encoded: Encoded<'_>) {
+/// Who gets the bytes beside DDS; neither is waited for.
+#[derive(Clone, Copy)]
+pub(super) struct Beside<'a> {
+    recording: Option<&'a RecordingThread>,
+    live: Option<&'a LiveServer>,
+}
+
+impl<'a> Beside<'a> {
+    /// A recording and a live server, where there are such.
+    pub(super) fn new(recording: Option<&'a RecordingThread>, live: Option<&'a LiveServer>) -> Self {
+        Self { recording, live }
+    }
+}
+
+/// The same bytes to DDS, to the recording and to who looks live.
+pub(super) fn send(publishers: &Publishers, beside: &Beside<'_>, encoded: Encoded<'_>) {
     publishers.publish(encoded.topic, encoded.cdr);
-    if let Some(recording) = recording {
-        recording.record(encoded.topic, encoded.stamp, encoded.cdr);
+    keep(beside, encoded.topic, encoded.stamp, encoded.cdr);
+}
+
+fn keep(beside: &Beside<'_>, topic: &TopicInfo, stamp: i64, cdr: &[u8]) {
+    if let Some(recording) = beside.recording {
+        recording.record(topic, stamp, cdr);
+    }
+    if let Some(live) = beside.live
+        && let Some(number) = topics::ALL.iter().position(|known| known.name == topic.name)
+    {
+        live.publish(number, stamp, cdr);
     }
 }
 

@@ -2,8 +2,8 @@
 //! [`crate::rig_inputs`]; here is their way from the network.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::SyncSender;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -12,11 +12,12 @@ use crate::dds::port::{Inbox, Monitor, Sample};
 use crate::messages::RigInputs as RigInputsMessage;
 use crate::messages::rosgraph_msgs::Clock;
 use crate::messages::std_msgs::Float64;
+use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{Message, from_cdr_body};
 use crate::rig_inputs::{Announcement, Driver, DriverId, Intake, RigSample, SampleRefused, Sent, stamped};
 use crate::told::{Throttle, Throttles};
 use flexdrill_config::InputsConfig;
-use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Stamp};
+use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
 use flexdrill_realtime::link::Targets;
 use flexdrill_realtime::monotonic;
 
@@ -48,6 +49,94 @@ pub enum Received {
     },
     /// With stamp, quality and source.
     Stamped(RigInputsMessage),
+}
+
+/// Samples that may wait for the recording.
+const RECEIVED: usize = 1024;
+/// Topics that samples come from.
+const TOPICS: [&TopicInfo; 3] = [
+    &topics::ROTARY_SPEED_RPM,
+    &topics::WEIGHT_ON_BIT_KN,
+    &topics::RIG_INPUTS,
+];
+
+/// Samples that were received and are not on their way to the recording: one number for each of the topics.
+type Missed = Arc<[AtomicU32; TOPICS.len()]>;
+
+/// The way of samples as received to the recording. Never waits: what has no room is counted.
+#[derive(Debug, Clone)]
+pub struct ForRecording {
+    samples: SyncSender<Received>,
+    missed: Missed,
+}
+
+/// The other end of [`ForRecording`].
+#[derive(Debug)]
+pub struct ToRecord {
+    samples: Receiver<Received>,
+    missed: Missed,
+}
+
+/// Both ends.
+pub fn for_recording() -> (ForRecording, ToRecord) {
+    let (sender, receiver) = sync_channel(RECEIVED);
+    let missed = Missed::default();
+    let ends = (Arc::clone(&missed), missed);
+    (
+        ForRecording {
+            samples: sender,
+            missed: ends.0,
+        },
+        ToRecord {
+            samples: receiver,
+            missed: ends.1,
+        },
+    )
+}
+
+impl ForRecording {
+    fn send(&self, received: Received) {
+        let topic = received.topic();
+        if self.samples.try_send(received).is_err() {
+            self.miss(topic, 1);
+        }
+    }
+
+    fn miss(&self, topic: &TopicInfo, samples: u64) {
+        if let Some(index) = TOPICS.iter().position(|known| known.name == topic.name) {
+            self.missed[index].fetch_add(u32::try_from(samples).unwrap_or(u32::MAX), Ordering::Relaxed);
+        }
+    }
+}
+
+impl ToRecord {
+    /// The next sample.
+    pub fn take(&self) -> Option<Received> {
+        self.samples.try_recv().ok()
+    }
+
+    /// How many samples of each topic were missed since it was asked last.
+    pub fn missed(&self) -> impl Iterator<Item = (&'static TopicInfo, u32)> {
+        let counts = self.missed.iter().map(|count| count.swap(0, Ordering::Relaxed));
+        TOPICS.into_iter().zip(counts).filter(|(_, count)| *count > 0)
+    }
+}
+
+impl Received {
+    /// Where it came from.
+    pub fn topic(&self) -> &'static TopicInfo {
+        match self {
+            Received::Plain { kind, .. } => plain_topic(*kind),
+            Received::Stamped(_) => &topics::RIG_INPUTS,
+        }
+    }
+}
+
+fn plain_topic(kind: InputKind) -> &'static TopicInfo {
+    match kind {
+        InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
+        InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
+    }
 }
 
 /// Where the samples of the rig go: conditioned into the targets of the solver.
@@ -173,7 +262,7 @@ pub struct Door {
     /// Who knows the publishers.
     pub dds: Monitor,
     /// Takes a copy for the recording, if there is one.
-    pub record: Option<SyncSender<Received>>,
+    pub record: Option<ForRecording>,
 }
 
 impl Door {
@@ -194,8 +283,15 @@ impl Door {
 
     fn record(&self, received: Received) {
         if let Some(record) = &self.record {
-            // A full queue means that the recording is behind; it counts that itself.
-            let _ = record.try_send(received);
+            record.send(received);
+        }
+    }
+
+    /// Counts samples of a topic that nobody has seen.
+    fn overrun(&self, topic: &TopicInfo, kinds: &[InputKind], samples: u64) {
+        locked(&self.rig.intake).count_overrun(kinds, samples);
+        if let Some(record) = &self.record {
+            record.miss(topic, samples);
         }
     }
 }
@@ -207,23 +303,37 @@ const MOST_ASKED: usize = 64;
 /// the inputs that it carries.
 async fn receive<M: Message>(
     door: Door,
-    topic: &'static str,
+    topic: &'static TopicInfo,
     kinds: &'static [InputKind],
     samples: &Inbox<Sample>,
     take: impl Fn(&Door, M, DriverId) -> Vec<SampleRefused>,
 ) {
     let mut refused_lines = Throttles::new(LOG_INTERVAL);
     let mut unreadable_lines = Throttle::new(LOG_INTERVAL);
+    let mut overrun_lines = Throttle::new(LOG_INTERVAL);
     let mut asked = HashMap::new();
+    let mut given_up = 0;
     loop {
         let sample = samples.next().await;
         let clock = monotonic::now() as f64 * 1e-9;
+        let before = std::mem::replace(&mut given_up, samples.given_up());
+        if given_up > before {
+            door.overrun(topic, kinds, given_up - before);
+            if let Some(more) = overrun_lines.ending(clock) {
+                tracing::warn!(
+                    "{}: {} samples came faster than they were taken, and nobody has seen them; is a publisher flooding \
+                     it?{more}",
+                    topic.name,
+                    given_up - before
+                );
+            }
+        }
         let (message, id) = match decode(sample) {
             Ok((message, writer)) => (message, DriverId(writer)),
             Err(error) => {
                 locked(&door.rig.intake).count_unreadable(kinds);
                 if let Some(more) = unreadable_lines.ending(clock) {
-                    tracing::warn!("{topic}: a sample could not be read: {error}{more}");
+                    tracing::warn!("{}: a sample could not be read: {error}{more}", topic.name);
                 }
                 continue;
             }
@@ -259,7 +369,7 @@ pub async fn receive_plain(door: Door, kind: InputKind, samples: Arc<Inbox<Sampl
     };
     receive(
         door,
-        kind.topic(),
+        plain_topic(kind),
         kinds,
         &samples,
         move |door, Float64 { data: value }, id| {
@@ -274,7 +384,7 @@ pub async fn receive_plain(door: Door, kind: InputKind, samples: Arc<Inbox<Sampl
 pub async fn receive_stamped(door: Door, samples: Arc<Inbox<Sample>>) {
     receive(
         door,
-        InputRoute::STAMPED_TOPIC,
+        &topics::RIG_INPUTS,
         &InputKind::ALL,
         &samples,
         |door, message, id| {
@@ -314,5 +424,32 @@ pub async fn follow_clock(rig: RigInputs, ticks: Arc<Inbox<Sample>>, newest: Arc
             locked(&rig.intake).clock_set(now);
             locked(&rig.conditioner).clock_set(now);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_finds_no_room_on_its_way_to_the_recording_is_counted_by_topic() {
+        let (sender, receiver) = for_recording();
+        let plain = |kind| Received::Plain { kind, value: 1.0 };
+        for _ in 0..RECEIVED + 3 {
+            sender.send(plain(InputKind::WeightOnBit));
+        }
+        sender.send(Received::Stamped(RigInputsMessage::default()));
+        sender.miss(&topics::ROTARY_SPEED_RPM, 5);
+        let missed = |receiver: &ToRecord| -> Vec<(&str, u32)> {
+            receiver.missed().map(|(topic, count)| (topic.name, count)).collect()
+        };
+        let expected = [
+            ("rig/rotary_speed_rpm", 5),
+            ("rig/weight_on_bit_kn", 3),
+            ("rig/inputs", 1),
+        ];
+        assert_eq!(missed(&receiver), expected);
+        assert!(missed(&receiver).is_empty(), "told once");
+        assert_eq!(std::iter::from_fn(|| receiver.take()).count(), RECEIVED);
     }
 }

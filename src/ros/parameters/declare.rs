@@ -5,10 +5,14 @@ use std::collections::BTreeMap;
 use ros2_client::ParameterValue;
 use serde_json::Value;
 
+use super::descriptions;
 use super::live::{CONFIG_FILE, USE_SIM_TIME, is_live, why_fixed};
 use super::store::{Declaration, ParameterStore};
 use crate::ros::args::value::to_parameter;
 use flexdrill_config::{Config, HardBounds, NumberKey};
+
+/// Of a key that nobody has described; there is none in the configurations that come with the program.
+const NOT_DESCRIBED: &str = "A key of the configuration.";
 
 /// All parameters of a node.
 pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> ParameterStore {
@@ -44,7 +48,7 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
         let description = match number {
             Some(NumberKey { unit: "", reason, .. }) => format!("Dimensionless; {reason}."),
             Some(NumberKey { unit, reason, .. }) => format!("In {unit}; {reason}."),
-            None => "As in the configuration.".to_owned(),
+            None => descriptions::of(&name).unwrap_or(NOT_DESCRIBED).to_owned(),
         };
         let range = number
             .map(|number| hard.cut(&name, [number.low, number.high]))
@@ -121,5 +125,32 @@ mod tests {
         assert!(store.describe("inputs.hard_limits.max_rpm").read_only);
         assert!(store.get("use_sim_time").is_some());
         assert!(store.names().count() > 60);
+    }
+
+    #[test]
+    fn each_parameter_has_a_description_of_its_own() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/config");
+        let mut texts: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.extension().is_some_and(|extension| extension == "yaml"))
+            .map(|path| std::fs::read_to_string(path).unwrap())
+            .filter(|text| text.contains("\ntool:"))
+            .collect();
+        assert!(texts.len() > 2, "{}", texts.len());
+        let stations = texts[0].replace("watched: joints", "watched: {stations: [1, 2]}");
+        texts.push(stations);
+        for text in &texts {
+            let store = declare(&Config::from_text("a configuration", text).unwrap(), "", false);
+            for name in store.names() {
+                let description = store.describe(name).description;
+                assert!(
+                    description.len() > 10 && description != NOT_DESCRIBED,
+                    "{name}: {description}"
+                );
+            }
+        }
+        let kind = declare(&config(), "", false).describe("tool.joint.kind").description;
+        assert!(kind.contains("ball_cage"), "{kind}");
     }
 }

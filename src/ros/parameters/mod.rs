@@ -2,6 +2,7 @@
 
 mod configured;
 mod declare;
+mod descriptions;
 mod live;
 mod overrides;
 mod refusal;

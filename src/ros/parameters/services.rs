@@ -18,21 +18,22 @@ use super::store::ParameterStore;
 use crate::dds::plan::{Offer, dds_type_name};
 use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
-use crate::rig_inputs::DriverId;
+use crate::rig_inputs::{Driver, DriverId};
 use crate::ros::args::value::show;
 use crate::ros::service::{self, ServiceMapping, ServiceServer, at_once};
 
 /// A server's work, to be run as a task.
 pub type Task = Pin<Box<dyn Future<Output = ()> + Send>>;
 
-/// Lets a set of values act as a whole, or refuses it. It is given the store as it would become and what changed.
-pub type Act = dyn Fn(&mut ParameterStore, &[Parameter]) -> Result<(), Refusal> + Send + Sync;
+/// Lets a set of values act as a whole, or refuses it. It is given the store as it would become, what changed, and who
+/// asked for it.
+pub type Act = dyn Fn(&mut ParameterStore, &[Parameter], &str) -> Result<(), Refusal> + Send + Sync;
 
 /// Who asks for a change: the service, and its client where the middleware tells.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Origin {
     service: &'static str,
-    client: Option<DriverId>,
+    client: Option<Driver>,
 }
 
 impl Origin {
@@ -40,7 +41,11 @@ impl Origin {
     fn of(service: &'static str) -> Self {
         Self {
             service,
-            client: service::client().map(DriverId),
+            client: service::client().map(|peer| Driver {
+                id: DriverId(peer.id),
+                node: peer.node,
+                host: peer.address,
+            }),
         }
     }
 }
@@ -48,7 +53,7 @@ impl Origin {
 impl fmt::Display for Origin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "service {}", self.service)?;
-        match self.client {
+        match &self.client {
             Some(client) => write!(f, ", client {client}"),
             None => Ok(()),
         }
@@ -96,13 +101,13 @@ impl Parameters {
     }
 
     /// Sets all of `changes` or none, lets them act, publishes the event and logs who asked.
-    fn set(&self, changes: &[Parameter], origin: Origin) -> Result<(), Refusal> {
+    fn set(&self, changes: &[Parameter], origin: &str) -> Result<(), Refusal> {
         let (before, changed) = {
             let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
             let before: Vec<Option<ParameterValue>> = changes.iter().map(|c| store.get(&c.name).cloned()).collect();
             (
                 before,
-                store.set_atomically(changes, |candidate, changed| (self.act)(candidate, changed))?,
+                store.set_atomically(changes, |candidate, changed| (self.act)(candidate, changed, origin))?,
             )
         };
         for (Parameter { name, value }, before) in changed.iter().zip(before) {
@@ -126,9 +131,10 @@ impl Parameters {
         }
     }
 
-    fn answer_set(&self, changes: Vec<raw::Parameter>, origin: Origin) -> raw::SetParametersResult {
+    fn answer_set(&self, changes: Vec<raw::Parameter>, origin: &Origin) -> raw::SetParametersResult {
         let changes: Vec<Parameter> = changes.into_iter().map(Into::into).collect();
-        let result = self.set(&changes, origin);
+        let origin = origin.to_string();
+        let result = self.set(&changes, &origin);
         if let Err(reason) = &result {
             tracing::warn!("a parameter change was refused: {reason}; asked for by {origin}");
         }
@@ -170,11 +176,12 @@ pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<P
         ))),
         Box::pin(
             server("set_parameters", "SetParameters").serve(at_once(move |request: SetParametersRequest| {
+                let origin = Origin::of("set_parameters");
                 SetParametersResponse {
                     results: request
                         .parameter
                         .into_iter()
-                        .map(|parameter| set.answer_set(vec![parameter], Origin::of("set_parameters")))
+                        .map(|parameter| set.answer_set(vec![parameter], &origin))
                         .collect(),
                 }
             })),
@@ -182,7 +189,7 @@ pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<P
         Box::pin(
             server("set_parameters_atomically", "SetParametersAtomically").serve(at_once(
                 move |request: SetParametersRequest| SetParametersAtomicallyResponse {
-                    result: atomic.answer_set(request.parameter, Origin::of("set_parameters_atomically")),
+                    result: atomic.answer_set(request.parameter, &Origin::of("set_parameters_atomically")),
                 },
             )),
         ),

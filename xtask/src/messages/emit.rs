@@ -119,7 +119,8 @@ fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> 
             "        const ROS_TYPE: &'static str = {:?};\n",
             "        const DDS_TYPE: &'static str = {:?};\n",
             "        const RIHS01: &'static str = {:?};\n",
-            "        const SCHEMA: &'static str = {};\n    }}\n",
+            "        const SCHEMA: &'static str = {};\n",
+            "        const DESCRIPTION: &'static str = {};\n    }}\n",
         ),
         name,
         definition.name.package,
@@ -128,8 +129,14 @@ fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> 
         definition.name.dds(),
         hash::rihs01(definition, catalogue)?,
         schema_expression(definition, catalogue)?,
+        raw(&hash::alone(definition)),
     );
     Ok(())
+}
+
+/// A text with many quotes.
+fn raw(text: &str) -> String {
+    format!("r#\"{text}\"#")
 }
 
 /// The schema as an expression; files are included, so that their text stands in one place only.

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::GenerateError;
 use super::catalogue::Catalogue;
-use super::definition::{Array, Base, Definition, FieldType, Primitive};
+use super::definition::{Array, Base, Definition, Field, FieldType, Primitive, Value};
 
 /// The hash of `definition` as ROS 2 writes it, `RIHS01_` and 64 hexadecimal digits.
 ///
@@ -37,11 +37,36 @@ fn description(definition: &Definition, catalogue: &Catalogue) -> Result<String,
 }
 
 fn individual(definition: &Definition) -> String {
-    let mut fields: Vec<String> = definition
-        .fields
-        .iter()
-        .map(|each| field(&each.name, &each.kind))
-        .collect();
+    with_fields(definition, |each| field(&each.name, &each.kind))
+}
+
+/// The type alone as that JSON, with `default_value` where a field has one; the hash leaves those out.
+pub(super) fn alone(definition: &Definition) -> String {
+    with_fields(definition, |each| {
+        let mut text = field(&each.name, &each.kind);
+        if let Some(value) = &each.default {
+            let closed = text.pop();
+            let _ = write!(text, r#", "default_value": {:?}"#, shown(value));
+            text.extend(closed);
+        }
+        text
+    })
+}
+
+/// A default value as rosidl writes it.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Bool(true) => "True".to_owned(),
+        Value::Bool(false) => "False".to_owned(),
+        Value::Integer(number) => number.to_string(),
+        Value::Float(number) => format!("{number:?}"),
+        Value::Text(text) => text.clone(),
+        Value::List(values) => format!("({})", values.iter().map(shown).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+fn with_fields(definition: &Definition, of: impl Fn(&Field) -> String) -> String {
+    let mut fields: Vec<String> = definition.fields.iter().map(of).collect();
     if fields.is_empty() {
         let filler = FieldType {
             base: Base::Primitive(Primitive::Uint8),

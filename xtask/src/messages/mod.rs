@@ -1,10 +1,12 @@
-//! From `.msg` and `.srv` to Rust, schema and type hash.
+//! From `.msg` and `.srv` to Rust, schema and type hash, and to TypeScript for the rig page.
 //!
-//! `cargo xtask messages` writes the result to [`OUTPUT`]; a test holds the file to what would be written.
+//! `cargo xtask messages` writes the results to [`OUTPUT`] and [`PAGE_OUTPUT`]; a test holds the files to what would be
+//! written.
 
 pub mod catalogue;
 pub mod definition;
 mod emit;
+mod emit_typescript;
 pub mod hash;
 pub mod parser;
 pub mod schema;
@@ -15,6 +17,9 @@ pub use catalogue::Catalogue;
 
 /// The generated file, from the repository's root.
 pub const OUTPUT: &str = "src/messages/generated.rs";
+
+/// The generated file of the rig page, from the repository's root.
+pub const PAGE_OUTPUT: &str = "src/dashboard/page/src/messages.ts";
 
 /// The member that ROS 2 gives a message without fields, since DDS cannot carry an empty struct.
 const EMPTY_STRUCT_MEMBER: &str = "structure_needs_at_least_one_member";
@@ -69,16 +74,25 @@ pub fn generate(root: &Path) -> Result<String, GenerateError> {
     emit::source(&Catalogue::read(root)?)
 }
 
-/// Generates and writes [`OUTPUT`]. Returns its path.
+/// The TypeScript source of what the rig page reads, of the repository at `root`.
 ///
 /// # Errors
-/// When a definition cannot be read or understood, or the file not written.
-pub fn write(root: &Path) -> Result<PathBuf, GenerateError> {
-    let source = generate(root)?;
-    let path = root.join(OUTPUT);
-    std::fs::write(&path, source).map_err(|source| GenerateError::Write {
-        path: path.clone(),
-        source,
-    })?;
-    Ok(path)
+/// When a definition cannot be read or understood.
+pub fn generate_typescript(root: &Path) -> Result<String, GenerateError> {
+    emit_typescript::source(&Catalogue::read(root)?)
+}
+
+/// Generates and writes [`OUTPUT`] and [`PAGE_OUTPUT`]. Returns their paths.
+///
+/// # Errors
+/// When a definition cannot be read or understood, or a file not written.
+pub fn write(root: &Path) -> Result<[PathBuf; 2], GenerateError> {
+    let paths = [root.join(OUTPUT), root.join(PAGE_OUTPUT)];
+    for (path, source) in paths.iter().zip([generate(root)?, generate_typescript(root)?]) {
+        std::fs::write(path, source).map_err(|source| GenerateError::Write {
+            path: path.clone(),
+            source,
+        })?;
+    }
+    Ok(paths)
 }

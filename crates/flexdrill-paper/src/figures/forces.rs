@@ -1,9 +1,9 @@
 //! Figures 14 to 17: contact forces and accelerations over inclination, and their histories.
 
-use super::panel::{Figure, Line, Panel};
 use crate::findings::worst_place;
 use crate::record::{Axis, Layer, Record};
 use flexdrill_core::units::n_to_kn;
+use flexdrill_plot::{Figure, Line, Panel};
 
 /// Pipe on guide, Fig. 14.
 pub(super) fn inner(record: &Record) -> Figure {

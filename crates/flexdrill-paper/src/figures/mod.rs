@@ -1,16 +1,10 @@
-//! The paper's figures, drawn from a record. A figure is plain data ([`Figure`]); [`svg`] draws it, [`png()`] renders
-//! the drawing, and [`csv()`] writes what is in it.
+//! The paper's figures, drawn from a record. What a figure is and how it is drawn: `flexdrill-plot`.
 
-mod draw;
 mod forces;
-mod panel;
-mod png;
 mod shapes;
 mod speeds;
 
-pub use draw::{DrawError, svg};
-pub use panel::{Figure, Legend, Line, Mark, Panel, csv};
-pub use png::png;
+pub use flexdrill_plot::{DrawError, Figure, Legend, Line, Mark, Panel, csv, png, svg};
 
 use super::hinge::Hinge;
 use super::motion::motion;

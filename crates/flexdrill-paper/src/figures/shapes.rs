@@ -1,9 +1,9 @@
 //! Figures 10 and 11: shapes, orbits and displacements in time.
 
-use super::panel::{Figure, Line, Panel};
 use crate::motion::Motion;
 use crate::record::{Axis, Record};
 use flexdrill_core::tool::Body;
+use flexdrill_plot::{Figure, Line, Panel};
 
 /// The paper's exaggeration of displacements.
 const EXAGGERATION: f64 = 50.0;

@@ -1,10 +1,10 @@
 //! Figures 12 and 13: speeds.
 
-use super::panel::{Figure, Line, Panel};
 use crate::findings::FIVE_PLACES;
 use crate::motion::Motion;
 use crate::record::{Record, Series};
 use flexdrill_core::units::rad_per_s_to_rpm;
+use flexdrill_plot::{Figure, Line, Panel};
 
 fn history(record: &Record, series: &Series, station: usize, [from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     let points = record

@@ -29,6 +29,8 @@ pub enum Mark {
     Dots,
     /// A large diamond: a single value.
     Diamond,
+    /// What the points enclose, pale.
+    Area,
 }
 
 /// Where the legend stands.
@@ -171,6 +173,12 @@ impl Line {
     #[must_use]
     pub fn diamond(self) -> Self {
         self.marked(Mark::Diamond)
+    }
+
+    /// A pale area.
+    #[must_use]
+    pub fn area(self) -> Self {
+        self.marked(Mark::Area)
     }
 
     /// In a colour of the palette.

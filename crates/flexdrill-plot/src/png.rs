@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use resvg::{tiny_skia, usvg};
 
-use super::draw::{FONT, FONT_FAMILY, SCALE, WIDTH};
+use crate::draw::{FONT, FONT_FAMILY, SCALE, WIDTH};
 
 /// Pixels per unit of a figure's width of 1080: 2160 pixels are 300 dpi over 183 mm, a page's width.
 const PIXELS: f32 = 2.0;
 
-/// Renders an SVG of [`super::svg`]. `None` if it is not one, or has no size.
+/// Renders an SVG of [`crate::svg`]. `None` if it is not one, or has no size.
 pub fn png(svg: &str) -> Option<Vec<u8>> {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(FONT.to_vec());

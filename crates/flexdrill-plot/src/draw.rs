@@ -13,13 +13,13 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::panel::{Figure, Legend, Line, Mark, Panel};
 
 /// Units of the drawing per unit of its stated size.
-pub(super) const SCALE: u32 = 4;
+pub(crate) const SCALE: u32 = 4;
 /// Width of a drawing.
-pub(super) const WIDTH: u32 = 1080 * SCALE;
+pub(crate) const WIDTH: u32 = 1080 * SCALE;
 /// The font's file; so a figure is laid out alike everywhere. `font/README.md` says where it is from.
-pub(super) const FONT: &[u8] = include_bytes!("../font/Roboto-Regular.ttf");
+pub(crate) const FONT: &[u8] = include_bytes!("font/Roboto-Regular.ttf");
 /// Its name.
-pub(super) const FONT_FAMILY: &str = "Roboto";
+pub(crate) const FONT_FAMILY: &str = "Roboto";
 
 /// Colours that differ for colour-blind readers too, and in grey (Okabe and Ito, 2008).
 const PALETTE: [RGBColor; 7] = [
@@ -172,6 +172,10 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
                     color.stroke_width(stroke(line.mark)),
                 ))?;
             }
+            Mark::Area => {
+                let corners: Vec<_> = points().collect();
+                chart.draw_series(std::iter::once(Polygon::new(corners, color.filled())))?;
+            }
             Mark::Dots => {
                 chart.draw_series(points().map(|at| Circle::new(at, 3 * SCALE, color.filled())))?;
             }
@@ -195,7 +199,11 @@ fn stroke(mark: Mark) -> u32 {
 
 fn color(index: usize, line: &Line) -> RGBAColor {
     let color = PALETTE[line.color.unwrap_or(index) % PALETTE.len()];
-    color.mix(if line.mark == Mark::Wide { 0.45 } else { 1.0 })
+    color.mix(match line.mark {
+        Mark::Wide => 0.45,
+        Mark::Area => 0.25,
+        _ => 1.0,
+    })
 }
 
 /// Samples of the lines with their names, above the plot.
@@ -219,6 +227,7 @@ fn legend<'a>(area: &Area<'a>, kind: Legend, named: &[(usize, &Line)]) -> Result
                 area.draw(&PathElement::new([(x, y), (x + s(9), y)], style))?;
                 area.draw(&PathElement::new([(x + s(14), y), (x + s(23), y)], style))?;
             }
+            Mark::Area => area.draw(&Rectangle::new([(x, y - s(6)), (x + s(22), y + s(6))], color.filled()))?,
             Mark::Dots => area.draw(&Circle::new((x + s(11), y), 3 * SCALE, color.filled()))?,
             Mark::Diamond => {
                 let (c, r) = (x + s(11), s(6));

@@ -1,0 +1,198 @@
+//! The schema as JSON Schema, for editors and for the reference: from the same types and doc comments.
+//!
+//! Words of the mechanics stand here again, since `flexdrill-core` knows nothing of files; a test holds them together.
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde_json::Value;
+
+/// The schema of a configuration file: JSON Schema, draft 2020-12. Bounds that depend on other keys stand in the
+/// descriptions only.
+pub fn json_schema() -> Value {
+    let generator = SchemaSettings::draft2020_12().into_generator();
+    let mut schema = generator.into_root_schema_for::<super::Schema>().to_value();
+    if let Some(root) = schema.as_object_mut() {
+        root.insert("title".to_owned(), "Configuration of flexdrill".into());
+    }
+    without_noise(&mut schema);
+    schema
+}
+
+/// Takes out what says nothing to an editor, and joins the lines of each description.
+fn without_noise(value: &mut Value) {
+    match value {
+        Value::Object(map) => {
+            if map.get("format").is_some_and(|format| format == "double") {
+                map.remove("format");
+            }
+            if let Some(Value::String(text)) = map.get_mut("description") {
+                *text = joined(text);
+            }
+            map.values_mut().for_each(without_noise);
+        }
+        Value::Array(items) => items.iter_mut().for_each(without_noise),
+        _ => {}
+    }
+}
+
+/// Paragraphs stay, lines within them are joined.
+fn joined(text: &str) -> String {
+    let paragraphs: Vec<String> = text
+        .split("\n\n")
+        .map(|paragraph| paragraph.split_whitespace().collect::<Vec<_>>().join(" "))
+        .filter(|paragraph| !paragraph.is_empty())
+        .collect();
+    paragraphs.join("\n\n")
+}
+
+/// Which of the two pipes.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum Body {
+    /// The flexible, rotating, jointed pipe.
+    Pipe,
+    /// The continuous guide pipe around it.
+    Guide,
+}
+
+/// One of a node's six degrees of freedom.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum Direction {
+    /// Along the axis.
+    U,
+    /// Horizontal transverse.
+    V,
+    /// Transverse in the well plane, towards the low side.
+    W,
+    /// Spin about the axis.
+    Psi,
+    /// Tilt about y.
+    PhiY,
+    /// Tilt about z.
+    PhiZ,
+}
+
+/// How the weight on bit reaches the tool.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum WobPath {
+    /// Upward on the guide's last node.
+    Guide,
+    /// The pipes' ends are tied axially.
+    Shared,
+}
+
+/// Kinds of joint between two links.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum JointKind {
+    /// Cross (Hooke) joint with a bend limit.
+    Universal,
+    /// Constant velocity, with a bend limit.
+    BallCage,
+    /// A hinge with one free axis, for comparison only.
+    Revolute,
+}
+
+/// The angle that a hinge keeps.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum HingeAngle {
+    /// Links that are in line at rest.
+    Straight,
+    /// Links that keep the well's bend.
+    AsBuilt,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::de::DeserializeOwned;
+
+    /// Words of an enumeration in the schema.
+    fn words(schema: &Value) -> Vec<String> {
+        let each = schema["oneOf"].as_array().map(Vec::as_slice).unwrap_or_default();
+        each.iter()
+            .map(|word| word["const"].as_str().unwrap().to_owned())
+            .collect()
+    }
+
+    fn holds<Schema: JsonSchema, Real: DeserializeOwned>(count: usize) {
+        let schema = SchemaSettings::draft2020_12()
+            .into_generator()
+            .into_root_schema_for::<Schema>()
+            .to_value();
+        let words = words(&schema);
+        assert_eq!(words.len(), count, "{words:?}");
+        for word in words {
+            serde_json::from_value::<Real>(word.clone().into()).unwrap_or_else(|error| panic!("{word}: {error}"));
+        }
+    }
+
+    #[test]
+    fn words_are_those_of_the_mechanics() {
+        use flexdrill_core::tool;
+        // As many as `flexdrill_core::tool` has of each: a match there that is not whole does not compile.
+        let bodies = |body| match body {
+            tool::Body::Pipe | tool::Body::Guide => 2,
+        };
+        holds::<Body, tool::Body>(bodies(tool::Body::Pipe));
+        let directions = |direction| match direction {
+            tool::Direction::U
+            | tool::Direction::V
+            | tool::Direction::W
+            | tool::Direction::Psi
+            | tool::Direction::PhiY
+            | tool::Direction::PhiZ => 6,
+        };
+        holds::<Direction, tool::Direction>(directions(tool::Direction::U));
+        let paths = |path| match path {
+            tool::WobPath::Guide | tool::WobPath::Shared => 2,
+        };
+        holds::<WobPath, tool::WobPath>(paths(tool::WobPath::Guide));
+        let kinds = |kind| match kind {
+            tool::JointKind::Universal | tool::JointKind::BallCage | tool::JointKind::Revolute => 3,
+        };
+        holds::<JointKind, tool::JointKind>(kinds(tool::JointKind::Universal));
+        let angles = |angle| match angle {
+            tool::HingeAngle::Straight | tool::HingeAngle::AsBuilt => 2,
+        };
+        holds::<HingeAngle, tool::HingeAngle>(angles(tool::HingeAngle::Straight));
+    }
+
+    /// Every key that a configuration can have is in the schema, with a description.
+    #[test]
+    fn every_key_is_described() {
+        let schema = json_schema();
+        let missing = undescribed(&schema, &schema, "");
+        assert!(missing.is_empty(), "without a description: {}", missing.join(", "));
+        for key in ["well", "tool", "inputs", "alarms", "outputs", "solver"] {
+            assert!(schema["properties"].get(key).is_some(), "{key}");
+        }
+        let required = schema["required"].as_array().unwrap();
+        assert_eq!(required.len(), 2, "{required:?}");
+        assert_eq!(schema["additionalProperties"], false);
+    }
+
+    fn undescribed(root: &Value, schema: &Value, path: &str) -> Vec<String> {
+        let schema = match schema.get("$ref").and_then(Value::as_str) {
+            Some(reference) => root.pointer(reference.trim_start_matches('#')).unwrap(),
+            None => schema,
+        };
+        let mut missing = Vec::new();
+        for (key, below) in schema["properties"].as_object().into_iter().flatten() {
+            let path = format!("{path}.{key}");
+            if below.get("description").is_none() {
+                missing.push(path.clone());
+            }
+            missing.extend(undescribed(root, below, &path));
+        }
+        missing
+    }
+}

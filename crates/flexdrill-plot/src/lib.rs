@@ -1,0 +1,12 @@
+//! Figures as plain data ([`Figure`]); [`svg`] draws one, `png` (feature `png`) renders the drawing, and [`csv()`]
+//! writes what is in it.
+
+mod draw;
+mod panel;
+#[cfg(feature = "png")]
+mod png;
+
+pub use draw::{DrawError, svg};
+pub use panel::{Figure, Legend, Line, Mark, Panel, csv};
+#[cfg(feature = "png")]
+pub use png::png;

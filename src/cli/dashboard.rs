@@ -1,0 +1,108 @@
+//! `flexdrill dashboard`: the page beside the rig.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use clap::Args;
+
+use super::{WrongUse, signals};
+use crate::dashboard::{Dashboard, Source, Token};
+use crate::dds::network::Network;
+use crate::ros::args::{NodeIdentity, RosArgs};
+use crate::ros::{DEFAULT_NODE_NAME, logging};
+
+/// Serve a page that shows a running twin, or a recording, in a browser; it may steer if asked to.
+#[derive(Debug, Args)]
+pub(super) struct DashboardArgs {
+    /// Where to listen. Beyond this machine, whoever reaches the address can look, and the token goes in the clear.
+    #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:8080")]
+    listen: SocketAddr,
+    /// Show this recording instead of a running twin: MCAP, SQLite or their folder.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["namespace", "node", "domain", "allow_control"])]
+    bag: Option<PathBuf>,
+    /// DDS domain, 0 to 232; default ROS_DOMAIN_ID or 0.
+    #[arg(long, value_name = "ID")]
+    domain: Option<u16>,
+    /// Namespace of the twin.
+    #[arg(long, value_name = "NS", default_value = "/")]
+    namespace: String,
+    /// Name of the twin's node.
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_NODE_NAME)]
+    node: String,
+    /// Let who shows the token steer, acknowledge and shelve alarms, pause and reset.
+    #[arg(long)]
+    allow_control: bool,
+    /// File with the token; without it a new one is made and printed.
+    #[arg(long, value_name = "FILE", requires = "allow_control")]
+    token_file: Option<PathBuf>,
+    /// Let a viewer from this page read the live data too, as https://viewer.example; pages of this machine and of Foxglove
+    /// always may.
+    #[arg(long, value_name = "ORIGIN")]
+    allow_origin: Vec<String>,
+    /// Open the page in this machine's browser.
+    #[arg(long)]
+    open: bool,
+}
+
+/// # Errors
+/// When the address, DDS, the token or the bag cannot be used.
+pub(super) fn run(args: &DashboardArgs) -> anyhow::Result<()> {
+    logging::start(&RosArgs::default());
+    let source = match &args.bag {
+        Some(path) => Source::Bag(path.clone()),
+        None => {
+            let (network, notes) =
+                Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+            for note in notes {
+                tracing::warn!("{note}");
+            }
+            let token = match (args.allow_control, &args.token_file) {
+                (false, _) => None,
+                (true, None) => Some(Token::random()?),
+                (true, Some(file)) => Some(Token::from_file(file)?),
+            };
+            Source::Twin {
+                network,
+                twin: NodeIdentity::new(&args.namespace, &args.node).map_err(WrongUse::new)?,
+                token,
+            }
+        }
+    };
+    let dashboard = Dashboard {
+        address: args.listen,
+        origins: args.allow_origin.clone(),
+        source,
+    };
+    let ready = |url: &str| {
+        println!("dashboard at {url}");
+        println!("live data for Foxglove at ws://{}/live; Ctrl-C ends it", host_of(url));
+        if args.open {
+            open(url);
+        }
+    };
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    runtime.block_on(async {
+        let shutdown = signals::shutdown(false)?;
+        dashboard.run(ready, shutdown).await
+    })
+}
+
+fn host_of(url: &str) -> &str {
+    let rest = url.strip_prefix("http://").unwrap_or(url);
+    rest.split('/').next().unwrap_or_default()
+}
+
+/// Has the desktop show it; where there is none, the printed address is what there is.
+fn open(url: &str) {
+    let program = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
+    let opened = Command::new(program)
+        .arg(url)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    if let Err(error) = opened {
+        eprintln!("no browser could be opened ({program}: {error}); open the address yourself");
+    }
+}

@@ -1,0 +1,75 @@
+//! What somebody reads who starts flexdrill without arguments, or with a word that is no command.
+
+use std::path::Path;
+
+/// Without arguments: what it is, and what to type.
+pub(super) const WELCOME: &str = "\
+flexdrill is the real-time digital twin of a flexible drilling tool, as a ROS 2 node. It reads the rig's rotary speed
+and weight on bit, solves the tool's motion in the well, and publishes bend of the joints, contact forces, the bit's
+motion, and alarms for whirl, stick-slip and shock.
+
+Begin with one of these:
+
+  flexdrill run                           the twin of the paper's tool, live, on this machine's ROS 2 network
+  flexdrill watch                         see it, in a second terminal
+  flexdrill rig LOG.csv                   send a field log's speed and weight to it, in a third
+  flexdrill replay LOG.csv --out RUN      run a field log or a bag through the model without waiting, into a bag
+  flexdrill report RUN --out DIR          make one page of a bag to send on
+
+  flexdrill check my_tool.yaml            is my configuration right?
+  flexdrill verify                        is the model right? Closed-form cases, in a minute or two
+
+flexdrill --help lists all commands, flexdrill COMMAND --help says more of one.
+";
+
+/// Words that people type for a command that has another name here.
+const MEANT: [(&str, &[&str]); 10] = [
+    ("run", &["start", "node", "launch", "twin", "serve", "simulate"]),
+    ("run --record FILE.mcap", &["record", "rec", "log"]),
+    ("rig LOG", &["play", "publish", "send", "feed"]),
+    ("replay IN --out OUT", &["convert", "process", "import"]),
+    ("report BAG --out DIR", &["html", "export", "summary", "info"]),
+    ("watch", &["monitor", "top", "tui", "echo", "view", "show", "status"]),
+    ("check CONFIG", &["validate", "lint", "config", "configuration"]),
+    ("check --schema", &["schema"]),
+    ("recover IN --out OUT", &["repair", "fix", "reindex"]),
+    ("--help", &["usage", "commands"]),
+];
+
+/// What was probably meant by a first word that is no command; `None` leaves it to the nearest spelling.
+pub(super) fn meant(word: &str) -> Option<String> {
+    if let Some((command, _)) = MEANT.iter().find(|(_, words)| words.contains(&word)) {
+        return Some(format!("flexdrill {command}"));
+    }
+    let path = Path::new(word);
+    let extension = path
+        .extension()
+        .and_then(|extension| extension.to_str())
+        .unwrap_or_default();
+    Some(match extension {
+        "yaml" | "yml" => format!("flexdrill check {word}, or flexdrill run --config {word}"),
+        "csv" | "txt" if path.exists() => format!("flexdrill replay {word} --out OUT, or flexdrill rig {word}"),
+        "mcap" | "db3" => format!("flexdrill report {word} --out DIR, or flexdrill replay {word} --out OUT"),
+        _ if path.join("metadata.yaml").exists() => {
+            format!("flexdrill report {word} --out DIR, or flexdrill replay {word} --out OUT")
+        }
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_or_another_programs_word_finds_its_command() {
+        assert_eq!(meant("start").unwrap(), "flexdrill run");
+        assert_eq!(meant("validate").unwrap(), "flexdrill check CONFIG");
+        assert!(meant("my_tool.yaml").unwrap().contains("run --config my_tool.yaml"));
+        assert!(meant("night.mcap").unwrap().starts_with("flexdrill report night.mcap"));
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("metadata.yaml"), "").unwrap();
+        assert!(meant(&folder.path().display().to_string()).unwrap().contains("report"));
+        assert_eq!(meant("rnu"), None);
+    }
+}

@@ -1,0 +1,251 @@
+//! What the page asks for beside live data, and what it asks of the twin.
+
+use std::sync::Arc;
+
+use axum::body::Bytes;
+use axum::extract::{DefaultBodyLimit, Path, Request, State};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::middleware::{self, Next};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{any, get, post};
+use axum::{Json, Router};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+
+use super::assets;
+use super::board::Board;
+use super::control::{Ask, Control, Refused};
+use crate::live::{Door, host_is_ours};
+
+/// Longest body of a request (bytes): names and reasons.
+const LONGEST_BODY: usize = 16 << 10;
+
+/// What all answers are made from.
+pub(super) struct Shared {
+    pub board: Arc<Board>,
+    /// None where nobody may steer.
+    pub control: Option<Arc<Control>>,
+    /// Why nobody may steer, then.
+    pub no_control: &'static str,
+    pub door: Arc<Door>,
+    pub namespace: String,
+    /// Absolute name of the twin's node.
+    pub node: String,
+    /// What is played, else it is live.
+    pub bag: Option<Arc<PlayedBag>>,
+}
+
+/// A bag that is played.
+pub(super) struct PlayedBag {
+    pub name: String,
+    /// ns since 1970.
+    pub start: u64,
+    pub end: u64,
+    /// It has been read through.
+    pub ready: std::sync::atomic::AtomicBool,
+}
+
+type Server = State<Arc<Shared>>;
+
+/// Everything behind the dashboard's address.
+pub(super) fn router(shared: Shared) -> Router {
+    let api = Router::new()
+        .route("/live", any(live))
+        .route("/api/session", get(session))
+        .route("/api/history", get(history))
+        .route("/api/journal", get(journal))
+        .route("/api/control", get(control))
+        .route("/api/control/{what}", post(act))
+        .layer(DefaultBodyLimit::max(LONGEST_BODY));
+    assets::router()
+        .merge(api)
+        .with_state(Arc::new(shared))
+        .layer(middleware::from_fn(guard))
+}
+
+/// Names that anybody may point here are refused; every answer tells the browser what the page may do.
+async fn guard(request: Request, next: Next) -> Response {
+    let response = if host_is_ours(request.headers()) {
+        next.run(request).await
+    } else {
+        let why = "address this server by number or as localhost\n";
+        (StatusCode::FORBIDDEN, why).into_response()
+    };
+    assets::guard(response).await
+}
+
+async fn live(State(shared): Server, request: Request) -> Response {
+    Arc::clone(&shared.door).enter(request).await
+}
+
+async fn session(State(shared): Server) -> Json<Value> {
+    let session = shared.board.session();
+    let bag = shared.bag.as_ref().map(|bag| {
+        json!({
+            "name": bag.name,
+            "start_ns": bag.start.to_string(),
+            "end_ns": bag.end.to_string(),
+            "ready": bag.ready.load(std::sync::atomic::Ordering::Acquire),
+            "incidents": shared.board.incidents(),
+        })
+    });
+    Json(json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "mode": if bag.is_some() { "bag" } else { "live" },
+        "namespace": shared.namespace,
+        "node": shared.node,
+        "control": shared.control.is_some(),
+        "limits": session.as_ref().map(|session| session.limits_json()),
+        "bag": bag,
+        "tool": session.as_ref().map(|session| session.tool_json()),
+        "config_hash": session.as_ref().map(|session| &session.config_hash),
+        "start_ns": session.as_ref().map(|session| session.start.to_string()),
+    }))
+}
+
+async fn history(State(shared): Server) -> Response {
+    match shared.board.history() {
+        Some(bytes) => {
+            let mut response = bytes.into_response();
+            let headers = response.headers_mut();
+            headers.insert(
+                header::CONTENT_TYPE,
+                HeaderValue::from_static("application/octet-stream"),
+            );
+            headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+            response
+        }
+        None => answer(StatusCode::NOT_FOUND, "nothing was heard of the twin yet"),
+    }
+}
+
+async fn journal(State(shared): Server) -> Json<Value> {
+    Json(shared.board.journal())
+}
+
+async fn control(State(shared): Server) -> Json<Value> {
+    let status = shared.board.status();
+    let status = status.as_ref().map(|(status, _)| status);
+    Json(match &shared.control {
+        Some(control) => control.json(status),
+        None => json!({"allowed": false, "driving": false}),
+    })
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Steer {
+    operator: String,
+    rotary_speed_rpm: f64,
+    weight_on_bit_kn: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OfAlarm {
+    operator: String,
+    #[serde(default)]
+    id: String,
+    #[serde(default)]
+    reason: String,
+    duration_s: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Plain {
+    operator: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Pause {
+    operator: String,
+    paused: bool,
+}
+
+async fn act(State(shared): Server, Path(what): Path<String>, headers: HeaderMap, body: Bytes) -> Response {
+    let Some(control) = &shared.control else {
+        return answer(StatusCode::FORBIDDEN, shared.no_control);
+    };
+    if !bearer(&headers).is_some_and(|token| control.admits(token)) {
+        return answer(
+            StatusCode::UNAUTHORIZED,
+            "show the token that was printed when the dashboard started",
+        );
+    }
+    let done = match what.as_str() {
+        "steer" => steer(&shared, control, &body),
+        "release" => read::<Plain>(&body).and_then(|plain| control.release(&plain.operator)),
+        "acknowledge" | "shelve" | "unshelve" => match read::<OfAlarm>(&body) {
+            Ok(OfAlarm {
+                operator,
+                id,
+                reason,
+                duration_s,
+            }) => {
+                let ask = match what.as_str() {
+                    "acknowledge" => Ask::Acknowledge { id, reason },
+                    "shelve" => Ask::Shelve {
+                        id,
+                        reason,
+                        duration: duration_s,
+                    },
+                    _ => Ask::Unshelve { id, reason },
+                };
+                control.ask(&operator, ask).await
+            }
+            Err(refused) => Err(refused),
+        },
+        "reset" => match read::<Plain>(&body) {
+            Ok(plain) => control.ask(&plain.operator, Ask::Reset).await,
+            Err(refused) => Err(refused),
+        },
+        "pause" => match read::<Pause>(&body) {
+            Ok(pause) => control.ask(&pause.operator, Ask::Pause(pause.paused)).await,
+            Err(refused) => Err(refused),
+        },
+        _ => return answer(StatusCode::NOT_FOUND, "no such request"),
+    };
+    match done {
+        Ok(message) => answer(StatusCode::OK, &message),
+        Err(refused) => {
+            let status = match refused {
+                Refused::Wrong(_) => StatusCode::BAD_REQUEST,
+                Refused::Conflict(_) => StatusCode::CONFLICT,
+                Refused::Away(_) => StatusCode::SERVICE_UNAVAILABLE,
+            };
+            answer(status, &refused.to_string())
+        }
+    }
+}
+
+fn steer(shared: &Shared, control: &Control, body: &[u8]) -> Result<String, Refused> {
+    let wanted: Steer = read(body)?;
+    let limits = shared.board.session().map(|session| session.limits);
+    let status = shared.board.status();
+    control.steer(
+        &wanted.operator,
+        [wanted.rotary_speed_rpm, wanted.weight_on_bit_kn],
+        limits,
+        status.as_ref().map(|(status, _)| status),
+    )
+}
+
+fn read<T: DeserializeOwned>(body: &[u8]) -> Result<T, Refused> {
+    serde_json::from_slice(body).map_err(|error| Refused::Wrong(format!("the request is not as it should be: {error}")))
+}
+
+/// The token in `Authorization: Bearer TOKEN`.
+fn bearer(headers: &HeaderMap) -> Option<&str> {
+    headers
+        .get(header::AUTHORIZATION)?
+        .to_str()
+        .ok()?
+        .strip_prefix("Bearer ")
+}
+
+fn answer(status: StatusCode, message: &str) -> Response {
+    (status, Json(json!({"ok": status.is_success(), "message": message}))).into_response()
+}

@@ -1,0 +1,329 @@
+//! What the server itself knows of the twin: session, history, journal and newest status. Fed live or from a bag.
+
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+
+use super::history::History;
+use super::session::Session;
+use crate::messages::builtin_interfaces::Time;
+use crate::messages::std_msgs::Header;
+use crate::messages::topics::{self, TopicInfo};
+use crate::messages::visualization_msgs::MarkerArray;
+use crate::messages::{
+    AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus,
+    WhirlState, WhirlWarning, from_cdr_body,
+};
+use crate::told::printable;
+
+/// Events kept for a page that is opened late.
+const MOST_EVENTS: usize = 2000;
+/// A twin whose status is older has gone: ten heartbeats at the default rate.
+const GONE: Duration = Duration::from_secs(2);
+/// The parameter that changes how the tool's shape is drawn.
+const EXAGGERATION: &str = "outputs.exaggeration";
+
+/// An alarm from its call to its end.
+#[derive(Debug, Clone)]
+struct Incident {
+    /// ns since 1970.
+    begin: i64,
+    end: Option<i64>,
+    severity: u8,
+    alarm: String,
+    text: String,
+}
+
+struct Known {
+    session: Option<Session>,
+    history: History,
+    events: VecDeque<(i64, AlarmEvent)>,
+    incidents: Vec<Incident>,
+    status: Option<(TwinStatus, Instant)>,
+}
+
+/// Shared by who listens and who answers the page.
+pub(super) struct Board(Mutex<Known>);
+
+impl Board {
+    /// Knows nothing; its history has a frame for so many seconds.
+    pub fn new(seconds: u32) -> Self {
+        Self(Mutex::new(Known {
+            session: None,
+            history: History::new(seconds),
+            events: VecDeque::new(),
+            incidents: Vec::new(),
+            status: None,
+        }))
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes a message, a CDR body of little endian, that came at `arrived` (ns since 1970); the instant that it speaks of.
+    /// What cannot be read is left to those who can.
+    pub fn observe(&self, topic: &TopicInfo, body: &[u8], arrived: i64) -> i64 {
+        let mut known = self.known();
+        known.observe(topic, body, arrived).unwrap_or(arrived)
+    }
+
+    /// Changes the history.
+    pub fn with_history(&self, change: impl FnOnce(&mut History)) {
+        change(&mut self.known().history);
+    }
+
+    /// The history as the page gets it.
+    pub fn history(&self) -> Option<Vec<u8>> {
+        self.known().history.to_bytes()
+    }
+
+    /// The journal as the page gets it.
+    pub fn journal(&self) -> Value {
+        let known = self.known();
+        let events: Vec<Value> = known
+            .events
+            .iter()
+            .map(|(stamp, event)| event_json(*stamp, event))
+            .collect();
+        json!({ "events": events })
+    }
+
+    /// The run, once it is known.
+    pub fn session(&self) -> Option<Session> {
+        self.known().session.clone()
+    }
+
+    /// The newest status, unless the twin has gone.
+    pub fn status(&self) -> Option<(TwinStatus, Instant)> {
+        let known = self.known();
+        known.status.clone().filter(|(_, arrived)| arrived.elapsed() < GONE)
+    }
+
+    /// What happened, first to last, as the page gets it.
+    pub fn incidents(&self) -> Value {
+        let known = self.known();
+        let incidents = known.incidents.iter().map(|incident| {
+            json!({
+                "time_ns": incident.begin.to_string(),
+                "duration_s": incident.end.map(|end| (end - incident.begin) as f64 * 1e-9),
+                "severity": incident.severity,
+                "alarm": incident.alarm,
+                "text": incident.text,
+            })
+        });
+        incidents.collect()
+    }
+}
+
+impl Known {
+    fn observe(&mut self, topic: &TopicInfo, body: &[u8], arrived: i64) -> Option<i64> {
+        fn read<M: DeserializeOwned>(body: &[u8]) -> Option<M> {
+            from_cdr_body(body).ok().map(|(message, _)| message)
+        }
+        let stamp = |time: &Time| time.to_nanoseconds();
+        let history = &mut self.history;
+        let time = match topic.name {
+            name if name == topics::STATUS.name => {
+                let message: TwinStatus = read(body)?;
+                let time = stamp(&message.header.stamp);
+                history.status(time, &message);
+                self.status = Some((message, Instant::now()));
+                time
+            }
+            name if name == topics::BIT_STATE.name => {
+                let message: BitState = read(body)?;
+                let time = stamp(&message.header.stamp);
+                history.bit(time, &message);
+                time
+            }
+            name if name == topics::JOINT_DEFLECTIONS.name => {
+                let message: JointDeflections = read(body)?;
+                let time = stamp(&message.header.stamp);
+                history.joints(time, &message);
+                time
+            }
+            name if name == topics::CONTACT_FORCES.name => {
+                let message: ContactForces = read(body)?;
+                let time = stamp(&message.header.stamp);
+                history.contacts(time, &message);
+                time
+            }
+            name if name == topics::WHIRL.name => {
+                let message: WhirlState = read(body)?;
+                let time = stamp(&message.header.stamp);
+                if let Some(session) = &self.session {
+                    history.whirl(time, &message, session);
+                }
+                time
+            }
+            name if name == topics::WHIRL_WARNINGS.name => {
+                let message: WhirlWarning = read(body)?;
+                let time = stamp(&message.header.stamp);
+                history.warning(time, &message);
+                time
+            }
+            name if name == topics::ALARMS.name => {
+                let message: AlarmList = read(body)?;
+                let time = stamp(&message.header.stamp);
+                history.alarms(time, &message);
+                time
+            }
+            name if name == topics::ALARM_EVENTS.name => {
+                let message: AlarmEvent = read(body)?;
+                let time = stamp(&message.header.stamp);
+                self.event(time, message);
+                time
+            }
+            name if name == topics::TOOL_SHAPE.name => {
+                let message: MarkerArray = read(body)?;
+                let time = message
+                    .markers
+                    .first()
+                    .map_or(arrived, |marker| stamp(&marker.header.stamp));
+                if let Some(session) = &self.session {
+                    history.shape(time, &message, session);
+                }
+                time
+            }
+            name if name == topics::APPLIED_INPUTS.name => {
+                let message: AppliedInputs = read(body)?;
+                let changes = message.parameter_name.iter().zip(&message.parameter_value);
+                for (_, factor) in changes.filter(|(name, _)| *name == EXAGGERATION) {
+                    history.set_exaggeration(*factor);
+                }
+                stamp(&message.header.stamp)
+            }
+            name if name == topics::SESSION.name => {
+                let message: SessionInfo = read(body)?;
+                self.begin(&message);
+                stamp(&message.header.stamp)
+            }
+            name if [topics::JOINT_STATES.name, topics::DIAGNOSTICS.name, topics::AGEING.name].contains(&name) => {
+                let header: Header = read(body)?;
+                stamp(&header.stamp)
+            }
+            // What the rig sends, and where the frame lies.
+            _ => return None,
+        };
+        Some(time)
+    }
+
+    fn begin(&mut self, info: &SessionInfo) {
+        let start = info.start.to_nanoseconds();
+        let is_same = |session: &Session| session.config_hash == info.config_hash && session.start == start;
+        if self.session.as_ref().is_some_and(is_same) {
+            return;
+        }
+        match Session::new(info) {
+            Ok(session) => {
+                self.history.begin(&session);
+                self.session = Some(session);
+            }
+            Err(why) => tracing::warn!("{}", printable(&why)),
+        }
+    }
+
+    fn event(&mut self, time: i64, event: AlarmEvent) {
+        // A restart of DDS may bring one again.
+        if self
+            .events
+            .iter()
+            .rev()
+            .take(100)
+            .any(|(_, known)| known.sequence == event.sequence && known.id == event.id)
+        {
+            return;
+        }
+        let open = self
+            .incidents
+            .iter()
+            .rposition(|incident| incident.alarm == event.id && incident.end.is_none());
+        match (event.change, open) {
+            (AlarmEvent::ACTIVATED, None) if self.incidents.len() < MOST_EVENTS => self.incidents.push(Incident {
+                begin: time,
+                end: None,
+                severity: event.priority,
+                alarm: event.id.clone(),
+                text: event.evidence.clone(),
+            }),
+            (AlarmEvent::RAISED, Some(open)) => {
+                let incident = &mut self.incidents[open];
+                incident.severity = incident.severity.max(event.priority);
+                incident.text.clone_from(&event.evidence);
+            }
+            (AlarmEvent::RETURNED | AlarmEvent::SUPPRESSED | AlarmEvent::TAKEN_OUT, Some(open)) => {
+                self.incidents[open].end = Some(time);
+            }
+            _ => {}
+        }
+        if self.events.len() == MOST_EVENTS {
+            self.events.pop_front();
+        }
+        self.events.push_back((time, event));
+    }
+}
+
+fn event_json(stamp: i64, event: &AlarmEvent) -> Value {
+    // A number that is none becomes null.
+    let mut value = serde_json::to_value(event).unwrap_or_default();
+    if let Some(fields) = value.as_object_mut() {
+        fields.remove("header");
+        fields.insert("stamp_ns".to_owned(), stamp.to_string().into());
+    }
+    value
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::messages::{Alarm, to_cdr_body};
+
+    fn send(board: &Board, second: i64, sequence: u64, change: u8, priority: u8) {
+        let event = AlarmEvent {
+            header: Header {
+                stamp: Time::from_nanoseconds(second * 1_000_000_000),
+                ..Header::default()
+            },
+            sequence,
+            id: "shock".into(),
+            change,
+            priority,
+            evidence: format!("seen at {second} s"),
+            value: f64::NAN,
+            ..AlarmEvent::default()
+        };
+        board.observe(&topics::ALARM_EVENTS, &to_cdr_body(&event).unwrap(), 0);
+    }
+
+    #[test]
+    fn an_incident_lasts_from_the_call_to_the_end_with_its_worst_level() {
+        let board = Board::new(1);
+        send(&board, 10, 1, AlarmEvent::ACTIVATED, Alarm::LOW);
+        send(&board, 10, 1, AlarmEvent::ACTIVATED, Alarm::LOW);
+        send(&board, 12, 2, AlarmEvent::RAISED, Alarm::HIGH);
+        send(&board, 14, 3, AlarmEvent::ACKNOWLEDGED, Alarm::HIGH);
+        send(&board, 15, 4, AlarmEvent::RETURNED, Alarm::HIGH);
+        send(&board, 20, 5, AlarmEvent::ACTIVATED, Alarm::LOW);
+        let incidents = board.incidents();
+        assert_eq!(incidents.as_array().unwrap().len(), 2);
+        assert_eq!(incidents[0]["duration_s"], 5.0);
+        assert_eq!(
+            (&incidents[0]["severity"], &incidents[0]["text"]),
+            (&json!(3), &json!("seen at 12 s"))
+        );
+        assert_eq!(
+            (&incidents[1]["time_ns"], &incidents[1]["duration_s"]),
+            (&json!("20000000000"), &Value::Null)
+        );
+        let journal = board.journal();
+        assert_eq!(journal["events"].as_array().unwrap().len(), 5);
+        assert_eq!(
+            (&journal["events"][0]["stamp_ns"], &journal["events"][0]["value"]),
+            (&json!("10000000000"), &Value::Null)
+        );
+    }
+}

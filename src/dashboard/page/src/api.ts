@@ -1,0 +1,154 @@
+// What the server answers besides the live data.
+
+export interface Limit {
+  min: number;
+  max: number;
+  slew_per_s: number;
+}
+
+export interface Incident {
+  time_ns: string;
+  duration_s: number | null;
+  severity: number;
+  alarm: string;
+  text: string;
+}
+
+export interface Tool {
+  stations: { measured_depth: number; inclination: number; position?: [number, number, number] }[];
+  joints: { measured_depth: number; inclination: number; station: number }[];
+  bore_radius: number;
+  guide_radius_outer: number;
+  guide_radius_inner: number;
+  pipe_radius_outer: number;
+  pipe_clearance: number;
+  guide_clearance: number;
+  joint_limit: number;
+  exaggeration: number;
+  title?: string;
+}
+
+export interface Session {
+  version: string;
+  mode: "live" | "bag";
+  namespace: string;
+  control: boolean;
+  limits: { rotary_speed_rpm: Limit; weight_on_bit_kn: Limit } | null;
+  bag: { name: string; start_ns: string; end_ns: string; ready?: boolean; incidents: Incident[] } | null;
+  tool: Tool | null;
+  config_hash?: string;
+}
+
+export interface ControlState {
+  allowed: boolean;
+  driving: boolean;
+  by: string | null;
+  target_rpm: number | null;
+  target_wob_kn: number | null;
+  sent_rpm: number | null;
+  sent_wob_kn: number | null;
+  applied_rpm: number | null;
+  applied_wob_kn: number | null;
+  other_driver: string | null;
+  ended: string | null;
+}
+
+export interface HistoryHead {
+  base_ns: string;
+  period_s: number;
+  count: number;
+  stride: number;
+  complete?: boolean;
+  columns: { name: string; unit: string; offset: number; length: number }[];
+}
+
+export interface History {
+  head: HistoryHead;
+  values: Float32Array;
+}
+
+export interface JournalEntry {
+  stamp_ns: string;
+  sequence: number;
+  id: string;
+  name: string;
+  change: number;
+  priority: number;
+  operator_name: string;
+  reason: string;
+  evidence: string;
+}
+
+/** Answer to a request. */
+export interface Answer {
+  ok: boolean;
+  message: string;
+}
+
+async function json<T>(path: string): Promise<T | null> {
+  try {
+    const response = await fetch(path, { cache: "no-store" });
+    return response.ok ? ((await response.json()) as T) : null;
+  } catch {
+    return null;
+  }
+}
+
+export const session = (): Promise<Session | null> => json<Session>("/api/session");
+export const control = (): Promise<ControlState | null> => json<ControlState>("/api/control");
+
+export async function journal(): Promise<JournalEntry[] | null> {
+  return (await json<{ events: JournalEntry[] }>("/api/journal"))?.events ?? null;
+}
+
+export async function history(): Promise<History | null> {
+  try {
+    const response = await fetch("/api/history", { cache: "no-store" });
+    return response.ok ? parseHistory(await response.arrayBuffer()) : null;
+  } catch {
+    return null;
+  }
+}
+
+/** Takes the hour apart: length of the head, head as JSON, frames. Null when it is not that. */
+export function parseHistory(bytes: ArrayBuffer): History | null {
+  if (bytes.byteLength < 4) return null;
+  const length = new DataView(bytes).getUint32(0, true);
+  if (4 + length > bytes.byteLength || (4 + length) % 4 !== 0) return null;
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)).trimEnd()) as HistoryHead;
+  const count = head.count * head.stride;
+  if (4 + length + 4 * count > bytes.byteLength) return null;
+  return { head, values: new Float32Array(bytes, 4 + length, count) };
+}
+
+const TOKEN_KEY = "flexdrill-token";
+
+/** The token of this tab: from the address once, then kept for as long as the tab is open. */
+export function token(): string {
+  const match = /(?:^#|&)token=([^&]+)/.exec(location.hash);
+  if (match) {
+    sessionStorage.setItem(TOKEN_KEY, decodeURIComponent(match[1]));
+    window.history.replaceState(null, "", location.pathname + location.search);
+  }
+  return sessionStorage.getItem(TOKEN_KEY) ?? "";
+}
+
+export function setToken(value: string): void {
+  sessionStorage.setItem(TOKEN_KEY, value.trim());
+}
+
+/** Asks for something that changes the twin or its alarms. */
+export async function request(path: string, body: object): Promise<Answer> {
+  try {
+    const response = await fetch(`/api/control/${path}`, {
+      method: "POST",
+      headers: { "content-type": "application/json", authorization: `Bearer ${token()}` },
+      body: JSON.stringify(body),
+    });
+    const answer = (await response.json().catch(() => null)) as Answer | null;
+    if (response.status === 401) return { ok: false, message: answer?.message || "refused: the token is wrong" };
+    return { ok: response.ok && (answer?.ok ?? true), message: answer?.message ?? `HTTP ${response.status}` };
+  } catch {
+    return { ok: false, message: "the server does not answer" };
+  }
+}

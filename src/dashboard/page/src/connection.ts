@@ -1,0 +1,119 @@
+// The live data: Foxglove's WebSocket protocol, as a client that only listens and, with a bag, drives the player.
+
+/** Subprotocol of the server. */
+const PROTOCOL = "foxglove.sdk.v1";
+/** Time between attempts to connect (ms): less than the two seconds within which a return is to be seen. */
+const RETRY = 1000;
+
+/** One channel that the server offers. */
+interface Channel {
+  id: number;
+  topic: string;
+  schemaName: string;
+}
+
+/** The player's state, in bag mode. */
+export interface Playback {
+  playing: boolean;
+  ended: boolean;
+  /** Time in the bag (ns). */
+  time: bigint;
+  speed: number;
+}
+
+export interface Listener {
+  /** The connection is there or gone. */
+  onConnected(connected: boolean): void;
+  /** A message of a topic (without namespace) with its schema and time (ns). */
+  onMessage(topic: string, schema: string, time: bigint, data: DataView): void;
+  onPlayback(playback: Playback): void;
+}
+
+/** Keeps one connection up for as long as the page lives. */
+export class Connection {
+  private socket: WebSocket | null = null;
+  private topics = new Map<number, { topic: string; schema: string }>();
+  private nextId = 1;
+  private playback: Playback = { playing: false, ended: false, time: 0n, speed: 1 };
+  private requests = 0;
+
+  constructor(
+    private readonly url: string,
+    /** Topics to hear, without namespace. */
+    private readonly wanted: readonly string[],
+    private readonly listener: Listener,
+  ) {
+    this.connect();
+  }
+
+  private connect(): void {
+    const socket = new WebSocket(this.url, [PROTOCOL]);
+    socket.binaryType = "arraybuffer";
+    this.socket = socket;
+    this.topics.clear();
+    socket.onopen = () => this.listener.onConnected(true);
+    socket.onclose = () => {
+      this.listener.onConnected(false);
+      setTimeout(() => this.connect(), RETRY);
+    };
+    socket.onmessage = (event) => {
+      if (typeof event.data === "string") this.text(JSON.parse(event.data));
+      else this.binary(new DataView(event.data as ArrayBuffer));
+    };
+  }
+
+  private text(message: { op: string; channels?: Channel[]; channelIds?: number[] }): void {
+    if (message.op !== "advertise") return;
+    const subscriptions = [];
+    for (const channel of message.channels ?? []) {
+      const topic = this.wanted.find((name) => channel.topic === `/${name}` || channel.topic.endsWith(`/${name}`));
+      if (topic === undefined) continue;
+      const id = this.nextId++;
+      this.topics.set(id, { topic, schema: channel.schemaName });
+      subscriptions.push({ id, channelId: channel.id });
+    }
+    if (subscriptions.length > 0) this.socket?.send(JSON.stringify({ op: "subscribe", subscriptions }));
+  }
+
+  private binary(view: DataView): void {
+    switch (view.getUint8(0)) {
+      case 0x01: {
+        const channel = this.topics.get(view.getUint32(1, true));
+        if (!channel) return;
+        const data = new DataView(view.buffer, view.byteOffset + 13, view.byteLength - 13);
+        this.listener.onMessage(channel.topic, channel.schema, view.getBigUint64(5, true), data);
+        return;
+      }
+      case 0x02:
+        this.playback = { ...this.playback, time: view.getBigUint64(1, true) };
+        this.listener.onPlayback(this.playback);
+        return;
+      case 0x05: {
+        const status = view.getUint8(1);
+        this.playback = {
+          playing: status === 0,
+          ended: status === 3,
+          time: view.getBigUint64(2, true),
+          speed: view.getFloat32(10, true),
+        };
+        this.listener.onPlayback(this.playback);
+        return;
+      }
+    }
+  }
+
+  /** Asks the player of a bag to go on or hold, at a speed, from a time (ns) or from where it is. */
+  play(playing: boolean, speed: number, seek: bigint | null): void {
+    if (this.socket?.readyState !== WebSocket.OPEN) return;
+    const id = new TextEncoder().encode(`page-${++this.requests}`);
+    const view = new DataView(new ArrayBuffer(19 + id.length));
+    view.setUint8(0, 0x03);
+    view.setUint8(1, playing ? 0 : 1);
+    view.setFloat32(2, speed, true);
+    view.setUint8(6, seek === null ? 0 : 1);
+    view.setBigUint64(7, seek ?? 0n, true);
+    view.setUint32(15, id.length, true);
+    new Uint8Array(view.buffer, 19).set(id);
+    this.socket.send(view.buffer);
+  }
+}

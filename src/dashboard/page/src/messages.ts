@@ -1,0 +1,1311 @@
+// Generated from `msg/` and `src/messages/external/` by `cargo xtask messages`. Do not edit.
+
+import { CdrReader } from "./cdr";
+
+export interface Time {
+  sec: number;
+  nanosec: number;
+}
+/** Reads a `builtin_interfaces/msg/Time`. */
+export function decodeTime(reader: CdrReader): Time {
+  return {
+    sec: reader.int32(),
+    nanosec: reader.uint32(),
+  };
+}
+
+export interface Header {
+  stamp: Time;
+  frame_id: string;
+}
+/** Reads a `std_msgs/msg/Header`. */
+export function decodeHeader(reader: CdrReader): Header {
+  return {
+    stamp: decodeTime(reader),
+    frame_id: reader.string(),
+  };
+}
+
+/**
+ * What has aged since the start or the last reset, to compare joints and stations with each other and ways of drilling. No
+ * absolute life follows from it.
+ */
+export interface Ageing {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Model time that the sums are of (s). */
+  duration: number;
+  /** Slope m of the Woehler line: a load cycle of range r counts (r / rated_moment)^m. */
+  woehler_slope: number;
+  /** Rated moment of a joint's stop (N m). */
+  rated_moment: number;
+  /** Per joint: place along the bore from the kick-off (m). */
+  joint_measured_depth: Float64Array;
+  /** Inclination of the bore there, 0 is straight down (rad). */
+  joint_inclination: Float64Array;
+  /** Damage of the joint's stop per hour (1/h). */
+  stop_damage_rate: Float64Array;
+  /** Damage per hour of the link below the joint by bending at its middle, on the side that it is worse for (1/h). */
+  bending_damage_rate: Float64Array;
+  /** The larger of the two over that of the joint that ages fastest (0 to 1). */
+  relative_damage: Float64Array;
+  /** Per station: place along the bore from the kick-off (m). */
+  station_measured_depth: Float64Array;
+  /** Inclination of the bore there (rad). */
+  station_inclination: Float64Array;
+  /** Work of the friction between pipe and guide pipe (J). */
+  pipe_guide_friction_work: Float64Array;
+  /** Work of the friction between guide pipe and wall (J). */
+  guide_wall_friction_work: Float64Array;
+}
+/** Reads a `flexdrill/msg/Ageing`. */
+export function decodeAgeing(reader: CdrReader): Ageing {
+  return {
+    header: decodeHeader(reader),
+    duration: reader.float64(),
+    woehler_slope: reader.float64(),
+    rated_moment: reader.float64(),
+    joint_measured_depth: reader.float64Array(reader.length()),
+    joint_inclination: reader.float64Array(reader.length()),
+    stop_damage_rate: reader.float64Array(reader.length()),
+    bending_damage_rate: reader.float64Array(reader.length()),
+    relative_damage: reader.float64Array(reader.length()),
+    station_measured_depth: reader.float64Array(reader.length()),
+    station_inclination: reader.float64Array(reader.length()),
+    pipe_guide_friction_work: reader.float64Array(reader.length()),
+    guide_wall_friction_work: reader.float64Array(reader.length()),
+  };
+}
+
+/** One alarm as it stands: one thing that an operator can do something about. What each of them means is in docs/alarms.md. */
+export interface Alarm {
+  /** Its name for programs and in requests, such as backward_whirl. */
+  id: string;
+  /** Its name for people. */
+  name: string;
+  /** NORMAL, ACTIVE_UNACKNOWLEDGED, ACTIVE_ACKNOWLEDGED, RETURNED_UNACKNOWLEDGED, SHELVED, SUPPRESSED_BY_DESIGN or OUT_OF_SERVICE. */
+  state: number;
+  /** That of the condition or of what is to be acknowledged, whichever is higher: NO_PRIORITY, LOW, MEDIUM or HIGH. */
+  priority: number;
+  /** The condition stands; under a shelf too. */
+  active: boolean;
+  /** Nothing is to be acknowledged. */
+  acknowledged: boolean;
+  /** When this state began, on the rig's clock; zero before the first change. */
+  since: Time;
+  /** When shelving ends at the latest, on the rig's clock; zero while not shelved. */
+  shelved_until: Time;
+  /** Shelving ends when the condition goes. */
+  shelved_one_shot: boolean;
+  /** Where it is worst now: NOWHERE, PIPE or GUIDE. */
+  body: number;
+  /** Place along the bore from the kick-off (m), NaN where there is none. */
+  measured_depth: number;
+  /** Inclination of the bore there, 0 is straight down (rad), NaN where there is none. */
+  inclination: number;
+  /** What it is judged by, in unit; NaN where there is no such number. */
+  value: number;
+  /** What value is held against, in unit; NaN where there is no such number. */
+  threshold: number;
+  /** Unit of value and threshold; empty where they have none. */
+  unit: string;
+  /** How far the evidence can be trusted (0 to 1). */
+  confidence: number;
+  /**
+   * What is seen, in a sentence. This and the next three are of the last time that the condition was seen for as long as it
+   * is to be acknowledged, and empty when nothing is to be known of it.
+   */
+  evidence: string;
+  /** Why it comes. */
+  cause: string;
+  /** What it leads to when nobody acts. */
+  consequence: string;
+  /** What to do. */
+  what_to_do: string;
+  /** How often it has called for somebody since the count began, which a restart goes on with. */
+  annunciations: number;
+  /** How often in the last minute; from three on it chatters. */
+  annunciations_last_minute: number;
+}
+export const Alarm = {
+  /** Nothing to do. */
+  NORMAL: 0,
+  /** The condition stands, and nobody has said that he knows. */
+  ACTIVE_UNACKNOWLEDGED: 1,
+  /** The condition stands, and somebody knows. */
+  ACTIVE_ACKNOWLEDGED: 2,
+  /** The condition has gone before somebody said that he knew. */
+  RETURNED_UNACKNOWLEDGED: 3,
+  /** An operator has put it aside for a time. */
+  SHELVED: 4,
+  /** The tool is in a state in which the condition means nothing: the drive stands or runs up. */
+  SUPPRESSED_BY_DESIGN: 5,
+  /** Switched off by the configuration. */
+  OUT_OF_SERVICE: 6,
+  /** No priority: nothing to do. */
+  NO_PRIORITY: 0,
+  /** When there is time. */
+  LOW: 1,
+  /** Soon. */
+  MEDIUM: 2,
+  /** At once. */
+  HIGH: 3,
+  /** The alarm is at no place along the tool, or at none now. */
+  NOWHERE: 0,
+  /** The flexible pipe. */
+  PIPE: 1,
+  /** The guide pipe. */
+  GUIDE: 2,
+} as const;
+/** Reads a `flexdrill/msg/Alarm`. */
+export function decodeAlarm(reader: CdrReader): Alarm {
+  return {
+    id: reader.string(),
+    name: reader.string(),
+    state: reader.uint8(),
+    priority: reader.uint8(),
+    active: reader.bool(),
+    acknowledged: reader.bool(),
+    since: decodeTime(reader),
+    shelved_until: decodeTime(reader),
+    shelved_one_shot: reader.bool(),
+    body: reader.uint8(),
+    measured_depth: reader.float64(),
+    inclination: reader.float64(),
+    value: reader.float64(),
+    threshold: reader.float64(),
+    unit: reader.string(),
+    confidence: reader.float64(),
+    evidence: reader.string(),
+    cause: reader.string(),
+    consequence: reader.string(),
+    what_to_do: reader.string(),
+    annunciations: reader.uint64(),
+    annunciations_last_minute: reader.uint32(),
+  };
+}
+
+/** One change of one alarm: the journal. What the states and priorities are says Alarm. */
+export interface AlarmEvent {
+  /** Stamp: when, on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** One more in every event, over restarts. */
+  sequence: number;
+  /** Of the alarm, as in Alarm. */
+  id: string;
+  /** Its name for people. */
+  name: string;
+  /** ACTIVATED, RAISED, LOWERED, RETURNED, ACKNOWLEDGED, SHELVED, UNSHELVED, SUPPRESSED, RELEASED, TAKEN_OUT or PUT_BACK. */
+  change: number;
+  /** State before, as in Alarm. */
+  from_state: number;
+  /** State after. */
+  to_state: number;
+  /**
+   * The priority that the condition has now; of one that has gone, that which it had or which is to be acknowledged. As in
+   * Alarm.
+   */
+  priority: number;
+  /** It calls for somebody. A rise of what calls already is the same call. */
+  annunciates: boolean;
+  /** Who asked for it; empty where nobody did. */
+  operator_name: string;
+  /** Why; for UNSHELVED by itself, why the shelving ended. */
+  reason: string;
+  /** When shelving ends at the latest, for SHELVED. */
+  shelved_until: Time;
+  /** What is seen, in a sentence; empty where the condition is not there. */
+  evidence: string;
+  /** What the operator is told to do; empty where nothing is to be done. */
+  what_to_do: string;
+  /** Where it was worst, as in Alarm: NOWHERE, PIPE or GUIDE. */
+  body: number;
+  /** Place along the bore from the kick-off (m), NaN where there is none. */
+  measured_depth: number;
+  /** Inclination of the bore there (rad), NaN where there is none. */
+  inclination: number;
+  /** What it was judged by, NaN where there is no such number. */
+  value: number;
+}
+export const AlarmEvent = {
+  /** The condition has stood for its on-delay. */
+  ACTIVATED: 0,
+  /** It has become worse. */
+  RAISED: 1,
+  /** It has become better, but stands. */
+  LOWERED: 2,
+  /** It has been gone for its off-delay. */
+  RETURNED: 3,
+  /** An operator knows. */
+  ACKNOWLEDGED: 4,
+  /** An operator has put it aside. */
+  SHELVED: 5,
+  /** It is back: asked for, after its time, as its condition went, or as it rose to HIGH. */
+  UNSHELVED: 6,
+  /** The drive stands or runs up: the condition means nothing. */
+  SUPPRESSED: 7,
+  /** The condition means something again. */
+  RELEASED: 8,
+  /** The configuration switches it off. */
+  TAKEN_OUT: 9,
+  /** The configuration switches it on again. */
+  PUT_BACK: 10,
+} as const;
+/** Reads a `flexdrill/msg/AlarmEvent`. */
+export function decodeAlarmEvent(reader: CdrReader): AlarmEvent {
+  return {
+    header: decodeHeader(reader),
+    sequence: reader.uint64(),
+    id: reader.string(),
+    name: reader.string(),
+    change: reader.uint8(),
+    from_state: reader.uint8(),
+    to_state: reader.uint8(),
+    priority: reader.uint8(),
+    annunciates: reader.bool(),
+    operator_name: reader.string(),
+    reason: reader.string(),
+    shelved_until: decodeTime(reader),
+    evidence: reader.string(),
+    what_to_do: reader.string(),
+    body: reader.uint8(),
+    measured_depth: reader.float64(),
+    inclination: reader.float64(),
+    value: reader.float64(),
+  };
+}
+
+/**
+ * All alarms, the worst first, sent when one of them changes and every second. Latched: of several received, the one with
+ * the highest sequence holds, and of those with the same the newest.
+ */
+export interface AlarmList {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Events so far, over restarts: the sequence of the newest AlarmEvent. */
+  sequence: number;
+  /**
+   * All of them, normal ones too. What calls for somebody is first: unacknowledged before acknowledged, then what returned,
+   * what is shelved, suppressed and normal, out of service last; within each by priority.
+   */
+  alarms: Alarm[];
+  /** Alarms to be acknowledged. */
+  unacknowledged: number;
+  /** How often alarms have called for somebody in the last ten minutes. */
+  annunciations_last_ten_minutes: number;
+  /** More than ten in the last ten minutes. */
+  flood: boolean;
+  /** How often per hour watched. */
+  annunciations_per_hour: number;
+  /** Part of the time watched that was in flood (0 to 1). */
+  flood_share: number;
+}
+/** Reads a `flexdrill/msg/AlarmList`. */
+export function decodeAlarmList(reader: CdrReader): AlarmList {
+  return {
+    header: decodeHeader(reader),
+    sequence: reader.uint64(),
+    alarms: reader.many(reader.length(), () => decodeAlarm(reader)),
+    unacknowledged: reader.uint32(),
+    annunciations_last_ten_minutes: reader.uint32(),
+    flood: reader.bool(),
+    annunciations_per_hour: reader.float64(),
+    flood_share: reader.float64(),
+  };
+}
+
+/**
+ * What drives the model from a step on, sent when anything of it changes. The sequence of these messages and the
+ * configuration determine a run to the bit. While nothing changes it is sent again every second of model time, with
+ * reset false and with all parameters changed since the start, for who listens or records from later on.
+ */
+export interface AppliedInputs {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Number of model steps taken before these values act: they act on the step that starts then. */
+  step: number;
+  /** Steps skipped so far because the model was late. */
+  skipped_steps: number;
+  /** The model went back to its state after the start before this step; step counts from 0 again. */
+  reset: boolean;
+  /** Target speed of the drive, before the slew limit (rad/s). */
+  rotary_speed: number;
+  /** Target weight on bit, before the slew limit (N). */
+  weight_on_bit: number;
+  /** The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED. */
+  input_quality: number;
+  /** Slew limit of the rotary speed (rad/s2). */
+  rotary_speed_slew: number;
+  /** Slew limit of the weight on bit (N/s). */
+  weight_on_bit_slew: number;
+  /** Coulomb coefficients between pipe and guide pipe: around the circumference, along the axis. */
+  inner_friction: Float64Array;
+  /** Coulomb coefficients between guide pipe and wall: around the circumference, along the axis. */
+  outer_friction: Float64Array;
+  /** Friction factor between bit and rock. */
+  bit_friction_factor: number;
+  /** Other numeric parameters that were changed at this step, by their ROS name. */
+  parameter_name: string[];
+  /** Their new values, in the parameter's unit. */
+  parameter_value: Float64Array;
+}
+export const AppliedInputs = {
+  /** No sample yet: the twin runs on its configured start values. */
+  INPUT_NOT_RECEIVED: 0,
+  /** Fresh. */
+  INPUT_OK: 1,
+  /** Later than expected, not yet stale. */
+  INPUT_SLOW: 2,
+  /** Too old: held, then brought to the safe value. */
+  INPUT_STALE: 3,
+  /** The newest sample was refused, the last good one is held. */
+  INPUT_REJECTED: 4,
+} as const;
+/** Reads a `flexdrill/msg/AppliedInputs`. */
+export function decodeAppliedInputs(reader: CdrReader): AppliedInputs {
+  return {
+    header: decodeHeader(reader),
+    step: reader.uint64(),
+    skipped_steps: reader.uint64(),
+    reset: reader.bool(),
+    rotary_speed: reader.float64(),
+    weight_on_bit: reader.float64(),
+    input_quality: reader.uint8(),
+    rotary_speed_slew: reader.float64(),
+    weight_on_bit_slew: reader.float64(),
+    inner_friction: reader.float64Array(2),
+    outer_friction: reader.float64Array(2),
+    bit_friction_factor: reader.float64(),
+    parameter_name: reader.many(reader.length(), () => reader.string()),
+    parameter_value: reader.float64Array(reader.length()),
+  };
+}
+
+/** The bit. */
+export interface BitState {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Torque of the rock against the bit (N m, positive against the drive's sense). */
+  torque: number;
+  /** Rotary speed of the bit (rad/s, positive in the drive's sense). */
+  rotary_speed: number;
+  /** Weight on bit as applied to the model (N). */
+  weight_on_bit: number;
+  /**
+   * (max - min) / (2 mean) of the rotary speed over its window; 0 while the drive hardly turns, at least 1 while the bit
+   * stands and the drive turns.
+   */
+  stick_slip_index: number;
+  /** Root mean square over the publishing interval of spin acceleration times bit radius (m/s2). */
+  tangential_acceleration: number;
+  /** Root mean square over the publishing interval of the axial acceleration (m/s2). */
+  axial_acceleration: number;
+  /** Root mean square over the publishing interval of the lateral acceleration one station above the bit (m/s2). */
+  lateral_acceleration: number;
+  /** Largest lateral acceleration one station above the bit in the publishing interval (m/s2). */
+  lateral_acceleration_peak: number;
+  /** Integral of the size of the lateral acceleration one station above the bit over the publishing interval (m/s). */
+  lateral_impulse: number;
+  /** Level that the stick-slip index has reached: OK, WATCH, WARNING or CRITICAL. */
+  stick_slip_severity: number;
+}
+export const BitState = {
+  /** Nothing to do. */
+  OK: 0,
+  /** Keep an eye on it. */
+  WATCH: 1,
+  /** Act soon. */
+  WARNING: 2,
+  /** Act now. */
+  CRITICAL: 3,
+} as const;
+/** Reads a `flexdrill/msg/BitState`. */
+export function decodeBitState(reader: CdrReader): BitState {
+  return {
+    header: decodeHeader(reader),
+    torque: reader.float64(),
+    rotary_speed: reader.float64(),
+    weight_on_bit: reader.float64(),
+    stick_slip_index: reader.float64(),
+    tangential_acceleration: reader.float64(),
+    axial_acceleration: reader.float64(),
+    lateral_acceleration: reader.float64(),
+    lateral_acceleration_peak: reader.float64(),
+    lateral_impulse: reader.float64(),
+    stick_slip_severity: reader.uint8(),
+  };
+}
+
+/**
+ * Contact between pipe and guide pipe and between guide pipe and bore wall. All arrays have one entry per station, top
+ * to bottom. Collisions are shorter than the publishing interval: see the peak and rms arrays.
+ */
+export interface ContactForces {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Largest normal force between pipe and guide pipe in the publishing interval (N). */
+  max_pipe_guide_force: number;
+  /** Entry of its station in the arrays below. */
+  max_pipe_guide_station: number;
+  /** Largest normal force between guide pipe and wall in the publishing interval (N). */
+  max_guide_wall_force: number;
+  /** Entry of its station in the arrays below. */
+  max_guide_wall_station: number;
+  /** Place along the bore from the kick-off (m). */
+  measured_depth: Float64Array;
+  /** Inclination of the bore there, 0 is straight down (rad). */
+  inclination: Float64Array;
+  /** FREE, INNER, OUTER or BOTH at the stamp. */
+  state: Uint8Array;
+  /** Clearance left between pipe and guide pipe (m, negative is penetration). */
+  pipe_guide_gap: Float64Array;
+  /** Normal force at the stamp (N, >= 0). */
+  pipe_guide_normal: Float64Array;
+  /** Friction around the circumference on the pipe (N, positive in the drive's sense). */
+  pipe_guide_tangential: Float64Array;
+  /** Friction along the axis on the pipe (N, positive downhole). */
+  pipe_guide_axial: Float64Array;
+  /** Largest normal force in the publishing interval (N). */
+  pipe_guide_normal_peak: Float64Array;
+  /** Root mean square of the normal force over the publishing interval (N). */
+  pipe_guide_normal_rms: Float64Array;
+  /** Clearance left between guide pipe and wall (m, negative is penetration). */
+  guide_wall_gap: Float64Array;
+  /** Normal force at the stamp (N, >= 0). */
+  guide_wall_normal: Float64Array;
+  /** Friction around the circumference on the guide pipe (N, positive in the drive's sense). */
+  guide_wall_tangential: Float64Array;
+  /** Friction along the axis on the guide pipe (N, positive downhole). */
+  guide_wall_axial: Float64Array;
+  /** Largest normal force in the publishing interval (N). */
+  guide_wall_normal_peak: Float64Array;
+  /** Root mean square of the normal force over the publishing interval (N). */
+  guide_wall_normal_rms: Float64Array;
+  /**
+   * Shock: largest impulse of the normal force in a short interval (20 ms by default) in the publishing interval, less that of
+   * the resting force (N s).
+   */
+  pipe_guide_shock: Float64Array;
+  /** The same between guide pipe and wall (N s). */
+  guide_wall_shock: Float64Array;
+  /** Level of shock of the tool: SHOCK_OK, SHOCK_WATCH, SHOCK_WARNING or SHOCK_CRITICAL. */
+  shock_severity: number;
+  /** Largest shock since that level was reached (N s). */
+  shock_impulse: number;
+  /** Entry of its station in the arrays. */
+  shock_station: number;
+  /** Its layer: INNER or OUTER. */
+  shock_layer: number;
+}
+export const ContactForces = {
+  /** Nothing touches at this station. */
+  FREE: 0,
+  /** Pipe and guide pipe touch. */
+  INNER: 1,
+  /** Guide pipe and wall touch. */
+  OUTER: 2,
+  /** Both layers touch. */
+  BOTH: 3,
+  /** Nothing to do. */
+  SHOCK_OK: 0,
+  /** Keep an eye on it. */
+  SHOCK_WATCH: 1,
+  /** Act soon. */
+  SHOCK_WARNING: 2,
+  /** Act now. */
+  SHOCK_CRITICAL: 3,
+} as const;
+/** Reads a `flexdrill/msg/ContactForces`. */
+export function decodeContactForces(reader: CdrReader): ContactForces {
+  return {
+    header: decodeHeader(reader),
+    max_pipe_guide_force: reader.float64(),
+    max_pipe_guide_station: reader.uint32(),
+    max_guide_wall_force: reader.float64(),
+    max_guide_wall_station: reader.uint32(),
+    measured_depth: reader.float64Array(reader.length()),
+    inclination: reader.float64Array(reader.length()),
+    state: reader.uint8Array(reader.length()),
+    pipe_guide_gap: reader.float64Array(reader.length()),
+    pipe_guide_normal: reader.float64Array(reader.length()),
+    pipe_guide_tangential: reader.float64Array(reader.length()),
+    pipe_guide_axial: reader.float64Array(reader.length()),
+    pipe_guide_normal_peak: reader.float64Array(reader.length()),
+    pipe_guide_normal_rms: reader.float64Array(reader.length()),
+    guide_wall_gap: reader.float64Array(reader.length()),
+    guide_wall_normal: reader.float64Array(reader.length()),
+    guide_wall_tangential: reader.float64Array(reader.length()),
+    guide_wall_axial: reader.float64Array(reader.length()),
+    guide_wall_normal_peak: reader.float64Array(reader.length()),
+    guide_wall_normal_rms: reader.float64Array(reader.length()),
+    pipe_guide_shock: reader.float64Array(reader.length()),
+    guide_wall_shock: reader.float64Array(reader.length()),
+    shock_severity: reader.uint8(),
+    shock_impulse: reader.float64(),
+    shock_station: reader.uint32(),
+    shock_layer: reader.uint8(),
+  };
+}
+
+/**
+ * Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
+ * entry 0 is joint_01 of joint_states.
+ */
+export interface JointDeflections {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Largest bend angle of all joints (rad, >= 0). */
+  max_bend_angle: number;
+  /** Entry of that joint in the arrays below. */
+  max_bend_joint: number;
+  /** Number of joints whose bend angle has reached the limit. */
+  joints_at_limit: number;
+  /** Place along the bore from the kick-off (m). */
+  measured_depth: Float64Array;
+  /** Inclination of the bore there, 0 is straight down (rad). */
+  inclination: Float64Array;
+  /** Angle between the axes of the two links (rad, >= 0). */
+  bend_angle: Float64Array;
+  /**
+   * Toolface of the bend: the direction in which the lower link turns away, from the high side, clockwise looking down
+   * the hole (rad, -pi to pi).
+   */
+  bend_direction: Float64Array;
+  /** Bend angle at which the joint's stop begins (rad). */
+  limit_angle: Float64Array;
+  /** Moment of the stop (N m, >= 0, zero below the limit). */
+  stop_moment: Float64Array;
+  /** Horizontal transverse displacement from the bore axis (m). */
+  lateral_y: Float64Array;
+  /** Displacement from the bore axis towards the low side (m). */
+  lateral_z: Float64Array;
+  /** Spin rate of the link below the joint (rad/s, positive in the drive's sense). */
+  spin_rate: Float64Array;
+  /** Axial force through the joint (N, tension positive). */
+  axial_force: Float64Array;
+  /** Magnitude of the shear force through the joint (N, >= 0). */
+  shear_force: Float64Array;
+  /** Torque through the joint (N m, positive in the drive's sense). */
+  torque: Float64Array;
+}
+/** Reads a `flexdrill/msg/JointDeflections`. */
+export function decodeJointDeflections(reader: CdrReader): JointDeflections {
+  return {
+    header: decodeHeader(reader),
+    max_bend_angle: reader.float64(),
+    max_bend_joint: reader.uint32(),
+    joints_at_limit: reader.uint32(),
+    measured_depth: reader.float64Array(reader.length()),
+    inclination: reader.float64Array(reader.length()),
+    bend_angle: reader.float64Array(reader.length()),
+    bend_direction: reader.float64Array(reader.length()),
+    limit_angle: reader.float64Array(reader.length()),
+    stop_moment: reader.float64Array(reader.length()),
+    lateral_y: reader.float64Array(reader.length()),
+    lateral_z: reader.float64Array(reader.length()),
+    spin_rate: reader.float64Array(reader.length()),
+    axial_force: reader.float64Array(reader.length()),
+    shear_force: reader.float64Array(reader.length()),
+    torque: reader.float64Array(reader.length()),
+  };
+}
+
+/**
+ * Both inputs of the rig with the time at which they were measured, for rigs that have it; the topics rig/rotary_speed_rpm and
+ * rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
+ */
+export interface RigInputs {
+  /** Stamp: when it was measured, on the rig's clock. The age of the input counts from here. Frame: of no meaning. */
+  header: Header;
+  /** Speed of the top drive (r/min), NaN if not given. */
+  rotary_speed_rpm: number;
+  /** Weight on bit (kN), NaN if not given. */
+  weight_on_bit_kn: number;
+  /** GOOD, SUSPECT or BAD, of both values. */
+  quality: number;
+  /** Sensor or program that it comes from, for people; may be empty. */
+  source: string;
+}
+export const RigInputs = {
+  /** The values are right as far as the source knows. */
+  GOOD: 0,
+  /** The source has doubts; the values are taken, and the status says so. */
+  SUSPECT: 1,
+  /** The values are wrong or not measured; they are refused. */
+  BAD: 2,
+} as const;
+/** Reads a `flexdrill/msg/RigInputs`. */
+export function decodeRigInputs(reader: CdrReader): RigInputs {
+  return {
+    header: decodeHeader(reader),
+    rotary_speed_rpm: reader.float64(),
+    weight_on_bit_kn: reader.float64(),
+    quality: reader.uint8(),
+    source: reader.string(),
+  };
+}
+
+/** What a run was made with, so that a recording stands alone. */
+export interface SessionInfo {
+  /** Stamp: start of the run on the rig's clock. Frame: the tool, as in all messages of this run. */
+  header: Header;
+  /** Version of flexdrill. */
+  version: string;
+  /** SHA-256 of the configuration. */
+  config_hash: string;
+  /** Model step (s). */
+  time_step: number;
+  /** Time of model step 0 on the rig's clock. */
+  start: Time;
+  /** The whole configuration, YAML. */
+  configuration: string;
+}
+/** Reads a `flexdrill/msg/SessionInfo`. */
+export function decodeSessionInfo(reader: CdrReader): SessionInfo {
+  return {
+    header: decodeHeader(reader),
+    version: reader.string(),
+    config_hash: reader.string(),
+    time_step: reader.float64(),
+    start: decodeTime(reader),
+    configuration: reader.string(),
+  };
+}
+
+/** Health of the twin. The sequence is its heartbeat: when it stops, the twin has stopped. */
+export interface TwinStatus {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Heartbeat, one more in every message. */
+  sequence: number;
+  /** STARTING, RUNNING, PAUSED or FAILED. */
+  state: number;
+  /** Model time since the start or the last reset (s). */
+  model_time: number;
+  /** Model steps since the start or the last reset. */
+  step_count: number;
+  /** Model step (s). */
+  time_step: number;
+  /** Model time gained per second of wall time, over the last second; 1 keeps up. */
+  real_time_factor: number;
+  /** How far the model is behind its deadlines now (s, >= 0). */
+  lateness: number;
+  /** Steps that ended after their deadline. */
+  deadline_misses: number;
+  /** Whole step periods given up to catch up. */
+  steps_skipped: number;
+  /** Median computing time of a step in the last interval (s). */
+  step_time_p50: number;
+  /** 99th percentile of the computing time of a step in the last interval (s). */
+  step_time_p99: number;
+  /** Longest computing time of a step in the last interval (s). */
+  step_time_max: number;
+  /** Mean Newton iterations per step in the last interval. */
+  newton_iterations_mean: number;
+  /** Sub-steps rejected since the start. */
+  rejected_steps: number;
+  /** Steps that had to be split since the start. */
+  halved_steps: number;
+  /** Steps that failed at the smallest sub-step since the start. */
+  failed_steps: number;
+  /** Cause of the last rejection, empty if there was none. */
+  last_rejection_cause: string;
+  /** Station of the last rejection, 0 is the uppermost. */
+  last_rejection_station: number;
+  /** Place of that station along the bore from the kick-off (m). */
+  last_rejection_measured_depth: number;
+  /** Work in, less energy out, less energy stored since the start (J); zero is exact. */
+  energy_error: number;
+  /** Magnitude of energy_error over the drive's work. */
+  energy_error_ratio: number;
+  /** RECORDING_OFF, RECORDING_ON or RECORDING_FAILED. */
+  recording_state: number;
+  /** File that is recorded to, empty if none. */
+  recording_path: string;
+  /** Messages in the recording's files; those of the last moments are still on their way there. */
+  recording_messages: number;
+  /** Messages that the recording lost, and those in a file that the disk refused to keep. */
+  recording_drops: number;
+  /** SHA-256 of the configuration in force. */
+  config_hash: string;
+  /** Version of flexdrill. */
+  version: string;
+  /** Per input: rotary_speed, weight_on_bit. */
+  input_name: string[];
+  /** INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED. */
+  input_state: Uint8Array;
+  /** Time since the newest good sample (s), NaN if there was none. */
+  input_age: Float64Array;
+  /** Newest sample as received, in SI (rad/s, N), NaN if there was none. */
+  input_received: Float64Array;
+  /** Value that acts on the model, in SI (rad/s, N). */
+  input_applied: Float64Array;
+  /** Samples refused since the start. */
+  input_rejected: number[];
+  /** Per output: topic with namespace. */
+  output_topic: string[];
+  /** Messages sent since the start. */
+  output_sent: number[];
+  /** Messages lost since the start. */
+  output_dropped: number[];
+  /**
+   * Per phase of a step: its name. assembly, contact, solve, energy, analysis, snapshot and other make up the solver's time; publish is
+   * that of encoding and sending, on another thread.
+   */
+  phase_name: string[];
+  /** Mean time per step in the last interval (s). */
+  phase_time: Float64Array;
+  /** How far the motion can be trusted: QUALITY_GOOD, QUALITY_DEGRADED or QUALITY_POOR. */
+  model_quality: number;
+  /** Why it is not GOOD, with value and bound, or that it is not judged yet; empty if all is well. */
+  model_quality_cause: string;
+  /**
+   * Work of the steps against the laws over the last 10 s, magnitudes added, over what contact, Rayleigh and numerical damping took in
+   * them; zero is exact.
+   */
+  energy_error_share: number;
+  /** DDS: whether it is up, and how often it had to be started again since the start. */
+  dds_up: boolean;
+  dds_restarts: number;
+  /** Why it had to be, the last time; empty if it never was. */
+  dds_restart_cause: string;
+  /**
+   * Topic, node, address and id of readers that asked for every sample and did not take them within the last minute; empty if there are
+   * none.
+   */
+  dds_stalled_reader: string;
+  /** Other nodes on the network with the name of this one, with address and id. */
+  namesake: string[];
+  /** What the system's clock was set by since the start (s). Stamps keep to the clock as it was at the start. */
+  clock_set_by: number;
+  /** Per input: the publisher that drives it, as node @ host (id of its DDS writer); empty while nobody does. */
+  input_driver: string[];
+  /** Per input: all publishers heard within its max_age, the one that drives first, separated by commas. */
+  input_publishers: string[];
+  /** Per input: two or more publishers send it at once. */
+  input_several_drivers: boolean[];
+  /** Per input: samples refused because their publisher does not drive. */
+  input_not_driving: number[];
+  /** Per input: samples whose bytes were no message of the topic's type. */
+  input_unreadable: number[];
+  /** Per input: without a good sample for so long that the model is on its way to the safe value, or there. */
+  input_safe: boolean[];
+  /** Per input: source of the newest good sample as it says itself, empty if it says none. */
+  input_source: string[];
+  /** Per input: the source has doubts about the newest good sample. */
+  input_suspect: boolean[];
+  /**
+   * Snapshots that found the publisher's thread too far behind since the start: the outputs of these instants were neither sent nor
+   * recorded.
+   */
+  frames_dropped: number;
+  /** Changes of the inputs that found it so: a recording of this run cannot be replayed exactly. */
+  events_lost: number;
+}
+export const TwinStatus = {
+  /** The tool is being brought to rest under gravity and weight on bit. */
+  STARTING: 0,
+  /** Model time advances. */
+  RUNNING: 1,
+  /** Paused by service. */
+  PAUSED: 2,
+  /** The model stands still because a step failed; reset it. */
+  FAILED: 3,
+  /** No sample yet: the twin runs on its configured start values. */
+  INPUT_NOT_RECEIVED: 0,
+  /** Fresh. */
+  INPUT_OK: 1,
+  /** Later than expected, not yet stale. */
+  INPUT_SLOW: 2,
+  /** Too old: held, then brought to the safe value. */
+  INPUT_STALE: 3,
+  /** The newest sample was refused, the last good one is held. */
+  INPUT_REJECTED: 4,
+  /** Not recording. */
+  RECORDING_OFF: 0,
+  /** Recording to recording_path. */
+  RECORDING_ON: 1,
+  /**
+   * The recording stopped on an error; what was written before is kept. It goes on in another file as soon as that can be
+   * written, and is RECORDING_ON again then.
+   */
+  RECORDING_FAILED: 2,
+  /** The steps' errors are those of runs that agree with a finer step within about a tenth in ripple and forces. */
+  QUALITY_GOOD: 0,
+  /** They are those of runs that are off by more; model_quality_cause says why. */
+  QUALITY_DEGRADED: 1,
+  /** They are those of runs that are off by a sixth to several times: an alarm. Confidences of the whirl analysis are lowered. */
+  QUALITY_POOR: 2,
+} as const;
+/** Reads a `flexdrill/msg/TwinStatus`. */
+export function decodeTwinStatus(reader: CdrReader): TwinStatus {
+  return {
+    header: decodeHeader(reader),
+    sequence: reader.uint64(),
+    state: reader.uint8(),
+    model_time: reader.float64(),
+    step_count: reader.uint64(),
+    time_step: reader.float64(),
+    real_time_factor: reader.float64(),
+    lateness: reader.float64(),
+    deadline_misses: reader.uint64(),
+    steps_skipped: reader.uint64(),
+    step_time_p50: reader.float64(),
+    step_time_p99: reader.float64(),
+    step_time_max: reader.float64(),
+    newton_iterations_mean: reader.float64(),
+    rejected_steps: reader.uint64(),
+    halved_steps: reader.uint64(),
+    failed_steps: reader.uint64(),
+    last_rejection_cause: reader.string(),
+    last_rejection_station: reader.uint32(),
+    last_rejection_measured_depth: reader.float64(),
+    energy_error: reader.float64(),
+    energy_error_ratio: reader.float64(),
+    recording_state: reader.uint8(),
+    recording_path: reader.string(),
+    recording_messages: reader.uint64(),
+    recording_drops: reader.uint64(),
+    config_hash: reader.string(),
+    version: reader.string(),
+    input_name: reader.many(reader.length(), () => reader.string()),
+    input_state: reader.uint8Array(reader.length()),
+    input_age: reader.float64Array(reader.length()),
+    input_received: reader.float64Array(reader.length()),
+    input_applied: reader.float64Array(reader.length()),
+    input_rejected: reader.many(reader.length(), () => reader.uint64()),
+    output_topic: reader.many(reader.length(), () => reader.string()),
+    output_sent: reader.many(reader.length(), () => reader.uint64()),
+    output_dropped: reader.many(reader.length(), () => reader.uint64()),
+    phase_name: reader.many(reader.length(), () => reader.string()),
+    phase_time: reader.float64Array(reader.length()),
+    model_quality: reader.uint8(),
+    model_quality_cause: reader.string(),
+    energy_error_share: reader.float64(),
+    dds_up: reader.bool(),
+    dds_restarts: reader.uint64(),
+    dds_restart_cause: reader.string(),
+    dds_stalled_reader: reader.string(),
+    namesake: reader.many(reader.length(), () => reader.string()),
+    clock_set_by: reader.float64(),
+    input_driver: reader.many(reader.length(), () => reader.string()),
+    input_publishers: reader.many(reader.length(), () => reader.string()),
+    input_several_drivers: reader.many(reader.length(), () => reader.bool()),
+    input_not_driving: reader.many(reader.length(), () => reader.uint64()),
+    input_unreadable: reader.many(reader.length(), () => reader.uint64()),
+    input_safe: reader.many(reader.length(), () => reader.bool()),
+    input_source: reader.many(reader.length(), () => reader.string()),
+    input_suspect: reader.many(reader.length(), () => reader.bool()),
+    frames_dropped: reader.uint64(),
+    events_lost: reader.uint64(),
+  };
+}
+
+/** Whirl of every watched place. All arrays have one entry per watched station and pipe. */
+export interface WhirlState {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Place along the bore from the kick-off (m). */
+  measured_depth: Float64Array;
+  /** Inclination of the bore there, 0 is straight down (rad). */
+  inclination: Float64Array;
+  /** PIPE or GUIDE. */
+  body: Uint8Array;
+  /** NONE, FORWARD, BACKWARD, CHAOTIC or JOINT_VIBRATION. */
+  kind: Uint8Array;
+  /** Rate of the orbit (rad/s, positive in the sense of the rotation). */
+  whirl_rate: Float64Array;
+  /** Rate of the orbit over the rotary speed, NaN where the motion is no whirl of one rate and while the tool does not turn. */
+  whirl_ratio: Float64Array;
+  /** Root mean square radius about the running mean (m). */
+  orbit_radius: Float64Array;
+  /** Largest distance from the gap's centre in the window over the clearance. */
+  clearance_ratio: Float64Array;
+  /** Part of the window in contact (0 to 1). */
+  contact_duty: Float64Array;
+  /** Confidence in the kind (0 to 1), lowered while an input is not as it should be. */
+  confidence: Float64Array;
+  /** Level at this place: OK, WATCH, WARNING or CRITICAL of WhirlWarning. */
+  severity: Uint8Array;
+  /**
+   * Backward whirl of the driven pipe: rate over that of rolling without slip, - spin d / (D - d). 1 rolls, less slides, 0 is
+   * no such whirl.
+   */
+  rolling_share: Float64Array;
+  /** Turns about the gap's centre per turn of the tool, counted, positive in the sense of the rotation; NaN while it stands. */
+  gap_turns: Float64Array;
+  /** Bending cycles per turn of the tool that whirl of one rate brings; 0 elsewhere. */
+  bending_cycles: Float64Array;
+  /** Largest impulse above the resting one in the window (N s). */
+  impulse: Float64Array;
+  /** Impacts of at least 1 N s per second (1/s). */
+  impact_rate: Float64Array;
+  /** Work of the friction per second and metre of the tool (W/m). */
+  friction_power: Float64Array;
+}
+export const WhirlState = {
+  /**
+   * No whirl: at rest, along a line, small beside the gap's centre, or a motion that repeats itself turn by turn without going
+   * round.
+   */
+  NONE: 0,
+  /** The orbit turns in the sense of the rotation. */
+  FORWARD: 1,
+  /** The orbit turns against the rotation. */
+  BACKWARD: 2,
+  /** Large motion without a steady direction that does not repeat itself. */
+  CHAOTIC: 3,
+  /**
+   * A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS, whose
+   * words the other kinds are, has none for it.
+   */
+  JOINT_VIBRATION: 4,
+  /** The flexible pipe. */
+  PIPE: 0,
+  /** The guide pipe. */
+  GUIDE: 1,
+} as const;
+/** Reads a `flexdrill/msg/WhirlState`. */
+export function decodeWhirlState(reader: CdrReader): WhirlState {
+  return {
+    header: decodeHeader(reader),
+    measured_depth: reader.float64Array(reader.length()),
+    inclination: reader.float64Array(reader.length()),
+    body: reader.uint8Array(reader.length()),
+    kind: reader.uint8Array(reader.length()),
+    whirl_rate: reader.float64Array(reader.length()),
+    whirl_ratio: reader.float64Array(reader.length()),
+    orbit_radius: reader.float64Array(reader.length()),
+    clearance_ratio: reader.float64Array(reader.length()),
+    contact_duty: reader.float64Array(reader.length()),
+    confidence: reader.float64Array(reader.length()),
+    severity: reader.uint8Array(reader.length()),
+    rolling_share: reader.float64Array(reader.length()),
+    gap_turns: reader.float64Array(reader.length()),
+    bending_cycles: reader.float64Array(reader.length()),
+    impulse: reader.float64Array(reader.length()),
+    impact_rate: reader.float64Array(reader.length()),
+    friction_power: reader.float64Array(reader.length()),
+  };
+}
+
+/**
+ * The level at which the whirl warning stands, sent when it changes. Latched: of several received, the one with the
+ * highest sequence holds.
+ */
+export interface WhirlWarning {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** OK, WATCH, WARNING or CRITICAL. */
+  severity: number;
+  /** NONE, FORWARD, BACKWARD, CHAOTIC or JOINT_VIBRATION. */
+  kind: number;
+  /** PIPE or GUIDE. */
+  body: number;
+  /** Place along the bore from the kick-off (m). */
+  measured_depth: number;
+  /** Inclination of the bore there, 0 is straight down (rad). */
+  inclination: number;
+  /** Evidence: rate of the orbit over the rotary speed, NaN where there is none. */
+  whirl_ratio: number;
+  /** Evidence: largest distance from the gap's centre over the clearance. */
+  clearance_ratio: number;
+  /** Evidence: part of the window in contact (0 to 1). */
+  contact_duty: number;
+  /** Length of the window that the evidence was taken from (s). */
+  window: number;
+  /** When this level was reached, on the rig's clock. */
+  since: Time;
+  /** The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED. */
+  input_quality: number;
+  /** Number of changes so far, of the level, its place and kind, or of the trust in the inputs. */
+  sequence: number;
+  /** The same for a person, in one sentence. */
+  message: string;
+  /** Evidence: largest normal force in the window (N). */
+  peak_force: number;
+  /**
+   * Evidence: rate over that of rolling without slip, - spin d / (D - d), of backward whirl of the driven pipe. 1 rolls, less
+   * slides, 0 is no such whirl.
+   */
+  rolling_share: number;
+  /** Confidence in the kind (0 to 1), lowered while an input is not as it should be. */
+  confidence: number;
+}
+export const WhirlWarning = {
+  /** Nothing to do. */
+  OK: 0,
+  /** Keep an eye on it. */
+  WATCH: 1,
+  /** Act soon. */
+  WARNING: 2,
+  /** Act now. */
+  CRITICAL: 3,
+  /**
+   * No whirl: at rest, along a line, small beside the gap's centre, or a motion that repeats itself turn by turn without going
+   * round.
+   */
+  NONE: 0,
+  /** The orbit turns in the sense of the rotation. */
+  FORWARD: 1,
+  /** The orbit turns against the rotation. */
+  BACKWARD: 2,
+  /** Large motion without a steady direction that does not repeat itself. */
+  CHAOTIC: 3,
+  /**
+   * A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS, whose
+   * words the other kinds are, has none for it.
+   */
+  JOINT_VIBRATION: 4,
+  /** The flexible pipe. */
+  PIPE: 0,
+  /** The guide pipe. */
+  GUIDE: 1,
+  /** No sample yet: the twin runs on its configured start values. */
+  INPUT_NOT_RECEIVED: 0,
+  /** Fresh. */
+  INPUT_OK: 1,
+  /** Later than expected, not yet stale. */
+  INPUT_SLOW: 2,
+  /** Too old: held, then brought to the safe value. */
+  INPUT_STALE: 3,
+  /** The newest sample was refused, the last good one is held. */
+  INPUT_REJECTED: 4,
+} as const;
+/** Reads a `flexdrill/msg/WhirlWarning`. */
+export function decodeWhirlWarning(reader: CdrReader): WhirlWarning {
+  return {
+    header: decodeHeader(reader),
+    severity: reader.uint8(),
+    kind: reader.uint8(),
+    body: reader.uint8(),
+    measured_depth: reader.float64(),
+    inclination: reader.float64(),
+    whirl_ratio: reader.float64(),
+    clearance_ratio: reader.float64(),
+    contact_duty: reader.float64(),
+    window: reader.float64(),
+    since: decodeTime(reader),
+    input_quality: reader.uint8(),
+    sequence: reader.uint64(),
+    message: reader.string(),
+    peak_force: reader.float64(),
+    rolling_share: reader.float64(),
+    confidence: reader.float64(),
+  };
+}
+
+export interface MeshFile {
+  filename: string;
+  data: Uint8Array;
+}
+/** Reads a `visualization_msgs/msg/MeshFile`. */
+export function decodeMeshFile(reader: CdrReader): MeshFile {
+  return {
+    filename: reader.string(),
+    data: reader.uint8Array(reader.length()),
+  };
+}
+
+export interface UVCoordinate {
+  u: number;
+  v: number;
+}
+/** Reads a `visualization_msgs/msg/UVCoordinate`. */
+export function decodeUVCoordinate(reader: CdrReader): UVCoordinate {
+  return {
+    u: reader.float32(),
+    v: reader.float32(),
+  };
+}
+
+export interface CompressedImage {
+  header: Header;
+  format: string;
+  data: Uint8Array;
+}
+/** Reads a `sensor_msgs/msg/CompressedImage`. */
+export function decodeCompressedImage(reader: CdrReader): CompressedImage {
+  return {
+    header: decodeHeader(reader),
+    format: reader.string(),
+    data: reader.uint8Array(reader.length()),
+  };
+}
+
+export interface Duration {
+  sec: number;
+  nanosec: number;
+}
+/** Reads a `builtin_interfaces/msg/Duration`. */
+export function decodeDuration(reader: CdrReader): Duration {
+  return {
+    sec: reader.int32(),
+    nanosec: reader.uint32(),
+  };
+}
+
+export interface ColorRGBA {
+  r: number;
+  g: number;
+  b: number;
+  a: number;
+}
+/** Reads a `std_msgs/msg/ColorRGBA`. */
+export function decodeColorRGBA(reader: CdrReader): ColorRGBA {
+  return {
+    r: reader.float32(),
+    g: reader.float32(),
+    b: reader.float32(),
+    a: reader.float32(),
+  };
+}
+
+export interface Vector3 {
+  x: number;
+  y: number;
+  z: number;
+}
+/** Reads a `geometry_msgs/msg/Vector3`. */
+export function decodeVector3(reader: CdrReader): Vector3 {
+  return {
+    x: reader.float64(),
+    y: reader.float64(),
+    z: reader.float64(),
+  };
+}
+
+export interface Quaternion {
+  x: number;
+  y: number;
+  z: number;
+  w: number;
+}
+/** Reads a `geometry_msgs/msg/Quaternion`. */
+export function decodeQuaternion(reader: CdrReader): Quaternion {
+  return {
+    x: reader.float64(),
+    y: reader.float64(),
+    z: reader.float64(),
+    w: reader.float64(),
+  };
+}
+
+export interface Point {
+  x: number;
+  y: number;
+  z: number;
+}
+/** Reads a `geometry_msgs/msg/Point`. */
+export function decodePoint(reader: CdrReader): Point {
+  return {
+    x: reader.float64(),
+    y: reader.float64(),
+    z: reader.float64(),
+  };
+}
+
+export interface Pose {
+  position: Point;
+  orientation: Quaternion;
+}
+/** Reads a `geometry_msgs/msg/Pose`. */
+export function decodePose(reader: CdrReader): Pose {
+  return {
+    position: decodePoint(reader),
+    orientation: decodeQuaternion(reader),
+  };
+}
+
+export interface Marker {
+  header: Header;
+  ns: string;
+  id: number;
+  type: number;
+  action: number;
+  pose: Pose;
+  scale: Vector3;
+  color: ColorRGBA;
+  lifetime: Duration;
+  frame_locked: boolean;
+  points: Point[];
+  colors: ColorRGBA[];
+  texture_resource: string;
+  texture: CompressedImage;
+  uv_coordinates: UVCoordinate[];
+  text: string;
+  mesh_resource: string;
+  mesh_file: MeshFile;
+  mesh_use_embedded_materials: boolean;
+}
+export const Marker = {
+  ARROW: 0,
+  CUBE: 1,
+  SPHERE: 2,
+  CYLINDER: 3,
+  LINE_STRIP: 4,
+  LINE_LIST: 5,
+  CUBE_LIST: 6,
+  SPHERE_LIST: 7,
+  POINTS: 8,
+  TEXT_VIEW_FACING: 9,
+  MESH_RESOURCE: 10,
+  TRIANGLE_LIST: 11,
+  ARROW_STRIP: 12,
+  ADD: 0,
+  MODIFY: 0,
+  DELETE: 2,
+  DELETEALL: 3,
+} as const;
+/** Reads a `visualization_msgs/msg/Marker`. */
+export function decodeMarker(reader: CdrReader): Marker {
+  return {
+    header: decodeHeader(reader),
+    ns: reader.string(),
+    id: reader.int32(),
+    type: reader.int32(),
+    action: reader.int32(),
+    pose: decodePose(reader),
+    scale: decodeVector3(reader),
+    color: decodeColorRGBA(reader),
+    lifetime: decodeDuration(reader),
+    frame_locked: reader.bool(),
+    points: reader.many(reader.length(), () => decodePoint(reader)),
+    colors: reader.many(reader.length(), () => decodeColorRGBA(reader)),
+    texture_resource: reader.string(),
+    texture: decodeCompressedImage(reader),
+    uv_coordinates: reader.many(reader.length(), () => decodeUVCoordinate(reader)),
+    text: reader.string(),
+    mesh_resource: reader.string(),
+    mesh_file: decodeMeshFile(reader),
+    mesh_use_embedded_materials: reader.bool(),
+  };
+}
+
+export interface MarkerArray {
+  markers: Marker[];
+}
+/** Reads a `visualization_msgs/msg/MarkerArray`. */
+export function decodeMarkerArray(reader: CdrReader): MarkerArray {
+  return {
+    markers: reader.many(reader.length(), () => decodeMarker(reader)),
+  };
+}
+
+/** Decoders by the name of the schema. */
+export const DECODERS = {
+  "flexdrill/msg/Ageing": decodeAgeing,
+  "flexdrill/msg/Alarm": decodeAlarm,
+  "flexdrill/msg/AlarmEvent": decodeAlarmEvent,
+  "flexdrill/msg/AlarmList": decodeAlarmList,
+  "flexdrill/msg/AppliedInputs": decodeAppliedInputs,
+  "flexdrill/msg/BitState": decodeBitState,
+  "flexdrill/msg/ContactForces": decodeContactForces,
+  "flexdrill/msg/JointDeflections": decodeJointDeflections,
+  "flexdrill/msg/RigInputs": decodeRigInputs,
+  "flexdrill/msg/SessionInfo": decodeSessionInfo,
+  "flexdrill/msg/TwinStatus": decodeTwinStatus,
+  "flexdrill/msg/WhirlState": decodeWhirlState,
+  "flexdrill/msg/WhirlWarning": decodeWhirlWarning,
+  "visualization_msgs/msg/MarkerArray": decodeMarkerArray,
+} as const;

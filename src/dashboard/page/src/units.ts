@@ -1,0 +1,81 @@
+// Units of the display. Messages are in SI; nothing but the display converts.
+
+/** SI with r/min and kN, or the field's units. */
+export type System = "si" | "field";
+
+/** What is shown: its unit in either system, the factor from SI, the digits behind the point. */
+interface Quantity {
+  unit: string;
+  factor: number;
+  digits: number;
+}
+
+const RPM = 30 / Math.PI;
+const POUND_FORCE = 4.4482216152605;
+const FOOT = 0.3048;
+
+const QUANTITIES = {
+  speed: { si: { unit: "r/min", factor: RPM, digits: 1 }, field: { unit: "r/min", factor: RPM, digits: 1 } },
+  weight: {
+    si: { unit: "kN", factor: 1e-3, digits: 1 },
+    field: { unit: "klbf", factor: 1e-3 / POUND_FORCE, digits: 2 },
+  },
+  force: {
+    si: { unit: "kN", factor: 1e-3, digits: 2 },
+    field: { unit: "lbf", factor: 1 / POUND_FORCE, digits: 0 },
+  },
+  torque: {
+    si: { unit: "N m", factor: 1, digits: 0 },
+    field: { unit: "ft lbf", factor: 1 / (POUND_FORCE * FOOT), digits: 1 },
+  },
+  depth: { si: { unit: "m", factor: 1, digits: 2 }, field: { unit: "ft", factor: 1 / FOOT, digits: 2 } },
+  gap: { si: { unit: "mm", factor: 1e3, digits: 1 }, field: { unit: "in", factor: 12 / FOOT, digits: 3 } },
+  angle: { si: { unit: "°", factor: 180 / Math.PI, digits: 2 }, field: { unit: "°", factor: 180 / Math.PI, digits: 2 } },
+} satisfies Record<string, Record<System, Quantity>>;
+
+export type Kind = keyof typeof QUANTITIES;
+
+/** What a kind of value is shown as. */
+export function quantity(kind: Kind, system: System): Quantity {
+  return QUANTITIES[kind][system];
+}
+
+/** Value in the display's unit. */
+export function convert(value: number, kind: Kind, system: System): number {
+  return value * quantity(kind, system).factor;
+}
+
+/** Value as digits, a dash where there is none. */
+export function digits(value: number, kind: Kind, system: System): string {
+  const { factor, digits } = quantity(kind, system);
+  return number(value * factor, digits);
+}
+
+/** Value with its unit. */
+export function withUnit(value: number, kind: Kind, system: System): string {
+  const { unit } = quantity(kind, system);
+  return `${digits(value, kind, system)}${unit === "°" ? "" : " "}${unit}`;
+}
+
+/** A number with so many digits behind the point, without a negative zero; a dash where there is none. */
+export function number(value: number, places: number): string {
+  if (!Number.isFinite(value)) return "–";
+  const text = value.toFixed(places);
+  return Number(text) === 0 ? text.replace("-", "") : text;
+}
+
+/** A time that has gone by. */
+export function lapse(seconds: number): string {
+  if (!Number.isFinite(seconds)) return "–";
+  if (seconds < 10) return `${seconds.toFixed(1)} s`;
+  if (seconds < 120) return `${seconds.toFixed(0)} s`;
+  if (seconds < 7200) return `${Math.floor(seconds / 60)} min ${String(Math.floor(seconds % 60)).padStart(2, "0")} s`;
+  return `${Math.floor(seconds / 3600)} h ${Math.floor((seconds % 3600) / 60)} min`;
+}
+
+/** Time of day on the rig's clock, as the browser's time zone has it. */
+export function clock(seconds: number): string {
+  if (!Number.isFinite(seconds)) return "--:--:--";
+  const date = new Date(seconds * 1e3);
+  return [date.getHours(), date.getMinutes(), date.getSeconds()].map((part) => String(part).padStart(2, "0")).join(":");
+}

@@ -1,0 +1,242 @@
+// The alarms by priority, with cause, consequence and what to do; requests of an operator; the journal.
+
+import * as api from "../api";
+import { h, setText, show } from "../dom";
+import { Alarm } from "../messages";
+import { clock, lapse, number } from "../units";
+import { type Context, Pace, type View } from "../view";
+import { ALARM_STATE, CHANGE, PRIORITY, PRIORITY_SHAPE, word } from "../words";
+import { nearest } from "../store/store";
+import { alarmPlace } from "./state";
+
+/** Entries of the journal that are shown. */
+const SHOWN = 100;
+
+export class Alarms implements View {
+  readonly element: HTMLElement;
+  private readonly list = h("ul", { class: "alarm-list", id: "alarm-list" });
+  private readonly quiet = h("ul", { class: "alarm-list" });
+  private readonly quietTitle = h("summary");
+  private readonly figures = h("p", { class: "hint" });
+  private readonly answer = h("p", { class: "answer", role: "status", id: "alarm-answer" });
+  private readonly journal = h("ol", { class: "journal", id: "journal" });
+  private readonly operator: HTMLInputElement;
+  private readonly reason = h("input", { type: "text", id: "alarm-reason", maxlength: "200", placeholder: "why" });
+  private readonly duration = h(
+    "select",
+    { id: "shelve-duration", "aria-label": "Shelve for" },
+    ...[
+      ["300", "5 min"],
+      ["900", "15 min"],
+      ["3600", "1 h"],
+      ["once", "until it is gone"],
+    ].map(([value, text]) => h("option", { value }, text)),
+  );
+  private readonly control = h("div", { class: "control" });
+  private readonly locked = h("p", { class: "hint" });
+  private readonly pace = new Pace(250);
+  private readonly open = new Set<string>();
+  private key = "";
+  private journalKey = "";
+
+  constructor(private readonly context: Context) {
+    this.operator = h("input", {
+      type: "text",
+      id: "operator",
+      maxlength: "60",
+      autocomplete: "name",
+      value: context.settings.operator,
+      onchange: () => context.change({ operator: this.operator.value.trim() }),
+    });
+    this.control.append(
+      h("label", {}, "operator", this.operator),
+      h("label", {}, "reason", this.reason),
+      h("label", {}, "shelve for", this.duration),
+      h("button", { type: "button", id: "acknowledge-all", onclick: () => this.request("acknowledge", "all") }, "Acknowledge all"),
+    );
+    this.element = h(
+      "section",
+      { class: "alarms", "aria-label": "Alarms" },
+      this.list,
+      this.locked,
+      this.control,
+      this.answer,
+      h("details", {}, this.quietTitle, this.quiet),
+      this.figures,
+      h("h2", {}, "Journal"),
+      this.journal,
+    );
+  }
+
+  private async request(what: "acknowledge" | "shelve" | "unshelve", id: string): Promise<void> {
+    const operator = this.operator.value.trim();
+    if (operator === "") {
+      this.say(false, "Say who you are: the journal keeps the name.");
+      this.operator.focus();
+      return;
+    }
+    const reason = this.reason.value.trim();
+    if (what === "shelve" && reason === "") {
+      this.say(false, "Say why it is put aside: the journal keeps the reason.");
+      this.reason.focus();
+      return;
+    }
+    this.context.change({ operator });
+    const duration = this.duration.value === "once" ? null : Number(this.duration.value);
+    const body = what === "shelve" ? { operator, id, reason, duration_s: duration } : { operator, id, reason };
+    const { ok, message } = await api.request(what, body);
+    this.say(ok, message || (ok ? "done" : "refused"));
+    if (ok) this.reason.value = "";
+  }
+
+  private say(ok: boolean, message: string): void {
+    this.answer.dataset.ok = String(ok);
+    setText(this.answer, `${ok ? "✓" : "✕"} ${message}`);
+  }
+
+  draw(now: number): void {
+    const { context } = this;
+    if (this.element.clientWidth === 0 || !this.pace.due(now, context.revision)) return;
+    const { store, settings } = context;
+    const allowed = store.session?.control === true && store.cursor === null && !store.isBag;
+    show(this.control, allowed);
+    show(this.locked, !allowed);
+    setText(
+      this.locked,
+      store.isBag || store.cursor !== null
+        ? "Looking at the past: alarms cannot be acknowledged here."
+        : "This server takes no requests; it does when started with --allow-control.",
+    );
+    const list = store.alarmsShown();
+    const key = `${list?.sequence} ${list?.header.stamp.sec} ${allowed} ${context.revision} ${[...this.open].join()}`;
+    if (key !== this.key) {
+      this.key = key;
+      this.fill(list?.alarms ?? null, allowed);
+      setText(
+        this.figures,
+        list
+          ? `${list.unacknowledged} to acknowledge · ${list.annunciations_last_ten_minutes} calls in ten minutes` +
+              `${list.flood ? " – FLOOD" : ""} · ${number(list.annunciations_per_hour, 1)} per hour`
+          : "",
+      );
+    }
+    const journalKey = `${store.journalRevision} ${settings.units} ${Math.floor(store.cursor ?? 0)}`;
+    if (journalKey !== this.journalKey) {
+      this.journalKey = journalKey;
+      this.fillJournal();
+    }
+  }
+
+  private fill(alarms: Alarm[] | null, allowed: boolean): void {
+    const calls = (alarm: Alarm) => alarm.state >= 1 && alarm.state <= 4;
+    const loud = (alarms ?? []).filter(calls);
+    const quiet = (alarms ?? []).filter((alarm) => !calls(alarm));
+    // The button that has the keyboard keeps it.
+    const focused = (document.activeElement as HTMLElement | null)?.dataset.key;
+    const unknown =
+      this.context.store.cursor === null
+        ? "Nothing heard of the alarms yet."
+        : "What stood at this time is not known; the journal below goes on.";
+    const empty = alarms ? "No alarm. Nothing to do." : unknown;
+    this.list.replaceChildren(
+      ...(loud.length > 0 ? loud.map((alarm) => this.entry(alarm, allowed)) : [h("li", { class: "calm" }, empty)]),
+    );
+    setText(this.quietTitle, `${quiet.length} alarms with nothing to do`);
+    this.quiet.replaceChildren(
+      ...quiet.map((alarm) => {
+        const shelve = allowed && alarm.state === Alarm.NORMAL ? this.button("shelve", alarm.id, "Shelve") : null;
+        return h("li", { class: "quiet" }, h("span", {}, `${alarm.name}: ${word(ALARM_STATE, alarm.state)}`), shelve);
+      }),
+    );
+    if (focused) this.element.querySelector<HTMLElement>(`[data-key="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  private button(what: "acknowledge" | "shelve" | "unshelve", id: string, text: string): HTMLElement {
+    return h("button", { type: "button", "data-key": `${what} ${id}`, onclick: () => this.request(what, id) }, text);
+  }
+
+  private entry(alarm: Alarm, allowed: boolean): HTMLElement {
+    const { store, settings } = this.context;
+    const place = alarmPlace(alarm, settings.units);
+    const since = alarm.since.sec > 0 ? store.shown - alarm.since.sec - alarm.since.nanosec * 1e-9 : NaN;
+    const unacknowledged = alarm.state === Alarm.ACTIVE_UNACKNOWLEDGED || alarm.state === Alarm.RETURNED_UNACKNOWLEDGED;
+    const details = h("details", { open: this.open.has(alarm.id) || unacknowledged });
+    details.addEventListener("toggle", () => {
+      if (details.open) this.open.add(alarm.id);
+      else this.open.delete(alarm.id);
+    });
+    const rows = [
+      ["Do", alarm.what_to_do],
+      ["Seen", alarm.evidence],
+      ["Cause", alarm.cause],
+      ["Else", alarm.consequence],
+    ].filter(([, text]) => text !== "");
+    details.append(
+      h("summary", {}, "what to do, why"),
+      h("dl", {}, ...rows.flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)])),
+    );
+    const where = place
+      ? h("button", { type: "button", class: "link", onclick: () => this.choose(alarm.measured_depth) }, place)
+      : null;
+    const shelved =
+      alarm.state === Alarm.SHELVED
+        ? alarm.shelved_one_shot
+          ? " until it is gone"
+          : ` until ${clock(alarm.shelved_until.sec)}`
+        : "";
+    return h(
+      "li",
+      { class: "alarm", "data-level": String(alarm.priority), "data-id": alarm.id, "data-calls": String(unacknowledged) },
+      h(
+        "div",
+        { class: "alarm-head" },
+        h("span", { class: "badge" }, `${PRIORITY_SHAPE[alarm.priority] || "○"} ${word(PRIORITY, alarm.priority)}`),
+        h("strong", {}, alarm.name),
+        h("span", { class: "since" }, Number.isFinite(since) ? lapse(Math.max(0, Math.floor(since))) : ""),
+        h("span", { class: "alarm-state" }, `${word(ALARM_STATE, alarm.state)}${shelved}`),
+      ),
+      where,
+      details,
+      allowed
+        ? h(
+            "div",
+            { class: "buttons" },
+            unacknowledged ? this.button("acknowledge", alarm.id, "Acknowledge") : null,
+            alarm.state === Alarm.SHELVED
+              ? this.button("unshelve", alarm.id, "Take off the shelf")
+              : this.button("shelve", alarm.id, "Shelve"),
+          )
+        : null,
+    );
+  }
+
+  private choose(depth: number): void {
+    const { geometry } = this.context.store;
+    if (!geometry) return;
+    const joint = nearest(geometry.jointDepth, depth);
+    this.context.choose({ joint, station: geometry.jointStation[joint] });
+  }
+
+  private fillJournal(): void {
+    const { store } = this.context;
+    const cursor = store.cursor ?? Infinity;
+    const entries = store.journal.filter((event) => Number(BigInt(event.stamp_ns)) / 1e9 <= cursor);
+    this.journal.replaceChildren(
+      ...entries
+        .slice(-SHOWN)
+        .reverse()
+        .map((event) => {
+          const time = Number(BigInt(event.stamp_ns)) / 1e9;
+          const who = event.operator_name ? ` by ${event.operator_name}` : "";
+          const why = event.reason ? ` (${event.reason})` : "";
+          return h(
+            "li",
+            {},
+            h("button", { type: "button", class: "link", onclick: () => store.lookAt(time) }, clock(time)),
+            ` ${PRIORITY_SHAPE[event.priority] ?? ""} ${event.name} ${word(CHANGE, event.change)}${who}${why}`,
+          );
+        }),
+    );
+    if (entries.length === 0) this.journal.append(h("li", { class: "none" }, "no change of an alarm yet"));
+  }
+}

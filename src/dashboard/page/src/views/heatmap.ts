@@ -1,0 +1,175 @@
+// Contact force by depth against time: where along the tool it rubs, and since when.
+
+import { fit, h, setText } from "../dom";
+import { roundUp } from "../scene/tool";
+import type { Vector } from "../store/layout";
+import { nearest } from "../store/store";
+import { shade } from "../theme";
+import { digits, withUnit } from "../units";
+import { type Context, Pace, type View } from "../view";
+
+/** Rows of the picture: finer than the joints are apart. */
+const ROWS = 96;
+/** Least time between two pictures (ms): a column is a second. */
+const INTERVAL = 500;
+
+export class HeatMap implements View {
+  readonly element: HTMLElement;
+  private readonly canvas: HTMLCanvasElement;
+  private readonly scale = h("span", { class: "scale" });
+  private readonly picture = document.createElement("canvas");
+  private readonly pace = new Pace(INTERVAL);
+  private drawn = "";
+  private most = 200;
+
+  constructor(
+    private readonly context: Context,
+    title: string,
+    private readonly vector: Vector,
+  ) {
+    this.canvas = h("canvas", { role: "img", "aria-label": `${title}: force by depth against time` });
+    this.element = h(
+      "section",
+      { class: "heatmap", "aria-label": title },
+      h("h2", {}, title, this.scale),
+      this.canvas,
+    );
+    this.canvas.addEventListener("click", (event) => this.look(event));
+  }
+
+  /** A click looks at that time and chooses that depth. */
+  private look(event: MouseEvent): void {
+    const { context } = this;
+    const { geometry } = context.store;
+    const [from, to] = context.range;
+    const across = event.offsetX / this.canvas.clientWidth;
+    const down = event.offsetY / this.canvas.clientHeight;
+    context.store.lookAt(from + across * (to - from));
+    if (!geometry) return;
+    const depth = geometry.stationDepth;
+    const station = nearest(depth, depth[0] + down * (depth[depth.length - 1] - depth[0]));
+    const joint = geometry.jointStation.indexOf(station);
+    context.choose({ station, joint: joint < 0 ? null : joint });
+  }
+
+  draw(now: number): void {
+    const { context } = this;
+    if (!this.pace.due(now, context.revision)) return;
+    const { store } = context;
+    const { layout, geometry } = store;
+    if (!layout || !geometry || this.canvas.clientWidth === 0) return;
+    const [from, to] = context.range;
+    const size = fit(this.canvas);
+    const shown = store.isBag ? Math.floor(2 * store.now) : store.cursor;
+    const range = `${from.toFixed(0)} ${to.toFixed(0)}`;
+    const key = `${store.hourRevision} ${range} ${shown} ${context.revision} ${size.width}x${size.height}`;
+    if (key === this.drawn || !(to > from)) return;
+    this.drawn = key;
+    this.fill(from, to);
+    this.paint(from, to, size);
+    setText(this.scale, `0 to ${withUnit(this.most, "force", context.settings.units)} (root scale)`);
+  }
+
+  /** One column per second or per frame of the hour, one row per part of the depth. */
+  private fill(from: number, to: number): void {
+    const { store, palette } = this.context;
+    const { layout, geometry, hour } = store;
+    if (!layout || !geometry) return;
+    const columns = Math.max(1, Math.min(1200, Math.round(to - from)));
+    const stations = layout.counts.stations;
+    const offset = layout.offset(this.vector);
+    const rowOf = new Int32Array(ROWS);
+    const [top, bottom] = [geometry.stationDepth[0], geometry.stationDepth[stations - 1]];
+    for (let row = 0; row < ROWS; row++) {
+      rowOf[row] = nearest(geometry.stationDepth, top + ((row + 0.5) / ROWS) * (bottom - top));
+    }
+    const values = new Float32Array(columns * stations).fill(NaN);
+    const first = Math.max(0, hour.before(from));
+    let most = 0;
+    for (let index = first; index < hour.length && hour.time(index) <= to; index++) {
+      const column = Math.min(columns - 1, Math.floor(((hour.time(index) - from) / (to - from)) * columns));
+      if (column < 0) continue;
+      const row = hour.row(index);
+      for (let station = 0; station < stations; station++) {
+        const value = row[offset + station];
+        const at = column * stations + station;
+        if (!(values[at] >= value)) values[at] = value;
+        if (value > most) most = value;
+      }
+    }
+    this.most = Math.max(200, roundUp(most));
+    this.picture.width = columns;
+    this.picture.height = ROWS;
+    const pencil = this.picture.getContext("2d");
+    if (!pencil) return;
+    const image = pencil.createImageData(columns, ROWS);
+    // A frame a second falls between two columns now and then; the one before stands for it.
+    const before = new Float32Array(ROWS).fill(NaN);
+    const missed = new Uint8Array(ROWS);
+    for (let column = 0; column < columns; column++) {
+      for (let row = 0; row < ROWS; row++) {
+        let value = values[column * stations + rowOf[row]];
+        if (Number.isNaN(value) && missed[row] === 0) {
+          value = before[row];
+          missed[row] = 1;
+        } else missed[row] = 0;
+        before[row] = value;
+        if (Number.isNaN(value)) continue;
+        const [r, g, b] = shade(Math.sqrt(value / this.most), palette);
+        const at = 4 * (row * columns + column);
+        image.data[at] = 255 * r;
+        image.data[at + 1] = 255 * g;
+        image.data[at + 2] = 255 * b;
+        image.data[at + 3] = 255;
+      }
+    }
+    pencil.putImageData(image, 0, 0);
+  }
+
+  private paint(from: number, to: number, { width, height, ratio }: { width: number; height: number; ratio: number }): void {
+    const { store, palette, place, settings } = this.context;
+    const { geometry } = store;
+    const pencil = this.canvas.getContext("2d");
+    if (!pencil || !geometry) return;
+    pencil.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pencil.clearRect(0, 0, width, height);
+    pencil.imageSmoothingEnabled = false;
+    pencil.drawImage(this.picture, 0, 0, width, height);
+    const depth = geometry.stationDepth;
+    const [top, bottom] = [depth[0], depth[depth.length - 1]];
+    pencil.strokeStyle = palette.mark;
+    pencil.lineWidth = 1;
+    if (place && place.station < depth.length) {
+      const y = ((depth[place.station] - top) / (bottom - top)) * height;
+      pencil.setLineDash([6, 4]);
+      pencil.beginPath();
+      pencil.moveTo(0, y);
+      pencil.lineTo(width, y);
+      pencil.stroke();
+      pencil.setLineDash([]);
+    }
+    const shown = store.cursor ?? (store.isBag ? store.now : null);
+    if (shown !== null) {
+      const x = ((shown - from) / (to - from)) * width;
+      pencil.beginPath();
+      pencil.moveTo(x, 0);
+      pencil.lineTo(x, height);
+      pencil.stroke();
+    }
+    pencil.font = "11px system-ui, sans-serif";
+    pencil.textBaseline = "middle";
+    for (const [share, at] of [
+      [0, top],
+      [0.5, (top + bottom) / 2],
+      [1, bottom],
+    ]) {
+      const text = share === 1 ? withUnit(at, "depth", settings.units) : digits(at, "depth", settings.units);
+      const y = Math.min(Math.max(share * height, 8), height - 8);
+      const wide = pencil.measureText(text).width;
+      pencil.fillStyle = `${palette.panel}d0`;
+      pencil.fillRect(2, y - 7, wide + 6, 14);
+      pencil.fillStyle = palette.ink;
+      pencil.fillText(text, 5, y + 0.5);
+    }
+  }
+}

@@ -1,0 +1,250 @@
+// One place of the tool: orbit, full spectrum, forces, stop moment, what the alarms say of it.
+
+import { configured } from "../configuration";
+import { h, setText, show } from "../dom";
+import { fullSpectrum } from "../spectrum";
+import type { Ring } from "../store/ring";
+import { convert, digits, number, quantity, withUnit } from "../units";
+import { type Context, Pace, type Place, type View } from "../view";
+import { PRIORITY, PRIORITY_SHAPE, SEVERITY, WHIRL_KIND, word } from "../words";
+import { drawOrbit, drawSpectrum, type Motion } from "./orbit";
+import { Strip } from "./strip";
+
+/** Length of the strips and of the motion that the spectrum is of (s). */
+const SPAN = 30;
+/** An alarm is of a place that is this near to it (m): half a link. */
+const NEAR = 0.1;
+
+export class PlaceView implements View {
+  readonly element: HTMLElement;
+  private readonly title = h("h2", { id: "place-title" });
+  private readonly none = h("p", { class: "none" }, "Click a joint or station of the tool, or go through the joints.");
+  private readonly body: HTMLElement;
+  private readonly orbit = h("canvas", { id: "orbit", role: "img", "aria-label": "Orbit of the pipe in its clearance" });
+  private readonly spectrum = h("canvas", { id: "spectrum", role: "img", "aria-label": "Full spectrum of the orbit" });
+  private readonly source = h("p", { class: "hint" });
+  private readonly facts = h("dl", { class: "facts-list" });
+  private readonly alarms = h("ul", { class: "place-alarms" });
+  private readonly forces: Strip;
+  private readonly outer: Strip;
+  private readonly moments: Strip;
+  private readonly momentTitle = h("h3");
+  private readonly innerTitle = h("h3");
+  private readonly outerTitle = h("h3");
+  private readonly fast = new Pace(50);
+  private readonly slow = new Pace(500);
+  private factsKey = "";
+
+  constructor(private readonly context: Context) {
+    const strip = (limits: () => number[], least: () => number) =>
+      new Strip(context, {
+        lines: 1,
+        axes: true,
+        limits,
+        range: (_min, max) => [0, Math.max(least(), max * 1.1)],
+      });
+    const units = () => context.settings.units;
+    this.forces = strip(
+      () => [],
+      () => convert(100, "force", units()),
+    );
+    this.outer = strip(
+      () => [],
+      () => convert(100, "force", units()),
+    );
+    const rated = () =>
+      convert(configured(context.store.sessionInfo?.configuration ?? "", "joint_load.rated_moment_nm"), "torque", units());
+    this.moments = strip(
+      () => [rated()].filter(Number.isFinite),
+      () => convert(10, "torque", units()),
+    );
+    const go = (by: number) => h("button", { type: "button", "aria-label": by < 0 ? "joint above" : "joint below", onclick: () => this.step(by) }, by < 0 ? "◂" : "▸");
+    this.body = h(
+      "div",
+      { class: "place-body" },
+      h("div", { class: "orbit-row" }, this.orbit, this.facts),
+      this.source,
+      h("h3", {}, "Full spectrum, in multiples of the drive's speed"),
+      this.spectrum,
+      this.innerTitle,
+      this.forces.element,
+      this.outerTitle,
+      this.outer.element,
+      this.momentTitle,
+      this.moments.element,
+      h("h3", {}, "Alarms here"),
+      this.alarms,
+    );
+    this.element = h(
+      "section",
+      { class: "place", "aria-label": "Place" },
+      h("div", { class: "row" }, go(-1), this.title, go(1)),
+      this.none,
+      this.body,
+    );
+  }
+
+  private step(by: number): void {
+    const { geometry } = this.context.store;
+    if (!geometry) return;
+    const count = geometry.jointDepth.length;
+    const joint = ((this.context.place?.joint ?? (by > 0 ? -1 : count)) + by + count) % count;
+    this.context.choose({ joint, station: geometry.jointStation[joint] });
+  }
+
+  draw(now: number): void {
+    const { context } = this;
+    const { store, place, settings } = context;
+    if (this.element.clientWidth === 0) return;
+    const geometry = store.geometry;
+    show(this.none, place === null);
+    show(this.body, place !== null);
+    if (!place || !geometry || place.station >= geometry.stationDepth.length) {
+      setText(this.title, "No place chosen");
+      return;
+    }
+    if (!this.fast.due(now, context.revision)) return;
+    const name = place.joint === null ? `Station ${place.station}` : `Joint ${place.joint + 1}`;
+    const inclination = number((geometry.stationInclination[place.station] * 180) / Math.PI, 0);
+    const depth = withUnit(geometry.stationDepth[place.station], "depth", settings.units);
+    setText(this.title, `${name} · ${depth} · ${inclination}°`);
+    const pipe = this.pipe(place);
+    const guide = this.guideNow(place.station);
+    const tool = store.session?.tool;
+    drawOrbit(this.orbit, context, pipe, guide, {
+      pipe: tool?.pipe_clearance ?? 0.0085,
+      guide: tool?.guide_clearance ?? 0.008,
+    });
+    if (!this.slow.due(now, context.revision)) return;
+    this.drawSlow(place, pipe);
+  }
+
+  /** The pipe's axis about the bore's: of joints at their own rate, of other stations as often as the shape comes. */
+  private pipe(place: Place): Motion {
+    const { store } = this.context;
+    const { layout } = store;
+    if (!layout) return { times: [], y: [], z: [] };
+    const { joints, stations } = layout.counts;
+    if (place.joint !== null) return motion(store.joints, place.joint, joints + place.joint, store.shown);
+    return motion(store.shapes, place.station, stations + place.station, store.shown);
+  }
+
+  private guideNow(station: number): [number, number] {
+    const { store } = this.context;
+    const moment = store.moment();
+    if (!moment) return [0, 0];
+    const { layout, row } = moment;
+    return [layout.vector(row, "guide_y")[station] || 0, layout.vector(row, "guide_z")[station] || 0];
+  }
+
+  private drawSlow(place: Place, pipe: Motion): void {
+    const { context } = this;
+    const { store, settings } = context;
+    const moment = store.moment();
+    const geometry = store.geometry;
+    if (!moment || !geometry) return;
+    const { layout, row } = moment;
+    const rate = pipe.times.length > 1 ? (pipe.times.length - 1) / (pipe.times[pipe.times.length - 1] - pipe.times[0]) : 0;
+    const turns = layout.scalar(row, "rotary_speed_applied") / (2 * Math.PI);
+    drawSpectrum(this.spectrum, context, fullSpectrum(pipe.y, pipe.z, rate), turns);
+    setText(
+      this.source,
+      pipe.times.length === 0
+        ? "Motion is kept for a minute; this time is longer ago. A recording has it all."
+        : `Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: in the ` +
+            `guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ${number(rate, 0)} positions a second` +
+            (place.joint === null ? "; a joint has more." : "."),
+    );
+    const { stations, joints } = layout.counts;
+    const unit = quantity("force", settings.units).unit;
+    this.strip(this.forces, store.contacts, place.station, "force");
+    this.strip(this.outer, store.contacts, stations + place.station, "force");
+    setText(this.innerTitle, `Pipe on guide (${unit}), largest per interval`);
+    setText(this.outerTitle, `Guide on wall (${unit}), largest per interval`);
+    show(this.momentTitle, place.joint !== null);
+    show(this.moments.element, place.joint !== null);
+    if (place.joint !== null) {
+      this.strip(this.moments, store.joints, 2 * joints + place.joint, "torque");
+      setText(this.momentTitle, `Moment of the stop (${quantity("torque", settings.units).unit}), dashed: rated`);
+    }
+    this.list(place);
+  }
+
+  private strip(strip: Strip, ring: Ring, column: number, kind: "force" | "torque"): void {
+    const { store, settings } = this.context;
+    const to = store.shown;
+    const times: number[] = [];
+    const values: (number | null)[] = [];
+    const factor = convert(1, kind, settings.units);
+    for (let index = Math.max(0, ring.before(to - SPAN)); index < ring.length; index++) {
+      const time = ring.time(index);
+      if (time > to) break;
+      times.push(time);
+      values.push(ring.value(index, column) * factor);
+    }
+    strip.set([times, values], to - SPAN, to);
+  }
+
+  private list(place: Place): void {
+    const { store, settings } = this.context;
+    const moment = store.moment();
+    const geometry = store.geometry;
+    if (!moment || !geometry) return;
+    const { layout, row } = moment;
+    const depth = geometry.stationDepth[place.station];
+    const facts: [string, string][] = [];
+    for (const [body, title] of [
+      [0, "Pipe"],
+      [1, "Guide"],
+    ] as const) {
+      const index = geometry.watchedDepth.findIndex(
+        (at, watched) => geometry.watchedBody[watched] === body && Math.abs(at - depth) < 1e-3,
+      );
+      if (index < 0) continue;
+      const kind = layout.vector(row, "whirl_kind")[index];
+      const ratio = layout.vector(row, "whirl_ratio")[index];
+      const severity = layout.vector(row, "whirl_severity")[index];
+      const of = Number.isFinite(ratio) ? ` ${number(ratio, 2)}×` : "";
+      facts.push([`${title}: whirl`, `${word(WHIRL_KIND, kind)}${of}${severity > 0 ? `, ${word(SEVERITY, severity)}` : ""}`]);
+      facts.push([`${title}: reach`, `${number(100 * layout.vector(row, "clearance_ratio")[index], 0)} %`]);
+      facts.push([`${title}: contact`, `${number(100 * layout.vector(row, "contact_duty")[index], 0)} %`]);
+    }
+    if (place.joint !== null) {
+      const bend = layout.vector(row, "joint_bend_angle")[place.joint];
+      const limit = geometry.jointLimit;
+      const at = bend >= limit ? " ◆ stop" : "";
+      facts.push([`Bend${at}`, `${digits(bend, "angle", settings.units)} / ${withUnit(limit, "angle", settings.units)}`]);
+      const stop = layout.vector(row, "joint_stop_moment")[place.joint];
+      facts.push(["Stop", withUnit(stop, "torque", settings.units)]);
+    }
+    const key = JSON.stringify(facts);
+    if (key !== this.factsKey) {
+      this.factsKey = key;
+      this.facts.replaceChildren(...facts.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]));
+    }
+    const here = (store.alarmsShown()?.alarms ?? []).filter(
+      (alarm) => alarm.state >= 1 && alarm.state <= 3 && Math.abs(alarm.measured_depth - depth) < NEAR,
+    );
+    this.alarms.replaceChildren(
+      ...(here.length > 0
+        ? here.map((alarm) =>
+            h("li", {}, `${PRIORITY_SHAPE[alarm.priority]} ${alarm.name} (${word(PRIORITY, alarm.priority)}): ${alarm.what_to_do}`),
+          )
+        : [h("li", { class: "none" }, "none")]),
+    );
+  }
+}
+
+/** Two columns of a ring over the last `SPAN` before a time. */
+function motion(ring: Ring, y: number, z: number, to: number): Motion {
+  const out: Motion = { times: [], y: [], z: [] };
+  for (let index = Math.max(0, ring.before(to - SPAN)); index < ring.length; index++) {
+    const time = ring.time(index);
+    if (time > to) break;
+    if (time < to - SPAN) continue;
+    out.times.push(time);
+    out.y.push(ring.value(index, y));
+    out.z.push(ring.value(index, z));
+  }
+  return out;
+}

@@ -1,0 +1,276 @@
+// The tool in its well, turned and zoomed by hand, finger and keys.
+
+import { fit, h, setText, show } from "../dom";
+import { Camera, project, type Vec3 } from "../scene/matrix";
+import { Renderer } from "../scene/renderer";
+import { ToolMeshes } from "../scene/tool";
+import { channels } from "../theme";
+import { clock, lapse, number, withUnit } from "../units";
+import { PRIORITY_SHAPE } from "../words";
+import type { Context, View } from "../view";
+
+/** How near a click must be to a station (pixels). */
+const REACH = 30;
+
+export class Scene implements View {
+  readonly element: HTMLElement;
+  /** Pictures drawn since the page was opened. */
+  pictures = 0;
+  private readonly canvas = h("canvas", {
+    id: "scene",
+    tabindex: "0",
+    role: "img",
+    "aria-label":
+      "The tool in its well. Arrow keys turn it, plus and minus zoom, brackets go from joint to joint, F shows all of it.",
+  });
+  private readonly overlay = h("div", { class: "overlay", "aria-hidden": "true" });
+  private readonly legend = h("p", { class: "legend" });
+  private readonly past = h("p", { class: "past-mark" });
+  private readonly trouble = h("p", { class: "trouble" });
+  private readonly camera = new Camera();
+  private readonly meshes = new ToolMeshes();
+  private renderer: Renderer | null = null;
+  private drawnKey = "";
+  private framed = "";
+  private moved = true;
+  private matrix: Float32Array<ArrayBufferLike> = new Float32Array(16);
+  private readonly pointers = new Map<number, { x: number; y: number }>();
+  private travelled = 0;
+
+  constructor(private readonly context: Context) {
+    const output = h("output", {}, `×${context.settings.exaggeration}`);
+    const slider = h("input", {
+      type: "range",
+      id: "exaggeration",
+      min: "1",
+      max: "30",
+      step: "1",
+      value: String(context.settings.exaggeration),
+      oninput: () => {
+        setText(output, `×${slider.value}`);
+        context.change({ exaggeration: Number(slider.value) });
+      },
+    });
+    const all = h("button", { type: "button", onclick: () => this.frame() }, "show all");
+    this.element = h(
+      "section",
+      { class: "scene", "aria-label": "Tool in its well" },
+      this.canvas,
+      this.overlay,
+      this.trouble,
+      this.past,
+      h("div", { class: "scene-tools" }, h("label", {}, "clearances ", slider, output), all),
+      this.legend,
+    );
+    try {
+      this.renderer = new Renderer(this.canvas);
+    } catch (error) {
+      setText(this.trouble, `No picture of the tool: ${(error as Error).message}. All other views work.`);
+    }
+    this.canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.renderer = null;
+    });
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      this.renderer = new Renderer(this.canvas);
+      this.drawnKey = "";
+    });
+    this.listen();
+  }
+
+  private listen(): void {
+    const { canvas, camera } = this;
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      this.pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+      if (this.pointers.size === 1) this.travelled = 0;
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const last = this.pointers.get(event.pointerId);
+      if (!last) return;
+      const [dx, dy] = [event.offsetX - last.x, event.offsetY - last.y];
+      this.travelled += Math.abs(dx) + Math.abs(dy);
+      if (this.pointers.size === 1) {
+        if (event.shiftKey || (event.buttons & 6) !== 0) camera.pan(dx / canvas.clientHeight, dy / canvas.clientHeight);
+        else camera.turn(-dx * 0.006, dy * 0.006);
+      } else {
+        // Two fingers: their distance zooms, their middle moves.
+        const [other] = [...this.pointers.entries()].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
+        const before = Math.hypot(last.x - other.x, last.y - other.y);
+        const after = Math.hypot(event.offsetX - other.x, event.offsetY - other.y);
+        if (after > 0 && before > 0) camera.zoom(before / after);
+        camera.pan(dx / 2 / canvas.clientHeight, dy / 2 / canvas.clientHeight);
+      }
+      last.x = event.offsetX;
+      last.y = event.offsetY;
+      this.moved = true;
+    });
+    const end = (event: PointerEvent) => {
+      const click = this.pointers.delete(event.pointerId) && this.pointers.size === 0 && this.travelled < 6;
+      if (click && event.type === "pointerup") this.pick(event.offsetX, event.offsetY);
+    };
+    canvas.addEventListener("pointerup", end);
+    canvas.addEventListener("pointercancel", end);
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        camera.zoom(Math.exp(event.deltaY * 0.001));
+        this.moved = true;
+      },
+      { passive: false },
+    );
+    canvas.addEventListener("keydown", (event) => {
+      const step = 0.08;
+      const actions: Record<string, () => void> = {
+        ArrowLeft: () => camera.turn(-step, 0),
+        ArrowRight: () => camera.turn(step, 0),
+        ArrowUp: () => camera.turn(0, step),
+        ArrowDown: () => camera.turn(0, -step),
+        "+": () => camera.zoom(0.9),
+        "-": () => camera.zoom(1 / 0.9),
+        f: () => this.frame(),
+        "[": () => this.step(-1),
+        "]": () => this.step(1),
+      };
+      const action = actions[event.key];
+      if (!action) return;
+      event.preventDefault();
+      event.stopPropagation();
+      action();
+      this.moved = true;
+    });
+  }
+
+  private frame(): void {
+    const { geometry } = this.context.store;
+    if (geometry) this.camera.frame(geometry.stationPosition, this.canvas.clientWidth / this.canvas.clientHeight);
+    this.moved = true;
+  }
+
+  /** Goes to the next or the previous joint. */
+  private step(by: number): void {
+    const { geometry } = this.context.store;
+    if (!geometry) return;
+    const count = geometry.jointDepth.length;
+    const joint = ((this.context.place?.joint ?? (by > 0 ? -1 : count)) + by + count) % count;
+    this.context.choose({ joint, station: geometry.jointStation[joint] });
+  }
+
+  private pick(x: number, y: number): void {
+    const { geometry } = this.context.store;
+    if (!geometry) return;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    let best = -1;
+    let distance = REACH;
+    const line = geometry.stationPosition;
+    for (let station = 0; station < line.length / 3; station++) {
+      const at: Vec3 = [line[3 * station], line[3 * station + 1], line[3 * station + 2]];
+      const seen = project(this.matrix, at, width, height);
+      if (!seen) continue;
+      // Joints draw clicks to them: they are what has an orbit at full rate.
+      const joint = geometry.jointStation.includes(station);
+      const away = Math.hypot(seen[0] - x, seen[1] - y) * (joint ? 0.6 : 1);
+      if (away < distance) [best, distance] = [station, away];
+    }
+    if (best < 0) return;
+    const joint = geometry.jointStation.indexOf(best);
+    this.context.choose({ station: best, joint: joint < 0 ? null : joint });
+  }
+
+  draw(): void {
+    const { context, canvas, renderer } = this;
+    const { store, settings, place } = context;
+    const moment = store.moment();
+    const geometry = store.geometry;
+    show(this.past, store.cursor !== null);
+    if (store.cursor !== null) setText(this.past, `PAST: ${clock(store.cursor)}, ${lapse(store.now - store.cursor)} ago`);
+    const known = moment !== null && geometry !== null;
+    if (renderer) setText(this.trouble, known ? "" : "Nothing heard of a tool yet.");
+    show(this.canvas, known);
+    show(this.legend, known);
+    if (!known || !renderer || canvas.clientWidth === 0) return;
+    const { width, height } = fit(canvas, 1.5);
+    // The picture changes with the shape, ten times a second; what else it shows comes along.
+    const past = store.cursor === null ? "" : moment.time;
+    const key = `${store.shapeRevision} ${past} ${context.revision} ${width}x${height}`;
+    if (key === this.drawnKey && !this.moved) return;
+    const framing = `${geometry.stationDepth.length} ${geometry.stationDepth.at(-1)} ${width}x${height}`;
+    if (framing !== this.framed) {
+      this.framed = framing;
+      this.frame();
+    }
+    if (key !== this.drawnKey) {
+      this.meshes.build(moment, geometry, store.session?.tool ?? null, settings.exaggeration, place?.station ?? null);
+      for (const mesh of this.meshes.all()) renderer.upload(mesh);
+    }
+    this.drawnKey = key;
+    this.moved = false;
+    this.pictures++;
+    this.paint(renderer, width / height);
+    this.annotate(width, height);
+  }
+
+  private paint(renderer: Renderer, aspect: number): void {
+    const { palette, theme } = this.context;
+    const { meshes } = this;
+    this.matrix = this.camera.matrix(aspect);
+    const [ink, muted, trace] = [palette.ink, palette.muted, palette.trace].map(channels);
+    const pipe = theme === "day" ? ([0.42, 0.45, 0.48] as const) : ([0.72, 0.75, 0.78] as const);
+    const guide = theme === "day" ? ([0.62, 0.66, 0.7] as const) : ([0.42, 0.47, 0.52] as const);
+    const bore = theme === "day" ? ([0.78, 0.75, 0.7] as const) : ([0.36, 0.34, 0.31] as const);
+    renderer.begin(this.matrix, this.camera.eye, channels(palette.well));
+    renderer.draw(meshes.bore, bore, 1, "back");
+    renderer.draw(meshes.guide, guide, 0.35, "back");
+    renderer.draw(meshes.pipe, pipe, 1);
+    renderer.draw(meshes.joints, muted, 1);
+    renderer.draw(meshes.stopped, ink, 1);
+    renderer.draw(meshes.pipeGuide, trace, 1);
+    renderer.draw(meshes.guideWall, ink, 1);
+    renderer.draw(meshes.guide, guide, 0.12, "front", 0.35);
+    const levels = [palette.trace, palette.low, palette.medium, palette.high].map(channels);
+    meshes.whirl.forEach((mesh, level) => renderer.draw(mesh, levels[level], 0.85));
+    renderer.draw(meshes.chosen, ink, 0.9);
+    renderer.draw(meshes.bore, bore, 0.04, "front", 0.25);
+  }
+
+  private annotate(width: number, height: number): void {
+    const { store, settings, place } = this.context;
+    const geometry = store.geometry;
+    if (!geometry) return;
+    const labels: { at: Vec3; text: string; level: number }[] = [...this.meshes.labels];
+    const station = (index: number): Vec3 => [
+      geometry.stationPosition[3 * index],
+      geometry.stationPosition[3 * index + 1],
+      geometry.stationPosition[3 * index + 2],
+    ];
+    const last = geometry.stationDepth.length - 1;
+    const name = (index: number, word: string) =>
+      `${word}, ${withUnit(geometry.stationDepth[index], "depth", settings.units)}`;
+    labels.push({ at: station(0), text: name(0, "kick-off"), level: 0 });
+    labels.push({ at: station(last), text: name(last, "bit"), level: 0 });
+    if (place && place.station <= last) {
+      const word = place.joint === null ? "station" : `joint ${place.joint + 1}`;
+      labels.push({ at: station(place.station), text: name(place.station, word), level: -1 });
+    }
+    while (this.overlay.children.length < labels.length) this.overlay.append(h("span", { class: "label" }));
+    [...this.overlay.children].forEach((child, index) => {
+      const element = child as HTMLElement;
+      const label = labels[index];
+      const at = label ? project(this.matrix, label.at, width, height) : null;
+      show(element, at !== null);
+      if (!at || !label) return;
+      setText(element, label.level > 0 ? `${PRIORITY_SHAPE[label.level]} ${label.text}` : label.text);
+      element.dataset.level = String(label.level);
+      element.style.transform = `translate(${Math.round(Math.min(Math.max(at[0], 4), width - 130))}px, ${Math.round(at[1])}px)`;
+    });
+    const scale = withUnit(this.meshes.fullForce, "force", settings.units);
+    setText(
+      this.legend,
+      `Clearances ×${number(settings.exaggeration, 0)}. Arrows: largest force of the last second on the pipe (blue) and ` +
+        `on the guide (${this.context.theme === "day" ? "black" : "white"}), longest ${scale}. ` +
+        `Thick collars: joints at their stop. Rings: backward or chaotic whirl.`,
+    );
+  }
+}

@@ -1,0 +1,217 @@
+// Targets for the rig's inputs: with limits, a second confirmation, and a dead man's renewal every second.
+
+import * as api from "../api";
+import { h, setText, show } from "../dom";
+import { convert, number, quantity } from "../units";
+import { type Context, Pace, type View } from "../view";
+
+/** The request is repeated this often (ms); the server stops three seconds after the last. */
+const RENEW = 1000;
+/** How long a request waits for its confirmation (ms). */
+const CONFIRM = 8000;
+
+export class Steer implements View {
+  readonly element: HTMLElement;
+  private readonly locked = h("p", { class: "hint", id: "steer-locked" });
+  private readonly form: HTMLElement;
+  private readonly speed = this.field("steer-rpm");
+  private readonly weight = this.field("steer-wob");
+  private readonly speedUnit = h("span");
+  private readonly weightUnit = h("span");
+  private readonly operator: HTMLInputElement;
+  private readonly token: HTMLInputElement;
+  private readonly ask = h("button", { type: "button", id: "steer-ask", onclick: () => this.confirmFirst() });
+  private readonly release = h(
+    "button",
+    { type: "button", id: "steer-release", onclick: () => void this.end() },
+    "Release: stop steering",
+  );
+  private readonly answer = h("p", { class: "answer", role: "status", id: "steer-answer" });
+  private readonly standing = h("dl", { class: "facts-list", id: "steer-state" });
+  private readonly pace = new Pace(250);
+  private state: api.ControlState | null = null;
+  private polled = -Infinity;
+  private confirming = 0;
+  /** What this page steers to, in the server's units; null while it does not. */
+  private target: { operator: string; rotary_speed_rpm: number; weight_on_bit_kn: number } | null = null;
+  private timer: ReturnType<typeof setInterval> | null = null;
+
+  constructor(private readonly context: Context) {
+    this.operator = h("input", { type: "text", id: "steer-operator", maxlength: "60", value: context.settings.operator });
+    this.token = h("input", {
+      type: "password",
+      id: "steer-token",
+      autocomplete: "off",
+      value: api.token(),
+      onchange: () => api.setToken(this.token.value),
+    });
+    this.form = h(
+      "div",
+      { class: "control steer-form" },
+      h("label", {}, "operator", this.operator),
+      h("label", {}, "token", this.token),
+      h("label", {}, this.speedUnit, this.speed),
+      h("label", {}, this.weightUnit, this.weight),
+      this.ask,
+      this.release,
+    );
+    for (const input of [this.speed, this.weight]) input.addEventListener("input", () => (this.confirming = 0));
+    this.element = h(
+      "section",
+      { class: "steer", "aria-label": "Steer" },
+      h("p", { class: "hint" }, "Sends targets for rotary speed and weight on bit to the twin, slewed and within its limits."),
+      this.locked,
+      this.form,
+      this.answer,
+      h("h2", {}, "Who drives"),
+      this.standing,
+    );
+  }
+
+  private field(id: string): HTMLInputElement {
+    return h("input", { type: "number", id, inputmode: "decimal", step: "any", required: true });
+  }
+
+  /** The form's values in the server's units, or why they cannot be sent. */
+  private read(): { rpm: number; kilonewton: number } | string {
+    const limits = this.context.store.session?.limits;
+    if (!limits) return "The limits of the twin are not known yet.";
+    const factor = convert(1e3, "weight", this.context.settings.units);
+    const rpm = this.speed.valueAsNumber;
+    const kilonewton = this.weight.valueAsNumber / factor;
+    if (Number.isNaN(rpm) || Number.isNaN(kilonewton)) return "Give a number for both targets.";
+    const speed = limits.rotary_speed_rpm;
+    const weight = limits.weight_on_bit_kn;
+    if (rpm < speed.min || rpm > speed.max) return `Rotary speed must be ${speed.min} to ${speed.max} r/min.`;
+    if (kilonewton < weight.min || kilonewton > weight.max) {
+      return `Weight on bit must be ${weight.min} to ${weight.max} kN.`;
+    }
+    if (this.operator.value.trim() === "") return "Say who you are: all clients see who steers.";
+    return { rpm, kilonewton };
+  }
+
+  private confirmFirst(): void {
+    const wanted = this.read();
+    if (typeof wanted === "string") return this.say(false, wanted);
+    if (performance.now() > this.confirming) {
+      this.confirming = performance.now() + CONFIRM;
+      return;
+    }
+    this.confirming = 0;
+    void this.begin(wanted.rpm, wanted.kilonewton);
+  }
+
+  private async begin(rpm: number, kilonewton: number): Promise<void> {
+    api.setToken(this.token.value);
+    const operator = this.operator.value.trim();
+    this.context.change({ operator });
+    const target = { operator, rotary_speed_rpm: rpm, weight_on_bit_kn: kilonewton };
+    const { ok, message } = await api.request("steer", target);
+    this.say(ok, message || (ok ? "steering" : "refused"));
+    if (!ok) return;
+    this.target = target;
+    this.polled = -Infinity;
+    this.timer ??= setInterval(() => void this.renew(), RENEW);
+  }
+
+  private async renew(): Promise<void> {
+    if (!this.target) return;
+    const { ok, message } = await api.request("steer", this.target);
+    // While the server does not answer the page goes on asking: the dead man's time is the server's.
+    if (!ok && this.target && message !== "the server does not answer") {
+      this.stop();
+      this.say(false, `Steering ended: ${message}`);
+    }
+  }
+
+  private async end(): Promise<void> {
+    const operator = this.target?.operator ?? this.operator.value.trim();
+    this.stop();
+    api.setToken(this.token.value);
+    const { ok, message } = await api.request("release", { operator });
+    this.say(ok, message || (ok ? "released" : "refused"));
+    this.polled = -Infinity;
+  }
+
+  private stop(): void {
+    this.target = null;
+    if (this.timer !== null) clearInterval(this.timer);
+    this.timer = null;
+  }
+
+  private say(ok: boolean, message: string): void {
+    this.answer.dataset.ok = String(ok);
+    setText(this.answer, `${ok ? "✓" : "✕"} ${message}`);
+  }
+
+  /** Somebody steers: for the line over all views. */
+  get driving(): api.ControlState | null {
+    return this.state?.driving ? this.state : null;
+  }
+
+  draw(now: number): void {
+    const { context } = this;
+    const { store, settings } = context;
+    if (!store.isBag && store.session?.control && now - this.polled > 1000) {
+      this.polled = now;
+      void api.control().then((state) => (this.state = state));
+    }
+    if (this.element.clientWidth === 0 || !this.pace.due(now, context.revision)) return;
+    const allowed = store.session?.control === true && !store.isBag;
+    show(this.locked, !allowed);
+    show(this.form, allowed);
+    setText(
+      this.locked,
+      store.isBag ? "A recording cannot be steered." : "Steering is off: start the server with --allow-control and open the address that it prints.",
+    );
+    const limits = store.session?.limits;
+    const unit = quantity("weight", settings.units).unit;
+    if (limits) {
+      const factor = convert(1e3, "weight", settings.units);
+      const { rotary_speed_rpm: speed, weight_on_bit_kn: weight } = limits;
+      setText(this.speedUnit, `rotary speed, ${speed.min} to ${speed.max} r/min, ${number(speed.slew_per_s, 0)} per s`);
+      setText(
+        this.weightUnit,
+        `weight on bit, ${number(weight.min * factor, 0)} to ${number(weight.max * factor, 1)} ${unit}, ` +
+          `${number(weight.slew_per_s * factor, 1)} per s`,
+      );
+    }
+    const confirming = performance.now() < this.confirming;
+    this.ask.classList.toggle("confirm", confirming);
+    setText(
+      this.ask,
+      confirming
+        ? `Confirm: ${this.speed.value} r/min, ${this.weight.value} ${unit}`
+        : this.target
+          ? "Change the targets…"
+          : "Begin to steer…",
+    );
+    show(this.release, this.state?.driving === true || this.target !== null);
+    this.fill();
+  }
+
+  private fill(): void {
+    const { store, settings } = this.context;
+    const state = this.state;
+    const unit = quantity("weight", settings.units).unit;
+    const factor = convert(1e3, "weight", settings.units);
+    const pair = (rpm: number | null, weight: number | null) =>
+      `${number(rpm ?? NaN, 1)} r/min, ${number((weight ?? NaN) * factor, 1)} ${unit}`;
+    const drivers = [...new Set(store.status?.input_driver ?? [])].filter((name) => name !== "");
+    const rows: [string, string][] = [["Publishers", drivers.join("; ") || "nobody"]];
+    if (state) {
+      rows.push(["This server", state.driving ? `steers for ${state.by ?? "?"}` : "does not steer"]);
+      if (state.driving) {
+        rows.push(["Targets", pair(state.target_rpm, state.target_wob_kn)]);
+        rows.push(["Sent", pair(state.sent_rpm, state.sent_wob_kn)]);
+      }
+      rows.push(["Applied", pair(state.applied_rpm, state.applied_wob_kn)]);
+      if (state.other_driver) rows.push(["In the way", state.other_driver]);
+      if (state.ended) rows.push(["Ended", state.ended]);
+    }
+    const key = JSON.stringify(rows);
+    if (this.standing.dataset.key === key) return;
+    this.standing.dataset.key = key;
+    this.standing.replaceChildren(...rows.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]));
+  }
+}

@@ -1,0 +1,73 @@
+// Codes of the messages as words, the same as in the terminal's dashboard.
+
+import { Alarm, AlarmEvent, TwinStatus, WhirlState } from "./messages";
+
+export const RUN_STATE: Record<number, string> = {
+  [TwinStatus.STARTING]: "STARTING",
+  [TwinStatus.RUNNING]: "RUNNING",
+  [TwinStatus.PAUSED]: "PAUSED",
+  [TwinStatus.FAILED]: "FAILED",
+};
+
+export const INPUT_STATE: Record<number, string> = {
+  [TwinStatus.INPUT_NOT_RECEIVED]: "not received",
+  [TwinStatus.INPUT_OK]: "ok",
+  [TwinStatus.INPUT_SLOW]: "slow",
+  [TwinStatus.INPUT_STALE]: "STALE",
+  [TwinStatus.INPUT_REJECTED]: "REJECTED",
+};
+
+export const QUALITY: Record<number, string> = {
+  [TwinStatus.QUALITY_GOOD]: "good",
+  [TwinStatus.QUALITY_DEGRADED]: "degraded",
+  [TwinStatus.QUALITY_POOR]: "POOR",
+};
+
+export const SEVERITY: Record<number, string> = { 0: "ok", 1: "watch", 2: "warning", 3: "critical" };
+
+export const WHIRL_KIND: Record<number, string> = {
+  [WhirlState.NONE]: "none",
+  [WhirlState.FORWARD]: "forward",
+  [WhirlState.BACKWARD]: "backward",
+  [WhirlState.CHAOTIC]: "chaotic",
+  [WhirlState.JOINT_VIBRATION]: "joint vibration",
+};
+
+export const PRIORITY: Record<number, string> = {
+  [Alarm.NO_PRIORITY]: "–",
+  [Alarm.LOW]: "low",
+  [Alarm.MEDIUM]: "medium",
+  [Alarm.HIGH]: "high",
+};
+
+export const ALARM_STATE: Record<number, string> = {
+  [Alarm.NORMAL]: "normal",
+  [Alarm.ACTIVE_UNACKNOWLEDGED]: "active, unacknowledged",
+  [Alarm.ACTIVE_ACKNOWLEDGED]: "active, acknowledged",
+  [Alarm.RETURNED_UNACKNOWLEDGED]: "returned, unacknowledged",
+  [Alarm.SHELVED]: "shelved",
+  [Alarm.SUPPRESSED_BY_DESIGN]: "suppressed: the drive stands or runs up",
+  [Alarm.OUT_OF_SERVICE]: "out of service",
+};
+
+export const CHANGE: Record<number, string> = {
+  [AlarmEvent.ACTIVATED]: "activated",
+  [AlarmEvent.RAISED]: "raised",
+  [AlarmEvent.LOWERED]: "lowered",
+  [AlarmEvent.RETURNED]: "returned",
+  [AlarmEvent.ACKNOWLEDGED]: "acknowledged",
+  [AlarmEvent.SHELVED]: "shelved",
+  [AlarmEvent.UNSHELVED]: "unshelved",
+  [AlarmEvent.SUPPRESSED]: "suppressed",
+  [AlarmEvent.RELEASED]: "released",
+  [AlarmEvent.TAKEN_OUT]: "taken out",
+  [AlarmEvent.PUT_BACK]: "put back",
+};
+
+/** A word for a code, a question mark for one that this version does not know. */
+export function word(words: Record<number, string>, code: number): string {
+  return words[code] ?? "?";
+}
+
+/** Shape that stands for a priority beside its colour and word: square, triangle, circle. */
+export const PRIORITY_SHAPE: Record<number, string> = { 0: "", 1: "●", 2: "▲", 3: "■" };

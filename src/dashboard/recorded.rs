@@ -1,0 +1,107 @@
+//! A bag on the page: played by the player, and read through once for history, journal and incidents.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use foxglove::WebSocketServerHandle;
+
+use super::PlayedBag;
+use super::board::Board;
+use super::history::CAPACITY;
+use super::listen::CDR_HEADER;
+use crate::bag::{self, Bag, BagMessage};
+use crate::live::{self, Hub, Player, Playing, States};
+use crate::messages::topics::{self, TopicInfo};
+use crate::told::printable;
+
+/// A bag that is shown.
+pub(super) struct Recorded {
+    pub board: Arc<Board>,
+    pub played: Arc<PlayedBag>,
+    pub namespace: String,
+    /// Ends when this is dropped.
+    _playing: Playing,
+}
+
+impl Recorded {
+    /// Begins to play and to read it; the protocol's server with it.
+    pub async fn start(path: &Path) -> anyhow::Result<(Self, Arc<WebSocketServerHandle>)> {
+        let bag = bag::open(path)?;
+        let (start, end) = live::range(&bag, path)?;
+        let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref))?;
+        let protocol = Arc::new(live::start_protocol(&hub, Some((start, end))).await?);
+        let namespace = bag
+            .topics()
+            .iter()
+            .find_map(|topic| topic.namespace(topics::STATUS.name).map(str::to_owned));
+        let states = Arc::new(States::default());
+        let seconds = (end - start).div_ceil(CAPACITY as u64 * 1_000_000_000);
+        let board = Arc::new(Board::new(u32::try_from(seconds).unwrap_or(u32::MAX)));
+        board.with_history(|history| history.set_complete(false));
+        let played = Arc::new(PlayedBag {
+            name: path
+                .file_name()
+                .map(|name| name.to_string_lossy().into_owned())
+                .unwrap_or_default(),
+            start,
+            end,
+            ready: AtomicBool::new(false),
+        });
+        let through = ReadThrough {
+            bag: bag::open(path)?,
+            board: Arc::clone(&board),
+            states: Arc::clone(&states),
+            played: Arc::clone(&played),
+        };
+        // Left behind at the end: it only reads.
+        std::thread::Builder::new()
+            .name("reader".into())
+            .spawn(move || through.run())?;
+        let playing = Player::start(bag, (start, end), &hub, &protocol, &states)?;
+        let recorded = Self {
+            board,
+            played,
+            namespace: namespace.unwrap_or_else(|| "/".to_owned()),
+            _playing: playing,
+        };
+        Ok((recorded, protocol))
+    }
+}
+
+struct ReadThrough {
+    bag: Bag,
+    board: Arc<Board>,
+    states: Arc<States>,
+    played: Arc<PlayedBag>,
+}
+
+impl ReadThrough {
+    fn run(mut self) {
+        let began = std::time::Instant::now();
+        for message in self.bag.by_ref() {
+            match message {
+                Ok(message) => {
+                    self.states.observe(&message);
+                    if let Some((topic, body)) = known(&message) {
+                        self.board.observe(topic, body, message.log_time);
+                    }
+                }
+                Err(error) => tracing::warn!("{}", printable(&error.to_string())),
+            }
+        }
+        self.board.with_history(super::history::History::finish);
+        self.played.ready.store(true, Ordering::Release);
+        tracing::info!(
+            "the bag has been read through in {:.1} s",
+            began.elapsed().as_secs_f64()
+        );
+    }
+}
+
+/// Which of the node's topics a message is on, and its body.
+fn known(message: &BagMessage) -> Option<(&'static TopicInfo, &[u8])> {
+    let is_it = |topic: &&TopicInfo| message.topic.ros_type == topic.kind.ros_type && message.topic.is(topic.name);
+    let topic = topics::ALL.iter().find(is_it)?;
+    Some((topic, message.data.strip_prefix(&CDR_HEADER)?))
+}

@@ -1,0 +1,209 @@
+//! What a run is made of, for the page: places along the tool and limits of the inputs, from the configuration that
+//! `twin/session` tells.
+
+use serde_json::{Value, json};
+
+use crate::messages::SessionInfo;
+use flexdrill_config::Config;
+use flexdrill_core::tool::ToolDescription;
+use flexdrill_core::tool::well::{WellPath, frame_along, tangent};
+
+/// Range and slew limit of an input, in the unit of its topic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Limit {
+    pub min: f64,
+    pub max: f64,
+    /// Per second.
+    pub slew: f64,
+}
+
+impl Limit {
+    fn json(&self) -> Value {
+        json!({"min": self.min, "max": self.max, "slew_per_s": self.slew})
+    }
+}
+
+/// A place on the bore's axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    /// m, in the frame of all headers.
+    position: [f64; 3],
+    /// Unit vector towards the low side.
+    low_side: [f64; 3],
+}
+
+impl Place {
+    /// How far a point of the tool's shape is displaced from the axis here: horizontally, and towards the low side (m).
+    pub fn displacement(&self, point: [f64; 3]) -> [f64; 2] {
+        let away: [f64; 3] = std::array::from_fn(|axis| point[axis] - self.position[axis]);
+        let low = (0..3).map(|axis| away[axis] * self.low_side[axis]).sum();
+        [away[1] - low * self.low_side[1], low]
+    }
+}
+
+/// A run.
+#[derive(Debug, Clone)]
+pub(super) struct Session {
+    pub config_hash: String,
+    /// ns since 1970.
+    pub start: i64,
+    /// Speed (r/min) and weight (kN).
+    pub limits: [Limit; 2],
+    /// Stations, top to bottom.
+    pub places: Vec<Place>,
+    /// Number of joints.
+    pub joints: usize,
+    /// Factor on displacements in the tool's shape.
+    pub exaggeration: f64,
+    tool: Value,
+}
+
+impl Session {
+    /// As a message tells it.
+    ///
+    /// # Errors
+    /// When the configuration is none that this version reads, in words.
+    pub fn new(info: &SessionInfo) -> Result<Self, String> {
+        let told = |why: String| format!("the configuration that twin/session tells cannot be read: {why}");
+        let config = Config::from_text("twin/session", &info.configuration).map_err(|error| told(error.to_string()))?;
+        let description = config.tool();
+        let stations = stations(&description);
+        let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
+        let places = stations.iter().map(|station| Place {
+            position: station.position,
+            low_side: frame_along(tangent(station.inclination)).column(2).into_owned().into(),
+        });
+        Ok(Self {
+            config_hash: info.config_hash.clone(),
+            start: info.start.to_nanoseconds(),
+            limits: [
+                Limit {
+                    min: speed.min_rpm,
+                    max: speed.max_rpm,
+                    slew: speed.slew_rpm_per_s,
+                },
+                Limit {
+                    min: weight.min_kn,
+                    max: weight.max_kn,
+                    slew: weight.slew_kn_per_s,
+                },
+            ],
+            places: places.collect(),
+            joints: description.links.saturating_sub(1),
+            exaggeration: config.outputs.exaggeration,
+            tool: tool(&config, &description, &stations),
+        })
+    }
+
+    /// Both limits, as the page gets them.
+    pub fn limits_json(&self) -> Value {
+        json!({"rotary_speed_rpm": self.limits[0].json(), "weight_on_bit_kn": self.limits[1].json()})
+    }
+
+    /// The tool in its well, as the page gets it.
+    pub fn tool_json(&self) -> &Value {
+        &self.tool
+    }
+}
+
+/// A place that messages speak of.
+struct Station {
+    /// Measured depth (m).
+    depth: f64,
+    /// rad.
+    inclination: f64,
+    /// m, in the frame of all headers.
+    position: [f64; 3],
+}
+
+/// Stations as the model has them: evenly along the bore, so many per link.
+fn stations(tool: &ToolDescription) -> Vec<Station> {
+    let path = WellPath::new(&tool.well);
+    let last = tool.links * tool.elements_per_link;
+    let at = |number: usize| {
+        let depth = path.length() / last as f64 * number as f64;
+        Station {
+            depth,
+            inclination: path.inclination(depth),
+            position: path.position(depth).into(),
+        }
+    };
+    (0..=last).map(at).collect()
+}
+
+fn tool(config: &Config, tool: &ToolDescription, stations: &[Station]) -> Value {
+    let joints: Vec<Value> = stations
+        .iter()
+        .enumerate()
+        .step_by(tool.elements_per_link)
+        .skip(1)
+        .take(tool.links.saturating_sub(1))
+        .map(|(number, station)| {
+            json!({"measured_depth": station.depth, "inclination": station.inclination, "station": number})
+        })
+        .collect();
+    let places: Vec<Value> = stations
+        .iter()
+        .map(|station| {
+            let position = station.position;
+            json!({"measured_depth": station.depth, "inclination": station.inclination, "position": position})
+        })
+        .collect();
+    let pipe = tool.pipe_contact_diameters.iter().copied().fold(0.0, f64::max);
+    let build_radius = config.well.smallest_radius();
+    json!({
+        "title": config.run.title,
+        "stations": places,
+        "joints": joints,
+        "bit_depth": stations.last().map(|station| station.depth),
+        "bore_radius": 0.5 * tool.hole_diameter,
+        "guide_radius_outer": 0.5 * tool.guide_section.outer_diameter,
+        "guide_radius_inner": 0.5 * tool.guide_section.inner_diameter,
+        "pipe_radius_outer": 0.5 * pipe,
+        "pipe_clearance": config.inner_clearance(),
+        "guide_clearance": config.outer_clearance(),
+        "build_radius": build_radius.is_finite().then_some(build_radius),
+        "joint_limit": tool.joint.limit,
+        "exaggeration": config.outputs.exaggeration,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_papers_tool_has_the_papers_places() {
+        let configuration = include_str!("../../config/default.yaml").to_owned();
+        let session = Session::new(&SessionInfo {
+            configuration,
+            ..SessionInfo::default()
+        })
+        .unwrap();
+        assert_eq!((session.places.len(), session.joints), (166, 32));
+        assert_eq!((session.limits[0].max, session.limits[1].slew), (120.0, 10.0));
+        let tool = session.tool_json();
+        assert_eq!(tool["build_radius"], 3.2);
+        assert_eq!(tool["joints"][0]["station"], 5);
+        let near = |value: &Value, wanted: f64| (value.as_f64().unwrap() - wanted).abs() < 1e-9;
+        assert!(
+            near(&tool["bore_radius"], 0.059) && near(&tool["pipe_clearance"], 0.0085),
+            "{tool}"
+        );
+        // A quarter circle ends as deep as its radius, and as far out.
+        let end = &tool["stations"][165]["position"];
+        assert!(near(&end[0], 3.2) && near(&end[2], 3.2), "{end}");
+        // There, the low side is down.
+        let [y, z] = session.places[165].displacement([3.2, 0.001, 3.202]);
+        assert!((y - 0.001).abs() < 1e-9 && (z - 0.002).abs() < 1e-9, "{y} {z}");
+    }
+
+    #[test]
+    fn a_foreign_configuration_is_told_not_guessed() {
+        let info = SessionInfo {
+            configuration: "well: 3".to_owned(),
+            ..SessionInfo::default()
+        };
+        assert!(Session::new(&info).unwrap_err().contains("twin/session"));
+    }
+}

@@ -1,0 +1,130 @@
+//! What drove the tool and what of it reached the bit.
+
+use std::collections::BTreeMap;
+
+use super::history::History;
+use crate::messages::{AppliedInputs, BitState, JointDeflections, RigInputs};
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+
+/// Below this speed the drive stands, and torques say nothing of transfer (rad/s): 1 r/min.
+const STANDS: f64 = 0.105;
+/// Most changes of parameters that are kept.
+const CHANGES: usize = 200;
+
+/// Rotary speed and weight on bit in SI.
+#[derive(Debug, Default)]
+pub(super) struct Pair {
+    pub rotary_speed: History,
+    pub weight_on_bit: History,
+}
+
+/// A parameter that was changed while it ran.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Change {
+    /// s from the beginning.
+    pub time: f64,
+    pub name: String,
+    pub value: f64,
+}
+
+/// Means while the drive turns.
+#[derive(Debug, Default, Clone, Copy)]
+pub(super) struct Transfer {
+    top: f64,
+    bit: f64,
+    count: u64,
+}
+
+impl Transfer {
+    /// Mean torque at the uppermost joint and of the bit (N m); `None` when the drive never turned.
+    pub(super) fn means(&self) -> Option<[f64; 2]> {
+        let count = self.count as f64;
+        (self.count > 0).then(|| [self.top / count, self.bit / count])
+    }
+}
+
+/// Inputs, bit and torque over time.
+#[derive(Debug, Default)]
+pub(super) struct Drive {
+    /// As the rig sent them.
+    pub received: Pair,
+    /// As the model was asked for them.
+    pub asked: Pair,
+    /// Speed of the bit (rad/s), weight on it (N).
+    pub bit: Pair,
+    /// Through the uppermost joint (N m).
+    pub top_torque: History,
+    pub bit_torque: History,
+    pub stick_slip: History,
+    pub lateral_acceleration: History,
+    pub transfer: Transfer,
+    /// Messages of applied inputs by the worse state of both inputs.
+    pub input_quality: BTreeMap<u8, u64>,
+    pub changes: Vec<Change>,
+    /// Changes beyond those.
+    pub more_changes: u64,
+    pub resets: u64,
+    newest_bit_torque: Option<f64>,
+    known: BTreeMap<String, f64>,
+}
+
+impl Drive {
+    pub(super) fn rig_inputs(&mut self, time: f64, message: &RigInputs) {
+        self.received_speed(time, message.rotary_speed_rpm);
+        self.received_weight(time, message.weight_on_bit_kn);
+    }
+
+    pub(super) fn received_speed(&mut self, time: f64, rpm: f64) {
+        self.received.rotary_speed.push(time, rpm_to_rad_per_s(rpm));
+    }
+
+    pub(super) fn received_weight(&mut self, time: f64, kn: f64) {
+        self.received.weight_on_bit.push(time, kn_to_n(kn));
+    }
+
+    pub(super) fn applied(&mut self, time: f64, message: &AppliedInputs) {
+        self.asked.rotary_speed.push(time, message.rotary_speed);
+        self.asked.weight_on_bit.push(time, message.weight_on_bit);
+        *self.input_quality.entry(message.input_quality).or_default() += 1;
+        self.resets += u64::from(message.reset);
+        for (name, value) in message.parameter_name.iter().zip(&message.parameter_value) {
+            // Sent again every second: only what differs is a change.
+            if self.known.get(name) == Some(value) {
+                continue;
+            }
+            if self.changes.len() == CHANGES {
+                self.more_changes += 1;
+                continue;
+            }
+            self.known.insert(name.clone(), *value);
+            self.changes.push(Change {
+                time,
+                name: name.clone(),
+                value: *value,
+            });
+        }
+    }
+
+    pub(super) fn bit(&mut self, time: f64, message: &BitState) {
+        self.bit.rotary_speed.push(time, message.rotary_speed);
+        self.bit.weight_on_bit.push(time, message.weight_on_bit);
+        self.bit_torque.push(time, message.torque);
+        self.stick_slip.push(time, message.stick_slip_index);
+        self.lateral_acceleration.push(time, message.lateral_acceleration_peak);
+        self.newest_bit_torque = Some(message.torque);
+    }
+
+    pub(super) fn joints(&mut self, time: f64, message: &JointDeflections) {
+        let (Some(&torque), Some(&spin)) = (message.torque.first(), message.spin_rate.first()) else {
+            return;
+        };
+        self.top_torque.push(time, torque);
+        if let Some(bit) = self.newest_bit_torque.filter(|bit| (bit + torque).is_finite())
+            && spin.abs() > STANDS
+        {
+            self.transfer.top += torque;
+            self.transfer.bit += bit;
+            self.transfer.count += 1;
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! How the twin itself fared: pace, model, recording.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::history::History;
+use crate::messages::TwinStatus;
+
+/// Most publishers of an input that are named.
+const DRIVERS: usize = 8;
+
+/// What the status messages say.
+#[derive(Debug, Default)]
+pub(super) struct Health {
+    pub messages: u64,
+    pub real_time_factor: History,
+    pub lateness: History,
+    pub step_time_p99: History,
+    pub step_time_max: f64,
+    /// Messages by model quality.
+    pub quality: BTreeMap<u8, u64>,
+    /// The newest cause of a quality that is not good.
+    pub quality_cause: String,
+    /// Messages by the state of each input.
+    pub inputs: BTreeMap<String, BTreeMap<u8, u64>>,
+    /// Publishers that drove each input.
+    pub drivers: BTreeMap<String, BTreeSet<String>>,
+    /// Messages by state of the twin.
+    pub states: BTreeMap<u8, u64>,
+    /// Longest time between two heartbeats (s), and when (s from the beginning).
+    pub longest_silence: (f64, f64),
+    pub newest: Option<TwinStatus>,
+    last_time: Option<f64>,
+}
+
+impl Health {
+    pub(super) fn status(&mut self, time: f64, status: TwinStatus) {
+        self.messages += 1;
+        self.real_time_factor.push(time, status.real_time_factor);
+        self.lateness.push(time, status.lateness);
+        self.step_time_p99.push(time, status.step_time_p99);
+        self.step_time_max = self.step_time_max.max(status.step_time_max);
+        *self.quality.entry(status.model_quality).or_default() += 1;
+        if status.model_quality != TwinStatus::QUALITY_GOOD {
+            self.quality_cause.clone_from(&status.model_quality_cause);
+        }
+        for (name, state) in status.input_name.iter().zip(&status.input_state) {
+            *self.inputs.entry(name.clone()).or_default().entry(*state).or_default() += 1;
+        }
+        for (name, driver) in status.input_name.iter().zip(&status.input_driver) {
+            let drivers = self.drivers.entry(name.clone()).or_default();
+            if !driver.is_empty() && drivers.len() < DRIVERS {
+                drivers.insert(driver.clone());
+            }
+        }
+        *self.states.entry(status.state).or_default() += 1;
+        if let Some(last) = self.last_time.filter(|last| time - last > self.longest_silence.0) {
+            self.longest_silence = (time - last, last);
+        }
+        self.last_time = Some(time);
+        self.newest = Some(status);
+    }
+}

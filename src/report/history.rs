@@ -1,0 +1,177 @@
+//! A quantity over time in bounded memory.
+
+/// Most buckets: about as many as a figure can show.
+const MOST: usize = 600;
+/// Width of a bucket as long as there is room (s): outputs come at up to 50 Hz.
+const FINEST: f64 = 0.02;
+/// Buckets without a value that do not interrupt the line.
+const GAP: usize = 3;
+/// Time without a value that does not interrupt the line (s): some topics come once per second.
+const GAP_TIME: f64 = 2.5;
+
+#[derive(Debug, Clone, Copy)]
+struct Bucket {
+    min: f64,
+    max: f64,
+    sum: f64,
+    count: u64,
+}
+
+const EMPTY: Bucket = Bucket {
+    min: f64::INFINITY,
+    max: f64::NEG_INFINITY,
+    sum: 0.0,
+    count: 0,
+};
+
+impl Bucket {
+    fn join(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+            sum: self.sum + other.sum,
+            count: self.count + other.count,
+        }
+    }
+}
+
+/// Least, mean and largest value per bucket of time. Buckets become twice as wide when there are too many.
+#[derive(Debug, Clone)]
+pub(super) struct History {
+    width: f64,
+    buckets: Vec<Bucket>,
+}
+
+impl Default for History {
+    fn default() -> Self {
+        Self {
+            width: FINEST,
+            buckets: Vec::new(),
+        }
+    }
+}
+
+/// What can be said of all values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Range {
+    pub min: f64,
+    pub mean: f64,
+    pub max: f64,
+}
+
+/// A stretch without long interruptions.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Stretch {
+    /// Time (s) and mean.
+    pub mean: Vec<(f64, f64)>,
+    /// Outline of what lies between least and largest value.
+    pub outline: Vec<(f64, f64)>,
+}
+
+impl History {
+    /// Takes a value at a time from the beginning (s). What is not finite or before the beginning is left out.
+    pub(super) fn push(&mut self, time: f64, value: f64) {
+        if !(time.is_finite() && time >= 0.0 && value.is_finite()) {
+            return;
+        }
+        while time / self.width >= MOST as f64 {
+            self.widen();
+        }
+        let index = (time / self.width) as usize;
+        if self.buckets.len() <= index {
+            self.buckets.resize(index + 1, EMPTY);
+        }
+        if let Some(bucket) = self.buckets.get_mut(index) {
+            *bucket = bucket.join(Bucket {
+                min: value,
+                max: value,
+                sum: value,
+                count: 1,
+            });
+        }
+    }
+
+    fn widen(&mut self) {
+        self.width *= 2.0;
+        self.buckets = self
+            .buckets
+            .chunks(2)
+            .map(|pair| pair.iter().copied().fold(EMPTY, Bucket::join))
+            .collect();
+    }
+
+    /// Over all values; `None` without any.
+    pub(super) fn range(&self) -> Option<Range> {
+        let all = self.buckets.iter().copied().fold(EMPTY, Bucket::join);
+        (all.count > 0).then(|| Range {
+            min: all.min,
+            mean: all.sum / all.count as f64,
+            max: all.max,
+        })
+    }
+
+    /// The curve, interrupted where nothing was said for long. Times in s, values times `factor`.
+    pub(super) fn stretches(&self, factor: f64) -> Vec<Stretch> {
+        let gap = GAP.max((GAP_TIME / self.width) as usize);
+        let mut all: Vec<(Stretch, Vec<(f64, f64)>)> = Vec::new();
+        let mut last = None;
+        for (index, bucket) in self.buckets.iter().enumerate().filter(|(_, bucket)| bucket.count > 0) {
+            if last.is_none_or(|last| index - last > gap) {
+                all.push(Default::default());
+            }
+            last = Some(index);
+            let time = (index as f64 + 0.5) * self.width;
+            if let Some((stretch, lower)) = all.last_mut() {
+                stretch.mean.push((time, factor * bucket.sum / bucket.count as f64));
+                stretch.outline.push((time, factor * bucket.max));
+                lower.push((time, factor * bucket.min));
+            }
+        }
+        all.into_iter()
+            .map(|(mut stretch, lower)| {
+                stretch.outline.extend(lower.into_iter().rev());
+                stretch
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_is_bounded_and_extremes_survive() {
+        let mut history = History::default();
+        // A day at 50 Hz with one blow in it.
+        for step in 0..4_320_000_u32 {
+            let blow = if step == 1_234_567 { 99.0 } else { 0.0 };
+            history.push(f64::from(step) * 0.02, blow + f64::from(step % 2));
+        }
+        assert!(history.buckets.len() <= MOST, "{}", history.buckets.len());
+        let range = history.range().unwrap();
+        // The blow fell on an odd step.
+        assert_eq!((range.min, range.max), (0.0, 100.0));
+        assert!((range.mean - 0.5).abs() < 1e-4, "{}", range.mean);
+        assert_eq!(history.stretches(1.0).len(), 1);
+    }
+
+    #[test]
+    fn silence_interrupts_the_curve_and_nonsense_is_left_out() {
+        let mut history = History::default();
+        for time in [0.0, 1.0, 2.0, 60.0, 61.0] {
+            history.push(time, 1.0);
+        }
+        for (time, value) in [(f64::NAN, 1.0), (-1.0, 7.0), (3.0, f64::NAN), (3.0, f64::INFINITY)] {
+            history.push(time, value);
+        }
+        let stretches = history.stretches(2.0);
+        assert_eq!(stretches.iter().map(|s| s.mean.len()).collect::<Vec<_>>(), [3, 2]);
+        assert!(stretches.iter().all(|s| s.mean.iter().all(|(_, value)| *value == 2.0)));
+        assert_eq!(history.range().unwrap().max, 1.0);
+        // A stamp of another century does not take memory or time.
+        history.push(1e12, 5.0);
+        assert!(history.buckets.len() <= MOST);
+        assert_eq!(history.range().unwrap().max, 5.0);
+    }
+}

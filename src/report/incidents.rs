@@ -1,0 +1,240 @@
+//! Alarms as incidents: each time one stood, from when to when, how bad, where, and who knew.
+
+use std::collections::BTreeMap;
+
+use crate::messages::{Alarm, AlarmEvent, AlarmList};
+
+/// Most incidents that are kept; beyond, they are counted.
+const MOST: usize = 5000;
+
+/// One time that an alarm stood.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Incident {
+    pub id: String,
+    pub name: String,
+    /// The highest.
+    pub priority: u8,
+    /// s from the beginning.
+    pub start: f64,
+    /// s from the beginning; `None` while it stands.
+    pub end: Option<f64>,
+    /// It stood when the recording began.
+    pub from_before: bool,
+    pub evidence: String,
+    pub what_to_do: String,
+    /// Place along the bore (m), NaN where there is none.
+    pub measured_depth: f64,
+    pub inclination: f64,
+    pub body: u8,
+    /// Who acknowledged it.
+    pub known_by: String,
+}
+
+/// All times of one alarm.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Group {
+    pub name: String,
+    pub priority: u8,
+    pub times: u64,
+    /// For how long it stood (s).
+    pub active: f64,
+    pub what_to_do: String,
+}
+
+/// The alarms of a recording.
+#[derive(Debug, Default)]
+pub(super) struct Incidents {
+    pub list: Vec<Incident>,
+    pub groups: BTreeMap<String, Group>,
+    /// Incidents beyond those in the list.
+    pub more: u64,
+    /// The newest list.
+    pub newest: Option<AlarmList>,
+    /// By the alarm's id: since when it stands (s), and the incident's place in the list, if it has one.
+    standing: BTreeMap<String, (f64, Option<usize>)>,
+    events: u64,
+}
+
+fn is_active(state: u8) -> bool {
+    [Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::ACTIVE_ACKNOWLEDGED].contains(&state)
+}
+
+impl Incidents {
+    /// Takes the list of all alarms. `since` says when an instant of the rig's clock was (s from the beginning).
+    pub(super) fn alarms(&mut self, list: AlarmList, since: impl Fn(&Alarm) -> f64) {
+        // The events of before are in no recording that began later.
+        if self.newest.is_none() && self.events == 0 {
+            for alarm in list.alarms.iter().filter(|alarm| alarm.active) {
+                self.begin(Incident {
+                    id: alarm.id.clone(),
+                    name: alarm.name.clone(),
+                    priority: alarm.priority,
+                    start: since(alarm),
+                    end: None,
+                    from_before: true,
+                    evidence: alarm.evidence.clone(),
+                    what_to_do: alarm.what_to_do.clone(),
+                    measured_depth: alarm.measured_depth,
+                    inclination: alarm.inclination,
+                    body: alarm.body,
+                    known_by: String::new(),
+                });
+            }
+        }
+        self.newest = Some(list);
+    }
+
+    /// Takes a change at a time (s from the beginning).
+    pub(super) fn event(&mut self, time: f64, event: &AlarmEvent) {
+        self.events += 1;
+        match event.change {
+            AlarmEvent::ACTIVATED | AlarmEvent::RAISED => self.stands(time, event),
+            AlarmEvent::RELEASED | AlarmEvent::PUT_BACK | AlarmEvent::UNSHELVED if is_active(event.to_state) => {
+                self.stands(time, event);
+            }
+            AlarmEvent::RETURNED | AlarmEvent::SUPPRESSED | AlarmEvent::TAKEN_OUT => self.end(time, &event.id),
+            AlarmEvent::ACKNOWLEDGED => {
+                if let Some(incident) = self.newest_of(&event.id) {
+                    incident.known_by.clone_from(&event.operator_name);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Closes what still stands for the sums; in the list it stays open.
+    pub(super) fn finish(&mut self, time: f64) {
+        for (id, (since, _)) in std::mem::take(&mut self.standing) {
+            if let Some(group) = self.groups.get_mut(&id) {
+                group.active += (time - since).max(0.0);
+            }
+        }
+    }
+
+    fn newest_of(&mut self, id: &str) -> Option<&mut Incident> {
+        self.list.iter_mut().rev().find(|incident| incident.id == id)
+    }
+
+    fn stands(&mut self, time: f64, event: &AlarmEvent) {
+        let Some((_, place)) = self.standing.get(&event.id) else {
+            self.begin(Incident {
+                id: event.id.clone(),
+                name: event.name.clone(),
+                priority: event.priority,
+                start: time,
+                end: None,
+                from_before: false,
+                evidence: event.evidence.clone(),
+                what_to_do: event.what_to_do.clone(),
+                measured_depth: event.measured_depth,
+                inclination: event.inclination,
+                body: event.body,
+                known_by: String::new(),
+            });
+            return;
+        };
+        if let Some(group) = self.groups.get_mut(&event.id) {
+            group.priority = group.priority.max(event.priority);
+        }
+        if let Some(incident) = place.and_then(|place| self.list.get_mut(place))
+            && event.priority >= incident.priority
+        {
+            incident.priority = event.priority;
+            incident.evidence.clone_from(&event.evidence);
+            incident.what_to_do.clone_from(&event.what_to_do);
+            incident.measured_depth = event.measured_depth;
+            incident.inclination = event.inclination;
+            incident.body = event.body;
+        }
+    }
+
+    fn begin(&mut self, incident: Incident) {
+        let group = self.groups.entry(incident.id.clone()).or_default();
+        group.times += 1;
+        if incident.priority >= group.priority {
+            group.priority = incident.priority;
+            group.name.clone_from(&incident.name);
+            group.what_to_do.clone_from(&incident.what_to_do);
+        }
+        let kept = self.list.len() < MOST;
+        let place = kept.then_some(self.list.len());
+        self.standing
+            .insert(incident.id.clone(), (incident.start.max(0.0), place));
+        if kept {
+            self.list.push(incident);
+        } else {
+            self.more += 1;
+        }
+    }
+
+    fn end(&mut self, time: f64, id: &str) {
+        let Some((since, place)) = self.standing.remove(id) else {
+            return;
+        };
+        if let Some(group) = self.groups.get_mut(id) {
+            group.active += (time - since).max(0.0);
+        }
+        if let Some(incident) = place.and_then(|place| self.list.get_mut(place)) {
+            incident.end = Some(time);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn event(change: u8, priority: u8, evidence: &str) -> AlarmEvent {
+        AlarmEvent {
+            id: "shock".to_owned(),
+            name: "Shock".to_owned(),
+            change,
+            priority,
+            evidence: evidence.to_owned(),
+            operator_name: "Ada".to_owned(),
+            ..AlarmEvent::default()
+        }
+    }
+
+    #[test]
+    fn an_incident_begins_rises_is_known_and_ends() {
+        let mut incidents = Incidents::default();
+        incidents.event(1.0, &event(AlarmEvent::ACTIVATED, 1, "weak"));
+        incidents.event(2.0, &event(AlarmEvent::RAISED, 3, "strong"));
+        incidents.event(2.5, &event(AlarmEvent::LOWERED, 1, "weak again"));
+        incidents.event(3.0, &event(AlarmEvent::ACKNOWLEDGED, 3, ""));
+        incidents.event(5.0, &event(AlarmEvent::RETURNED, 3, ""));
+        incidents.event(8.0, &event(AlarmEvent::ACTIVATED, 2, "once more"));
+        incidents.finish(10.0);
+        let [first, second] = incidents.list.as_slice() else {
+            panic!("{:?}", incidents.list)
+        };
+        assert_eq!((first.start, first.end, first.priority), (1.0, Some(5.0), 3));
+        assert_eq!((first.evidence.as_str(), first.known_by.as_str()), ("strong", "Ada"));
+        assert_eq!((second.start, second.end), (8.0, None));
+        let group = &incidents.groups["shock"];
+        assert_eq!((group.times, group.priority, group.active), (2, 3, 6.0));
+    }
+
+    #[test]
+    fn what_stood_before_the_recording_began_is_in_it() {
+        let mut incidents = Incidents::default();
+        let alarm = Alarm {
+            id: "shock".to_owned(),
+            active: true,
+            priority: 2,
+            ..Alarm::default()
+        };
+        let list = AlarmList {
+            alarms: vec![alarm, Alarm::default()],
+            ..AlarmList::default()
+        };
+        incidents.alarms(list.clone(), |_| -30.0);
+        incidents.alarms(list, |_| -30.0);
+        incidents.event(4.0, &event(AlarmEvent::RETURNED, 2, ""));
+        assert_eq!(incidents.list.len(), 1);
+        assert!(incidents.list[0].from_before);
+        // Of the time before the recording nothing is counted.
+        assert_eq!(incidents.groups["shock"].active, 4.0);
+    }
+}

@@ -1,0 +1,86 @@
+//! Alarms and incidents.
+
+use maud::{Markup, html};
+
+use super::priority_class;
+use super::text::{capital, duration, number, percent, place};
+use crate::messages::words;
+use crate::report::incidents::Incident;
+use crate::report::reading::Summary;
+
+/// Most incidents that the page lists; the worst ones where there are more.
+const ROWS: usize = 60;
+
+/// What called for somebody.
+pub(super) fn section(summary: &Summary) -> Markup {
+    let incidents = &summary.incidents;
+    let mut groups: Vec<_> = incidents.groups.values().collect();
+    groups.sort_by_key(|group| std::cmp::Reverse((group.priority, group.times)));
+    let listed = listed(&incidents.list);
+    let left_out = incidents.list.len() - listed.len() + incidents.more as usize;
+    html! {
+        section {
+            h2 { "Alarms and incidents" }
+            @if !summary.has_alarms() {
+                p { "The bag says nothing of alarms." }
+            } @else if groups.is_empty() {
+                p { "No alarm stood." }
+            } @else {
+                table {
+                    thead { tr { th { "priority" } th { "alarm" } th.n { "times" } th.n { "in all" } th { "what to do" } } }
+                    tbody { @for group in &groups {
+                        tr {
+                            td { (priority(group.priority)) }
+                            td { (capital(&group.name)) }
+                            td.n { (group.times) }
+                            td.n { (duration(group.active)) }
+                            td { (group.what_to_do) }
+                        }
+                    } }
+                }
+                h3 { "Incidents" }
+                table {
+                    thead { tr { th.n { "at (s)" } th.n { "for" } th { "priority" } th { "alarm" } th { "where" } th { "what was seen at the worst" } } }
+                    tbody { @for incident in &listed { (row(incident)) } }
+                }
+                @if left_out > 0 { p { "And " (left_out) " more, none worse than these." } }
+            }
+            @if let Some(list) = &incidents.newest {
+                p.note {
+                    (number(list.annunciations_per_hour)) " calls per hour; " (percent(list.flood_share))
+                    " of the time in flood (more than 10 in 10 min); " (list.unacknowledged)
+                    " to be acknowledged at the end."
+                }
+            }
+        }
+    }
+}
+
+fn priority(code: u8) -> Markup {
+    html! { span.priority.(priority_class(code)) { (words::alarm_priority(code).to_uppercase()) } }
+}
+
+fn row(incident: &Incident) -> Markup {
+    html! {
+        tr {
+            td.n { @if incident.from_before { "before" } @else { (format!("{:.1}", incident.start)) } }
+            td.n { @match incident.end {
+                Some(end) => (duration((end - incident.start).max(0.0))),
+                None => "to the end",
+            } }
+            td { (priority(incident.priority)) }
+            td { (capital(&incident.name)) @if !incident.known_by.is_empty() { small { " known to " (incident.known_by) } } }
+            td { (place(incident.body, incident.measured_depth, incident.inclination)) }
+            td { (incident.evidence) }
+        }
+    }
+}
+
+/// The worst, in the order of their beginning.
+fn listed(all: &[Incident]) -> Vec<&Incident> {
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by_key(|index| std::cmp::Reverse(all[*index].priority));
+    order.truncate(ROWS);
+    order.sort_unstable();
+    order.into_iter().map(|index| &all[index]).collect()
+}

@@ -1,0 +1,120 @@
+//! Inputs and the transfer of torque.
+
+use maud::{Markup, html};
+
+use super::drawn;
+use super::text::{number, percent};
+use crate::messages::words;
+use crate::report::ReportError;
+use crate::report::history::History;
+use crate::report::plots;
+use crate::report::reading::Summary;
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+
+fn row(what: &str, unit: &str, history: &History, factor: f64) -> Markup {
+    html! {
+        @if let Some(range) = history.range() {
+            tr {
+                td { (what) }
+                @for value in [range.min, range.mean, range.max] { td.n { (number(factor * value)) } }
+                td { (unit) }
+            }
+        }
+    }
+}
+
+fn head(what: &str) -> Markup {
+    html! { thead { tr { th { (what) } th.n { "least" } th.n { "mean" } th.n { "largest" } th { "unit" } } } }
+}
+
+/// What drove the model.
+pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
+    let drive = &summary.drive;
+    let (rpm, kn) = (rad_per_s_to_rpm(1.0), n_to_kn(1.0));
+    let newest = summary.health.newest.as_ref();
+    let figure = drawn(
+        plots::inputs(summary),
+        "Received: as the rig sent it. Asked of the model: what passed the checks, before the slew limit. Pale: least to \
+         largest.",
+    )?;
+    Ok(html! {
+        section {
+            h2 { "Inputs" }
+            table {
+                (head("quantity"))
+                tbody {
+                    (row("rotary speed, received", "r/min", &drive.received.rotary_speed, rpm))
+                    (row("rotary speed, asked of the model", "r/min", &drive.asked.rotary_speed, rpm))
+                    (row("weight on bit, received", "kN", &drive.received.weight_on_bit, kn))
+                    (row("weight on bit, asked of the model", "kN", &drive.asked.weight_on_bit, kn))
+                    (row("weight on bit, at the bit", "kN", &drive.bit.weight_on_bit, kn))
+                }
+            }
+            @if !summary.health.inputs.is_empty() {
+                table {
+                    thead { tr { th { "input" } th { "its state, share of the time" } th { "driven by" } th.n { "refused" } } }
+                    tbody {
+                        @for (name, states) in &summary.health.inputs {
+                            @let all: u64 = states.values().sum();
+                            @let index = newest.and_then(|status| status.input_name.iter().position(|known| known == name));
+                            tr {
+                                td { code { (name) } }
+                                td { @for (at, (state, count)) in states.iter().enumerate() {
+                                    @if at > 0 { ", " }
+                                    (words::input_state(*state)) " " (percent(*count as f64 / all as f64))
+                                } }
+                                td { @for (at, driver) in summary.health.drivers.get(name).into_iter().flatten().enumerate() { @if at > 0 { ", " } (driver) } }
+                                td.n { @if let Some(count) = index.and_then(|index| newest?.input_rejected.get(index)) { (count) } }
+                            }
+                        }
+                    }
+                }
+            } @else if !drive.input_quality.is_empty() {
+                @let all: u64 = drive.input_quality.values().sum();
+                p {
+                    "State of the inputs, the worse of both: "
+                    @for (at, (state, count)) in drive.input_quality.iter().enumerate() {
+                        @if at > 0 { ", " }
+                        (words::input_state(*state)) " " (percent(*count as f64 / all as f64))
+                    }
+                    "."
+                }
+            }
+            (figure)
+        }
+    })
+}
+
+/// What reached the bit.
+pub(super) fn torque(summary: &Summary) -> Result<Markup, ReportError> {
+    let drive = &summary.drive;
+    let figure = drawn(
+        plots::torque(summary),
+        "Torque through the uppermost joint and of the rock against the bit. A stick-slip index of 1 or more: the bit \
+         stands at times.",
+    )?;
+    Ok(html! {
+        section {
+            h2 { "Transfer of torque" }
+            @match drive.transfer.means() {
+                Some([top, bit]) => p {
+                    "While the drive turned, " (number(top)) " N m went in at the uppermost joint and " (number(bit))
+                    " N m came to the bit on average: " b { (percent(bit / top)) } ". Friction along the tool took "
+                    (number(top - bit)) " N m."
+                },
+                None => p { "The drive did not turn, or the bag has not both torques." },
+            }
+            table {
+                (head("quantity"))
+                tbody {
+                    (row("torque at the uppermost joint", "N m", &drive.top_torque, 1.0))
+                    (row("torque at the bit", "N m", &drive.bit_torque, 1.0))
+                    (row("speed of the bit", "r/min", &drive.bit.rotary_speed, rad_per_s_to_rpm(1.0)))
+                    (row("stick-slip index", "", &drive.stick_slip, 1.0))
+                    (row("largest lateral acceleration above the bit", "m/s²", &drive.lateral_acceleration, 1.0))
+                }
+            }
+            (figure)
+        }
+    })
+}

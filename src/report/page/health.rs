@@ -1,0 +1,114 @@
+//! Health of model, pace and recording.
+
+use maud::{Markup, html};
+
+use super::drawn;
+use super::text::{duration, number, percent};
+use crate::messages::{TwinStatus, words};
+use crate::report::ReportError;
+use crate::report::plots;
+use crate::report::reading::Summary;
+
+fn state(code: u8) -> &'static str {
+    match code {
+        TwinStatus::STARTING => "starting",
+        TwinStatus::RUNNING => "running",
+        TwinStatus::PAUSED => "paused",
+        TwinStatus::FAILED => "failed",
+        _ => "?",
+    }
+}
+
+/// How far the numbers can be trusted.
+pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
+    let health = &summary.health;
+    let figure = drawn(
+        plots::pace(summary),
+        "As the twin said it of itself, over the last second each.",
+    )?;
+    Ok(html! {
+        section {
+            h2 { "Health" }
+            @match &health.newest {
+                None => p { "The bag has no " code { "twin/status" } ": pace and model quality are not known. A replay has none." },
+                Some(status) => {
+                    table.pairs { tbody {
+                        tr { th { "model quality" } td { (shares(&health.quality, words::model_quality)) } }
+                        @if !health.quality_cause.is_empty() {
+                            tr { th { "why not good, the last time" } td { (health.quality_cause) } }
+                        }
+                        tr { th { "state" } td { (shares(&health.states, state)) } }
+                        tr { th { "real-time factor" } td {
+                            @if let Some(range) = health.real_time_factor.range() {
+                                (number(range.min)) " to " (number(range.max)) ", mean " (number(range.mean))
+                            }
+                        } }
+                        tr { th { "behind its deadlines, at most" } td {
+                            @if let Some(range) = health.lateness.range() { (number(1e3 * range.max)) " ms" }
+                        } }
+                        tr { th { "deadlines missed, periods skipped" } td { (status.deadline_misses) ", " (status.steps_skipped) } }
+                        tr { th { "longest step" } td {
+                            (number(1e3 * health.step_time_max)) " ms of computing for " (number(1e3 * status.time_step)) " ms of model time"
+                        } }
+                        tr { th { "sub-steps rejected, steps halved, failed" } td {
+                            (status.rejected_steps) ", " (status.halved_steps) ", " (status.failed_steps)
+                            @if !status.last_rejection_cause.is_empty() {
+                                "; the last: " (status.last_rejection_cause) " at "
+                                (format!("{:.2}", status.last_rejection_measured_depth)) " m"
+                            }
+                        } }
+                        tr { th { "energy error over the drive's work" } td { (percent(status.energy_error_ratio)) } }
+                        tr { th { "longest time without a heartbeat" } td {
+                            (duration(health.longest_silence.0)) " at " (format!("{:.1}", health.longest_silence.1)) " s"
+                        } }
+                        tr { th { "DDS started again" } td {
+                            (status.dds_restarts)
+                            @if !status.dds_restart_cause.is_empty() { "; the last: " (status.dds_restart_cause) }
+                        } }
+                        tr { th { "messages lost" } td { (lost(status)) } }
+                        @if status.clock_set_by != 0.0 {
+                            tr { th { "system clock set by" } td { (number(status.clock_set_by)) " s" } }
+                        }
+                    } }
+                    (figure)
+                },
+            }
+        }
+    })
+}
+
+/// Codes with their share.
+fn shares(counts: &std::collections::BTreeMap<u8, u64>, word: impl Fn(u8) -> &'static str) -> Markup {
+    let all: u64 = counts.values().sum();
+    html! {
+        @for (index, (code, count)) in counts.iter().enumerate() {
+            @if index > 0 { ", " }
+            (word(*code)) " " (percent(*count as f64 / all as f64))
+        }
+    }
+}
+
+/// What was lost on its way, by where.
+fn lost(status: &TwinStatus) -> String {
+    let mut parts: Vec<String> = status
+        .output_topic
+        .iter()
+        .zip(&status.output_dropped)
+        .filter(|(_, dropped)| **dropped > 0)
+        .map(|(topic, dropped)| format!("{topic} {dropped}"))
+        .collect();
+    for (what, count) in [
+        ("recording", status.recording_drops),
+        ("snapshots", status.frames_dropped),
+        ("changes of the inputs", status.events_lost),
+    ] {
+        if count > 0 {
+            parts.push(format!("{what} {count}"));
+        }
+    }
+    if parts.is_empty() {
+        "none".to_owned()
+    } else {
+        parts.join(", ")
+    }
+}

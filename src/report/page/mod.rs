@@ -1,0 +1,244 @@
+//! The page: one HTML file with its figures and style inside.
+
+mod alarms;
+mod drive;
+mod health;
+mod places;
+mod text;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use self::text::{capital, duration, number, percent, times};
+use super::ReportError;
+use super::reading::Summary;
+use crate::messages::{Alarm, TwinStatus, words};
+use crate::told::instant;
+use flexdrill_plot::{Figure, svg};
+
+const STYLE: &str = include_str!("style.css");
+
+/// The whole page.
+///
+/// # Errors
+/// When a figure cannot be drawn.
+pub fn html(summary: &Summary) -> Result<String, ReportError> {
+    let name = summary
+        .path
+        .file_name()
+        .unwrap_or(summary.path.as_os_str())
+        .to_string_lossy();
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="generator" content={ "flexdrill " (env!("CARGO_PKG_VERSION")) };
+                title { "Drilling report: " (name) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { "Drilling report" }
+                    p.of { (name) }
+                    (facts(summary))
+                }
+                (tiles(summary))
+                (missing(summary))
+                (drive::inputs(summary)?)
+                (alarms::section(summary))
+                (places::worst(summary)?)
+                (places::envelopes(summary)?)
+                (drive::torque(summary)?)
+                (health::section(summary)?)
+                (limits())
+                (configuration(summary))
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+/// What was run when.
+fn facts(summary: &Summary) -> Markup {
+    let session = summary.session.as_ref();
+    html! {
+        dl.facts {
+            dt { "From" } dd { (instant(summary.start)) }
+            dt { "To" } dd { (instant(summary.end)) " (" (duration(summary.seconds())) ")" }
+            dt { "Twin" } dd {
+                @if let Some(session) = session {
+                    "flexdrill " (session.version) ", frame " code { (session.header.frame_id) } ", namespace "
+                } @else { "namespace " }
+                code { (summary.namespace) }
+            }
+            @if let Some(config) = &summary.config {
+                dt { "Tool" } dd {
+                    (config.tool.links) " links over " (number(config.well.length())) " m, bore of "
+                    (number(1e3 * config.well.hole_diameter)) " mm, built up from "
+                    (number(config.well.start_inclination_deg)) "° to " (number(config.well.end_inclination_deg())) "°"
+                }
+            }
+            dt { "Read" } dd { (summary.messages) " messages of " code { (summary.path.display()) } }
+        }
+    }
+}
+
+/// The few numbers that a reader looks for first.
+fn tiles(summary: &Summary) -> Markup {
+    let worst = summary
+        .incidents
+        .groups
+        .values()
+        .max_by_key(|group| (group.priority, group.times));
+    let drive = &summary.drive;
+    let places = &summary.places;
+    let peak = |layer: usize| {
+        let station = places.worst_stations(layer).first().copied()?;
+        Some((places.peak[layer].at(station)?.max, places.station_depth[station]))
+    };
+    html! {
+        div.tiles {
+            @if let Some(group) = worst {
+                div.tile.(priority_class(group.priority)) {
+                    b { (words::alarm_priority(group.priority).to_uppercase()) } (capital(&group.name))
+                    small { (times(group.times)) ", " (duration(group.active)) " in all" }
+                }
+            } @else if !summary.has_alarms() {
+                div.tile.unknown { b { "?" } "no alarms in the bag" }
+            } @else {
+                div.tile.good { b { "none" } "alarms" }
+            }
+            @for (layer, name) in ["pipe on guide", "guide on wall"].into_iter().enumerate() {
+                @if let Some((force, depth)) = peak(layer) {
+                    div.tile {
+                        b { (number(force / 1e3)) " kN" } "largest force, " (name)
+                        small { "at " (format!("{depth:.2}")) " m" }
+                    }
+                }
+            }
+            @if let Some([top, bit]) = drive.transfer.means() {
+                div.tile {
+                    b { (percent(bit / top)) } "of the torque reaches the bit"
+                    small { (number(bit)) " of " (number(top)) " N m, mean" }
+                }
+            }
+            @if let Some(index) = drive.stick_slip.range() {
+                div.tile { b { (number(index.max)) } "largest stick-slip index" small { "1: the bit stands" } }
+            }
+            @match summary.trust() {
+                Some((share, class)) => div.tile.(class) {
+                    b { (percent(share)) } "of the time the model is good" small { "see Health" }
+                },
+                None => div.tile.unknown { b { "?" } "health of the model" small { "no status in the bag" } },
+            }
+        }
+    }
+}
+
+fn missing(summary: &Summary) -> Markup {
+    html! {
+        @if !summary.missing.is_empty() {
+            section.missing {
+                h2 { "What is missing" }
+                ul { @for line in &summary.missing { li { (line) } } }
+            }
+        }
+    }
+}
+
+/// What the numbers are not.
+fn limits() -> Markup {
+    html! {
+        section {
+            h2 { "How to read it" }
+            ul {
+                li { "Forces, orbits and torque are the model's, not measured: the rig gave rotary speed and weight on bit." }
+                li { "Times count from the first message. Curves show the mean, pale bands all between least and largest." }
+                li { "Measured depth counts along the bore from the kick-off; joint 01 is the uppermost." }
+                li { "Fluid, cuttings, thread play and wear are among what the model leaves out; the manual's first page, "
+                     "Limits of the model, says how much each may matter." }
+            }
+        }
+    }
+}
+
+fn configuration(summary: &Summary) -> Markup {
+    html! {
+        section.configuration {
+            h2 { "Configuration" }
+            @if let Some(session) = &summary.session {
+                dl.facts {
+                    dt { "Hash" } dd { code { (session.config_hash) } }
+                    dt { "Model step" } dd { (number(1e3 * session.time_step)) " ms" }
+                    dt { "Resets" } dd { (summary.drive.resets) }
+                }
+                @if !summary.drive.changes.is_empty() {
+                    h3 { "Changed while it ran" }
+                    table {
+                        thead { tr { th.n { "at (s)" } th { "parameter" } th.n { "new value" } } }
+                        tbody { @for change in &summary.drive.changes {
+                            tr { td.n { (format!("{:.1}", change.time)) } td { code { (change.name) } } td.n { (number(change.value)) } }
+                        } }
+                    }
+                    @if summary.drive.more_changes > 0 { p { "And " (summary.drive.more_changes) " more." } }
+                }
+                @if let Some(problem) = &summary.config_problem {
+                    p.warning { "This version of flexdrill cannot use it: " (problem) }
+                }
+                pre { (session.configuration) }
+            } @else {
+                p { "Not in the bag." }
+            }
+        }
+    }
+}
+
+/// A figure as it stands in the page; nothing where there is nothing to draw.
+fn drawn(figure: Option<Figure>, caption: &str) -> Result<Markup, ReportError> {
+    let Some(figure) = figure else {
+        return Ok(html! {});
+    };
+    let drawing = svg(&figure)?;
+    Ok(html! {
+        figure id=(figure.name) {
+            (PreEscaped(drawing))
+            figcaption { (caption) }
+        }
+    })
+}
+
+fn priority_class(priority: u8) -> &'static str {
+    match priority {
+        Alarm::HIGH => "high",
+        Alarm::MEDIUM => "medium",
+        Alarm::LOW => "low",
+        _ => "none",
+    }
+}
+
+impl Summary {
+    /// Length of the recording in the model's time (s).
+    pub(super) fn seconds(&self) -> f64 {
+        self.end.saturating_sub(self.start) as f64 * 1e-9
+    }
+
+    /// Whether the bag says anything of alarms.
+    fn has_alarms(&self) -> bool {
+        self.incidents.newest.is_some() || !self.incidents.groups.is_empty()
+    }
+
+    /// Share of the status messages that call the model good, and how that is to be shown.
+    fn trust(&self) -> Option<(f64, &'static str)> {
+        let count = |code: u8| self.health.quality.get(&code).copied().unwrap_or(0);
+        let all: u64 = self.health.quality.values().sum();
+        let class = if count(TwinStatus::QUALITY_POOR) > 0 {
+            "high"
+        } else if count(TwinStatus::QUALITY_DEGRADED) > 0 {
+            "medium"
+        } else {
+            "good"
+        };
+        (all > 0).then(|| (count(TwinStatus::QUALITY_GOOD) as f64 / all as f64, class))
+    }
+}

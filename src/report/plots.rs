@@ -1,0 +1,291 @@
+//! The report's figures as data.
+
+use std::f64::consts::TAU;
+
+use super::history::{History, Stretch};
+use super::places::{Orbit, Worst};
+use super::reading::Summary;
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
+use flexdrill_plot::{Figure, Legend, Line, Panel};
+
+/// Below so many samples per turn the line between two of them would invent a path.
+const LINE_FROM: f64 = 8.0;
+/// Height of a row of panels, in the units of a width of 1080.
+const ROW: u32 = 300;
+
+/// Seconds, minutes or hours, whichever suits a recording's length.
+struct Axis {
+    label: &'static str,
+    unit: f64,
+    end: f64,
+}
+
+impl Axis {
+    fn of(summary: &Summary) -> Self {
+        let length = summary.seconds();
+        let (label, unit) = match length {
+            ..300.0 => ("time (s)", 1.0),
+            ..10_800.0 => ("time (min)", 60.0),
+            _ => ("time (h)", 3600.0),
+        };
+        Self {
+            label,
+            unit,
+            end: (length / unit).max(1e-3),
+        }
+    }
+
+    fn panel(&self, title: &str, y: &str) -> Panel {
+        Panel::new(title, self.label, y).over(0.0, self.end)
+    }
+
+    fn scaled(&self, points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+        points.into_iter().map(|(time, y)| (time / self.unit, y)).collect()
+    }
+
+    /// A history as what lies between its extremes, and its mean.
+    fn draw(&self, mut panel: Panel, name: &str, color: usize, history: &History, factor: f64) -> Panel {
+        for (index, Stretch { mean, outline }) in history.stretches(factor).into_iter().enumerate() {
+            let name = if index == 0 { name } else { "" };
+            panel = panel
+                .line(Line::new("", self.scaled(outline)).area().color(color))
+                .line(Line::new(name, self.scaled(mean)).color(color));
+        }
+        panel
+    }
+}
+
+fn has_lines(panel: &Panel) -> bool {
+    panel.lines.iter().any(|line| !line.points.is_empty())
+}
+
+/// A figure of those panels that show something; `None` without any.
+fn figure(name: &'static str, columns: usize, height: u32, panels: Vec<Panel>) -> Option<Figure> {
+    let panels: Vec<Panel> = panels.into_iter().filter(has_lines).collect();
+    (!panels.is_empty()).then(|| Figure {
+        name,
+        title: String::new(),
+        caption: String::new(),
+        columns: columns.min(panels.len()),
+        height,
+        panels,
+    })
+}
+
+fn rpm() -> f64 {
+    rad_per_s_to_rpm(1.0)
+}
+
+fn kn() -> f64 {
+    n_to_kn(1.0)
+}
+
+/// Speeds and weight over time.
+pub(super) fn inputs(summary: &Summary) -> Option<Figure> {
+    let axis = Axis::of(summary);
+    let drive = &summary.drive;
+    let mut speed = axis.panel("Rotary speed", "r/min");
+    speed = axis.draw(speed, "bit", 0, &drive.bit.rotary_speed, rpm());
+    speed = axis.draw(speed, "asked of the model", 1, &drive.asked.rotary_speed, rpm());
+    speed = axis.draw(speed, "received", 6, &drive.received.rotary_speed, rpm());
+    let mut weight = axis.panel("Weight on bit", "kN");
+    weight = axis.draw(weight, "at the bit", 0, &drive.bit.weight_on_bit, kn());
+    weight = axis.draw(weight, "asked of the model", 1, &drive.asked.weight_on_bit, kn());
+    weight = axis.draw(weight, "received", 6, &drive.received.weight_on_bit, kn());
+    figure("inputs", 1, ROW, vec![speed, weight])
+}
+
+/// Torque on top and at the bit, and what swings.
+pub(super) fn torque(summary: &Summary) -> Option<Figure> {
+    let axis = Axis::of(summary);
+    let drive = &summary.drive;
+    let mut torque = axis.panel("Torque", "N m");
+    torque = axis.draw(torque, "at the uppermost joint", 1, &drive.top_torque, 1.0);
+    torque = axis.draw(torque, "at the bit", 0, &drive.bit_torque, 1.0);
+    let mut index = axis.panel("Stick-slip index of the bit", "-").from_zero();
+    index = axis.draw(index, "", 3, &drive.stick_slip, 1.0);
+    let mut lateral = axis
+        .panel("Lateral acceleration above the bit, largest", "m/s²")
+        .from_zero();
+    lateral = axis.draw(lateral, "", 2, &drive.lateral_acceleration, 1.0);
+    figure("torque", 2, ROW, vec![torque.span(2), index, lateral])
+}
+
+/// Forces and moments along the tool.
+pub(super) fn envelopes(summary: &Summary) -> Option<Figure> {
+    let places = &summary.places;
+    let (stations, joints) = (&places.station_depth, &places.joint_depth);
+    let along = "measured depth from the kick-off (m)";
+    let mut panels = Vec::new();
+    for (layer, title) in ["Normal force, pipe on guide", "Normal force, guide on wall"]
+        .into_iter()
+        .enumerate()
+    {
+        panels.push(
+            Panel::new(title, along, "kN")
+                .line(Line::new("largest", places.peak[layer].curve(stations, kn(), |s| s.max)).color(1))
+                .line(Line::new("RMS", places.rms[layer].curve(stations, kn(), |s| s.rms())).color(0))
+                .from_zero(),
+        );
+    }
+    for (title, unit, envelope, factor) in [
+        ("Axial force, tension positive", "kN", &places.axial_force, kn()),
+        ("Torque through the joints", "N m", &places.torque, 1.0),
+    ] {
+        panels.push(
+            Panel::new(title, along, unit)
+                .line(
+                    Line::new("least to largest", envelope.outline(joints, factor))
+                        .area()
+                        .color(0),
+                )
+                .line(Line::new("mean", envelope.curve(joints, factor, |s| s.mean())).color(0)),
+        );
+    }
+    panels.push(
+        Panel::new("Shear force through the joints", along, "kN")
+            .line(Line::new("largest", places.shear_force.curve(joints, kn(), |s| s.max)).color(1))
+            .line(Line::new("RMS", places.shear_force.curve(joints, kn(), |s| s.rms())).color(0))
+            .from_zero(),
+    );
+    let limit = joints
+        .iter()
+        .copied()
+        .zip(places.limit.iter().map(|limit| rad_to_deg(*limit)))
+        .collect();
+    panels.push(
+        Panel::new("Bend of the joints", along, "deg")
+            .line(Line::new("largest", places.bend.curve(joints, rad_to_deg(1.0), |s| s.max)).color(1))
+            .line(Line::new("mean", places.bend.curve(joints, rad_to_deg(1.0), |s| s.mean())).color(0))
+            .line(Line::new("stop begins", limit).dashed().color(6))
+            .from_zero(),
+    );
+    panels.push(
+        Panel::new("Moment of the joints' stops", along, "N m")
+            .line(Line::new("largest", places.stop_moment.curve(joints, 1.0, |s| s.max)).color(1))
+            .line(Line::new("RMS", places.stop_moment.curve(joints, 1.0, |s| s.rms())).color(0))
+            .from_zero(),
+    );
+    panels.push(
+        Panel::new("Time in contact", along, "%")
+            .line(Line::new("pipe on guide", places.contact[0].curve(stations, 100.0, |s| s.mean())).color(0))
+            .line(Line::new("guide on wall", places.contact[1].curve(stations, 100.0, |s| s.mean())).color(1))
+            .from_zero(),
+    );
+    figure("envelopes", 2, ROW, panels)
+}
+
+/// A place whose orbit is shown.
+pub(super) struct OrbitOf<'a> {
+    pub joint: usize,
+    pub worst: Worst,
+    pub orbit: &'a Orbit,
+}
+
+impl OrbitOf<'_> {
+    /// Samples per turn of the tool, infinite while it stands.
+    pub(super) fn samples_per_turn(&self) -> f64 {
+        let [first, last] = self.orbit.span;
+        let interval = (last - first) / (self.orbit.points.len().max(2) - 1) as f64;
+        TAU / (self.orbit.spin.abs() * interval)
+    }
+}
+
+/// Orbits at the worst places, each joint once per measure.
+pub(super) fn worst_orbits(summary: &Summary) -> Vec<OrbitOf<'_>> {
+    let places = &summary.places;
+    let mut found: Vec<OrbitOf<'_>> = Vec::new();
+    for worst in Worst::ALL {
+        let depths: Vec<f64> = match worst {
+            Worst::PipeGuide => places
+                .worst_stations(0)
+                .iter()
+                .map(|s| places.station_depth[*s])
+                .collect(),
+            Worst::GuideWall => places
+                .worst_stations(1)
+                .iter()
+                .map(|s| places.station_depth[*s])
+                .collect(),
+            Worst::Whirl => places.worst_whirl().iter().map(|place| place.measured_depth).collect(),
+        };
+        // Two of each measure, so that all are seen.
+        for depth in depths.into_iter().take(2) {
+            if let Some((joint, orbit)) = places.orbit(worst, depth)
+                && !found
+                    .iter()
+                    .any(|known| known.joint == joint && known.orbit.span == orbit.span)
+            {
+                found.push(OrbitOf { joint, worst, orbit });
+            }
+        }
+    }
+    found
+}
+
+/// The orbits, with the room that the pipe has in the bore.
+pub(super) fn orbits(summary: &Summary) -> Option<Figure> {
+    let room = summary
+        .config
+        .as_ref()
+        .map(|config| config.inner_clearance() + config.outer_clearance());
+    let mm = 1e3;
+    let panels: Vec<Panel> = worst_orbits(summary)
+        .iter()
+        .map(|of| {
+            let points: Vec<(f64, f64)> = of.orbit.points.iter().map(|[y, z]| (mm * y, mm * z)).collect();
+            let path = Line::new("", points);
+            let path = if of.samples_per_turn() < LINE_FROM {
+                path.dots()
+            } else {
+                path.thin()
+            };
+            let depth = summary.places.joint_depth.get(of.joint).copied().unwrap_or(f64::NAN);
+            let why = match of.worst {
+                Worst::PipeGuide => "force on the guide",
+                Worst::GuideWall => "force on the wall",
+                Worst::Whirl => "whirl",
+            };
+            let mut panel = Panel::new(
+                format!("Joint {:02}, {depth:.2} m: {why}", of.joint + 1),
+                "horizontal (mm)",
+                "to the low side (mm)",
+            )
+            .line(path.color(0))
+            .equal()
+            .down()
+            .legend(Legend::Row);
+            if let Some(room) = room {
+                let circle = (0..=90).map(|k| {
+                    let angle = TAU * f64::from(k) / 90.0;
+                    (mm * room * angle.cos(), mm * room * angle.sin())
+                });
+                panel = panel.line(Line::new("", circle.collect()).dashed().color(6));
+            }
+            panel
+        })
+        .collect();
+    figure("orbits", 3, 350, panels)
+}
+
+/// Pace of the model.
+pub(super) fn pace(summary: &Summary) -> Option<Figure> {
+    let axis = Axis::of(summary);
+    let health = &summary.health;
+    let factor = axis.draw(
+        axis.panel("Real-time factor, 1 keeps up", "-"),
+        "",
+        0,
+        &health.real_time_factor,
+        1.0,
+    );
+    let step = axis.draw(
+        axis.panel("Computing time of a step, 99th percentile", "µs")
+            .from_zero(),
+        "",
+        1,
+        &health.step_time_p99,
+        1e6,
+    );
+    figure("pace", 2, ROW, vec![factor, step])
+}

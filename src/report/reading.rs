@@ -1,0 +1,314 @@
+//! One pass over a bag.
+
+use std::path::{Path, PathBuf};
+
+use super::ReportError;
+use super::drive::Drive;
+use super::health::Health;
+use super::incidents::Incidents;
+use super::places::Places;
+use super::roles::{OUTPUTS, Roles};
+use crate::bag::{self, BagError, BagMessage, Gap, Gaps};
+use crate::messages::std_msgs::{Float64, Header};
+use crate::messages::topics::{self, TopicInfo};
+use crate::messages::{
+    AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, RigInputs, SessionInfo,
+    TwinStatus, WhirlState,
+};
+use flexdrill_config::Config;
+
+/// Most damaged parts that are named.
+const NAMED: usize = 20;
+/// A stamp further than this before the beginning is of another run (ns): a second.
+const BEFORE: i64 = 1_000_000_000;
+
+/// What a recording comes to.
+#[derive(Debug)]
+pub struct Summary {
+    pub(super) path: PathBuf,
+    pub(super) namespace: String,
+    /// First and last instant of the model on the rig's clock (ns).
+    pub(super) start: i64,
+    pub(super) end: i64,
+    pub(super) messages: u64,
+    pub(super) session: Option<SessionInfo>,
+    /// Runs that the bag holds: sessions that differ.
+    pub(super) runs: u64,
+    /// The session's configuration, where this version can read it.
+    pub(super) config: Option<Config>,
+    pub(super) config_problem: Option<String>,
+    pub(super) drive: Drive,
+    pub(super) incidents: Incidents,
+    pub(super) places: Places,
+    pub(super) health: Health,
+    /// What is not there, or not whole, each as a sentence.
+    pub(super) missing: Vec<String>,
+}
+
+/// Messages of a topic that could not be read.
+#[derive(Debug)]
+struct Unreadable {
+    known: &'static TopicInfo,
+    count: u64,
+    first: String,
+}
+
+impl Summary {
+    /// What is not there, or not whole, each as a sentence.
+    pub fn missing(&self) -> impl Iterator<Item = &str> {
+        self.missing.iter().map(String::as_str)
+    }
+}
+
+struct Reader {
+    summary: Summary,
+    /// Beginning of the time that everything is told in (ns), once it is known.
+    origin: Option<i64>,
+    unreadable: Vec<Unreadable>,
+    backwards: u64,
+}
+
+/// Reads the twin of a bag, the one in `namespace` where there are several. `progress` hears how much of the recorded
+/// time is read (0 to 1).
+///
+/// # Errors
+/// When the bag cannot be read, or holds no twin or several. Damaged parts are left out and named.
+pub fn read(path: &Path, namespace: Option<&str>, mut progress: impl FnMut(f64)) -> Result<Summary, ReportError> {
+    let mut bag = bag::open(path)?;
+    let roles = Roles::find(path, &bag, namespace)?;
+    let used: Vec<bool> = (0..bag.topics().len()).map(|index| roles.of(index).is_some()).collect();
+    let names: Vec<_> = bag.topics().to_vec();
+    bag.select(|topic| names.iter().zip(&used).any(|(known, used)| *used && **known == *topic));
+    let bounds = bag.bounds();
+    let mut reader = Reader::new(path, &roles);
+    let (mut gaps, mut damaged) = (Gaps::default(), Vec::new());
+    for message in bag.by_ref() {
+        let message = match message {
+            Err(error @ BagError::Damaged { .. }) => {
+                damaged.push(error.to_string());
+                continue;
+            }
+            message => message?,
+        };
+        gaps.observe(&message);
+        if let Some((start, end)) = bounds.filter(|(start, end)| end > start) {
+            progress((message.log_time.saturating_sub(start)) as f64 / (end.saturating_sub(start)) as f64);
+        }
+        if let Some(known) = roles.of(message.topic_index) {
+            reader.take(known, &message);
+        }
+    }
+    let cuts = bag.cuts().map(|cut| {
+        format!(
+            "{} was cut short ({}): what is in it up to byte {} is reported.",
+            cut.path.display(),
+            cut.reason,
+            cut.offset
+        )
+    });
+    let cuts: Vec<String> = cuts.collect();
+    Ok(reader.finish(&roles, cuts, &damaged, &gaps.found()))
+}
+
+impl Reader {
+    fn new(path: &Path, roles: &Roles) -> Self {
+        Self {
+            summary: Summary {
+                path: path.to_owned(),
+                namespace: roles.namespace.clone(),
+                start: 0,
+                end: 0,
+                messages: 0,
+                session: None,
+                runs: 0,
+                config: None,
+                config_problem: None,
+                drive: Drive::default(),
+                incidents: Incidents::default(),
+                places: Places::default(),
+                health: Health::default(),
+                missing: Vec::new(),
+            },
+            origin: None,
+            unreadable: Vec::new(),
+            backwards: 0,
+        }
+    }
+
+    fn take(&mut self, known: &'static TopicInfo, message: &BagMessage) {
+        self.summary.messages += 1;
+        if let Err(error) = self.decode(known, message) {
+            match self.unreadable.iter_mut().find(|unreadable| unreadable.known == known) {
+                Some(unreadable) => unreadable.count += 1,
+                None => self.unreadable.push(Unreadable {
+                    known,
+                    count: 1,
+                    first: error.to_string(),
+                }),
+            }
+        }
+    }
+
+    /// Time from the beginning (s) of an instant of the rig's clock (ns).
+    fn time(&mut self, nanoseconds: i64) -> f64 {
+        let origin = *self.origin.get_or_insert(nanoseconds);
+        if nanoseconds < origin.saturating_sub(BEFORE) {
+            self.backwards += 1;
+        }
+        self.summary.end = self.summary.end.max(nanoseconds);
+        nanoseconds.saturating_sub(origin) as f64 * 1e-9
+    }
+
+    fn stamp(&mut self, header: &Header) -> f64 {
+        self.time(header.stamp.to_nanoseconds())
+    }
+
+    fn decode(&mut self, known: &'static TopicInfo, message: &BagMessage) -> Result<(), BagError> {
+        match known.kind.ros_type {
+            SessionInfo::ROS_TYPE => {
+                let session: SessionInfo = message.decode()?;
+                let summary = &mut self.summary;
+                let same =
+                    |known: &SessionInfo| known.start == session.start && known.config_hash == session.config_hash;
+                if !summary.session.as_ref().is_some_and(same) {
+                    summary.runs += 1;
+                    summary.session.get_or_insert(session);
+                }
+            }
+            AppliedInputs::ROS_TYPE => {
+                let inputs: AppliedInputs = message.decode()?;
+                let time = self.stamp(&inputs.header);
+                self.summary.drive.applied(time, &inputs);
+            }
+            BitState::ROS_TYPE => {
+                let bit: BitState = message.decode()?;
+                let time = self.stamp(&bit.header);
+                self.summary.drive.bit(time, &bit);
+            }
+            JointDeflections::ROS_TYPE => {
+                let joints: JointDeflections = message.decode()?;
+                let time = self.stamp(&joints.header);
+                self.summary.drive.joints(time, &joints);
+                self.summary.places.joints(time, joints);
+            }
+            ContactForces::ROS_TYPE => {
+                let contacts: ContactForces = message.decode()?;
+                let time = self.stamp(&contacts.header);
+                self.summary.places.contacts(time, contacts);
+            }
+            WhirlState::ROS_TYPE => {
+                let whirl: WhirlState = message.decode()?;
+                let time = self.stamp(&whirl.header);
+                self.summary.places.whirl(time, &whirl);
+            }
+            AlarmList::ROS_TYPE => {
+                let list: AlarmList = message.decode()?;
+                let _ = self.stamp(&list.header);
+                let origin = self.origin.unwrap_or_default();
+                self.summary.incidents.alarms(list, |alarm| {
+                    alarm.since.to_nanoseconds().saturating_sub(origin) as f64 * 1e-9
+                });
+            }
+            AlarmEvent::ROS_TYPE => {
+                let event: AlarmEvent = message.decode()?;
+                let time = self.stamp(&event.header);
+                self.summary.incidents.event(time, &event);
+            }
+            TwinStatus::ROS_TYPE => {
+                let status: TwinStatus = message.decode()?;
+                let time = self.stamp(&status.header);
+                self.summary.health.status(time, status);
+            }
+            RigInputs::ROS_TYPE => {
+                let inputs: RigInputs = message.decode()?;
+                if let Some(time) = self.heard(message) {
+                    self.summary.drive.rig_inputs(time, &inputs);
+                }
+            }
+            _ => {
+                let value = message.decode::<Float64>()?.data;
+                if let Some(time) = self.heard(message) {
+                    let drive = &mut self.summary.drive;
+                    if known.name == topics::ROTARY_SPEED_RPM.name {
+                        drive.received_speed(time, value);
+                    } else {
+                        drive.received_weight(time, value);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// When a sample of the rig was recorded, once there is a beginning to count from.
+    fn heard(&self, message: &BagMessage) -> Option<f64> {
+        Some(message.log_time.saturating_sub(self.origin?) as f64 * 1e-9)
+    }
+
+    fn finish(mut self, roles: &Roles, cuts: Vec<String>, damaged: &[String], gaps: &[Gap]) -> Summary {
+        let summary = &mut self.summary;
+        summary.start = self.origin.unwrap_or_default();
+        summary.end = summary.end.max(summary.start);
+        summary.places.finish();
+        let end = (summary.end.saturating_sub(summary.start)) as f64 * 1e-9;
+        summary.incidents.finish(end);
+        if let Some(session) = &summary.session {
+            match Config::from_text("the recorded configuration", &session.configuration) {
+                Ok(config) => summary.config = Some(config),
+                Err(error) => summary.config_problem = Some(error.to_string()),
+            }
+        }
+        let missing = &mut summary.missing;
+        missing.extend(cuts);
+        missing.extend(damaged.iter().take(NAMED).map(|damage| format!("Left out: {damage}.")));
+        if damaged.len() > NAMED {
+            missing.push(format!("{} more damaged parts were left out.", damaged.len() - NAMED));
+        }
+        missing.extend(gaps.iter().map(|gap| format!("Lost while it was recorded: {gap}.")));
+        for known in OUTPUTS.iter().filter(|known| !roles.has(known)) {
+            missing.push(format!("The bag has no {}: {}.", known.name, without(known)));
+        }
+        missing.extend(self.unreadable.iter().map(|unreadable| {
+            format!(
+                "{} messages of {} cannot be read; the first: {}.",
+                unreadable.count, unreadable.known.name, unreadable.first
+            )
+        }));
+        if self.backwards > 0 {
+            missing.push(format!(
+                "{} messages carry stamps of before the beginning and are left out of the curves.",
+                self.backwards
+            ));
+        }
+        if summary.places.other_mesh > 0 {
+            missing.push(format!(
+                "{} messages are of another mesh than the first and are left out.",
+                summary.places.other_mesh
+            ));
+        }
+        if summary.runs > 1 {
+            missing.push(format!(
+                "The bag holds {} runs; they are reported as one, with the configuration of the first.",
+                summary.runs
+            ));
+        }
+        self.summary
+    }
+}
+
+/// What cannot be said without a topic.
+fn without(known: &TopicInfo) -> &'static str {
+    match known.kind.ros_type {
+        SessionInfo::ROS_TYPE => "configuration and version of the run are not known",
+        AppliedInputs::ROS_TYPE => "what the model was asked for is not known",
+        BitState::ROS_TYPE => "the bit's motion and torque are not known",
+        JointDeflections::ROS_TYPE => "moments along the tool and orbits are not known",
+        ContactForces::ROS_TYPE => "contact forces are not known",
+        WhirlState::ROS_TYPE => "whirl is not known",
+        AlarmList::ROS_TYPE => "alarms that stood before it began are not known",
+        AlarmEvent::ROS_TYPE => "alarms and incidents are not known",
+        // A replay has none: it keeps no pace.
+        TwinStatus::ROS_TYPE => "pace and health of the model are not known (a replay has none)",
+        _ => "what it says is not known",
+    }
+}

@@ -1,0 +1,114 @@
+//! Which topic of a bag is what.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use super::ReportError;
+use crate::bag::{Bag, Topic};
+use crate::messages::topics::{self, TopicInfo};
+
+/// Outputs of the twin that are read.
+pub(super) const OUTPUTS: [&TopicInfo; 9] = [
+    &topics::SESSION,
+    &topics::APPLIED_INPUTS,
+    &topics::BIT_STATE,
+    &topics::JOINT_DEFLECTIONS,
+    &topics::CONTACT_FORCES,
+    &topics::WHIRL,
+    &topics::ALARMS,
+    &topics::ALARM_EVENTS,
+    &topics::STATUS,
+];
+/// Inputs that are read, as received.
+const INPUTS: [&TopicInfo; 3] = [
+    &topics::ROTARY_SPEED_RPM,
+    &topics::WEIGHT_ON_BIT_KN,
+    &topics::RIG_INPUTS,
+];
+
+/// What each topic of a bag is, by its number in the bag; `None` is of no use here.
+#[derive(Debug)]
+pub(super) struct Roles {
+    of: Vec<Option<&'static TopicInfo>>,
+    /// Of the twin, such as `/` or `/rig_7`.
+    pub namespace: String,
+}
+
+impl Roles {
+    /// Finds the one twin of a bag, or the one in the namespace `wanted`.
+    pub(super) fn find(path: &Path, bag: &Bag, wanted: Option<&str>) -> Result<Self, ReportError> {
+        let namespaces: BTreeSet<String> = bag
+            .topics()
+            .iter()
+            .filter_map(|topic| OUTPUTS.iter().find_map(|known| namespace(topic, known)))
+            .collect();
+        let listed = || namespaces.iter().cloned().collect::<Vec<_>>().join(", ");
+        let namespace = match (wanted, namespaces.len()) {
+            (Some(wanted), _) => {
+                let wanted = format!("/{}", wanted.trim_matches('/'));
+                if !namespaces.contains(&wanted) {
+                    return Err(ReportError::OtherNamespace {
+                        path: path.to_owned(),
+                        wanted,
+                        namespaces: listed(),
+                    });
+                }
+                wanted
+            }
+            (None, 0 | 1) => namespaces.iter().next().cloned().unwrap_or_else(|| "/".to_owned()),
+            (None, _) => {
+                return Err(ReportError::SeveralTwins {
+                    path: path.to_owned(),
+                    namespaces: listed(),
+                });
+            }
+        };
+        let mut of: Vec<Option<&'static TopicInfo>> =
+            bag.topics()
+                .iter()
+                .map(|topic| {
+                    OUTPUTS.into_iter().chain(INPUTS).find(|known| {
+                        topic.ros_type == known.kind.ros_type && topic.name == absolute(&namespace, known)
+                    })
+                })
+                .collect();
+        // A topic that was given another name is known by its type, where only one has it.
+        for known in OUTPUTS {
+            let mut same = (0..of.len()).filter(|index| bag.topics()[*index].ros_type == known.kind.ros_type);
+            if let (Some(only), None) = (same.next(), same.next()) {
+                of[only] = Some(known);
+            }
+        }
+        if !of.iter().flatten().any(|known| OUTPUTS.contains(known)) {
+            let present: Vec<&str> = bag.topics().iter().map(|topic| topic.name.as_str()).collect();
+            return Err(ReportError::NoTwin {
+                path: path.to_owned(),
+                present: present.join(", "),
+            });
+        }
+        Ok(Self { of, namespace })
+    }
+
+    /// What a topic is, by its number in the bag.
+    pub(super) fn of(&self, topic_index: usize) -> Option<&'static TopicInfo> {
+        self.of.get(topic_index).copied().flatten()
+    }
+
+    /// Whether the bag has that topic.
+    pub(super) fn has(&self, known: &TopicInfo) -> bool {
+        self.of.iter().flatten().any(|found| *found == known)
+    }
+}
+
+fn absolute(namespace: &str, known: &TopicInfo) -> String {
+    format!("{}/{}", namespace.trim_end_matches('/'), known.name)
+}
+
+/// The namespace in which a topic is that known one.
+fn namespace(topic: &Topic, known: &TopicInfo) -> Option<String> {
+    if topic.ros_type != known.kind.ros_type {
+        return None;
+    }
+    let namespace = topic.name.strip_suffix(known.name)?.strip_suffix('/')?;
+    Some(if namespace.is_empty() { "/" } else { namespace }.to_owned())
+}

@@ -1,0 +1,208 @@
+//! `~/get_type_description`: what a message type of this node is made of, for tools that do not have its package.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::parameters::Task;
+use super::service::{ServiceMapping, ServiceServer, at_once};
+use crate::dds::port::PortBuilder;
+use crate::messages::type_description_interfaces::{
+    Field, FieldType, GetTypeDescriptionRequest, GetTypeDescriptionResponse, IndividualTypeDescription, KeyValue,
+    TypeDescription, TypeSource,
+};
+use crate::messages::{TypeInfo, find_type};
+use crate::told::printable;
+
+/// Why a type is not described.
+#[derive(Debug, thiserror::Error)]
+enum NoDescription {
+    #[error(
+        "this node knows no message type '{0}'; it describes those of its topics (`ros2 node info`), and what they are made of"
+    )]
+    Unknown(String),
+    #[error("{name} has the hash {here} here, not '{asked}': the definition that is asked for is another one")]
+    Hash {
+        name: &'static str,
+        here: &'static str,
+        asked: String,
+    },
+    #[error("the description of {name} cannot be read: {source}")]
+    Unreadable {
+        name: &'static str,
+        source: serde_json::Error,
+    },
+}
+
+/// [`TypeInfo::description`].
+#[derive(Deserialize)]
+struct Alone {
+    type_name: String,
+    fields: Vec<AloneField>,
+}
+
+#[derive(Deserialize)]
+struct AloneField {
+    name: String,
+    #[serde(rename = "type")]
+    kind: AloneKind,
+    #[serde(default)]
+    default_value: String,
+}
+
+#[derive(Deserialize)]
+struct AloneKind {
+    type_id: u8,
+    capacity: u64,
+    string_capacity: u64,
+    nested_type_name: String,
+}
+
+impl From<Alone> for IndividualTypeDescription {
+    fn from(alone: Alone) -> Self {
+        let fields = alone.fields.into_iter().map(|field| Field {
+            name: field.name,
+            type_: FieldType {
+                type_id: field.kind.type_id,
+                capacity: field.kind.capacity,
+                string_capacity: field.kind.string_capacity,
+                nested_type_name: field.kind.nested_type_name,
+            },
+            default_value: field.default_value,
+        });
+        Self {
+            type_name: alone.type_name,
+            fields: fields.collect(),
+        }
+    }
+}
+
+fn alone(info: &TypeInfo) -> Result<IndividualTypeDescription, NoDescription> {
+    let read: Alone = serde_json::from_str(info.description).map_err(|source| NoDescription::Unreadable {
+        name: info.ros_type,
+        source,
+    })?;
+    Ok(read.into())
+}
+
+/// Adds what a type is made of, directly or not, by name.
+fn collect(
+    of: &IndividualTypeDescription,
+    found: &mut BTreeMap<String, (IndividualTypeDescription, &'static TypeInfo)>,
+) -> Result<(), NoDescription> {
+    for field in &of.fields {
+        let name = &field.type_.nested_type_name;
+        if name.is_empty() || found.contains_key(name) {
+            continue;
+        }
+        let info = find_type(name).ok_or_else(|| NoDescription::Unknown(name.clone()))?;
+        let nested = alone(info)?;
+        found.insert(name.clone(), (nested.clone(), info));
+        collect(&nested, found)?;
+    }
+    Ok(())
+}
+
+fn source(info: &TypeInfo) -> TypeSource {
+    TypeSource {
+        type_name: info.ros_type.to_owned(),
+        encoding: "msg".to_owned(),
+        raw_file_contents: info.source().to_owned(),
+    }
+}
+
+/// Describes the type that is asked for, if its hash is the one here. An empty hash asks for the one here.
+fn describe(request: &GetTypeDescriptionRequest) -> Result<GetTypeDescriptionResponse, NoDescription> {
+    let info = find_type(&request.type_name)
+        .filter(|info| info.ros_type.contains("/msg/"))
+        .ok_or_else(|| NoDescription::Unknown(printable(&request.type_name).into_owned()))?;
+    if !request.type_hash.is_empty() && request.type_hash != info.rihs01 {
+        return Err(NoDescription::Hash {
+            name: info.ros_type,
+            here: info.rihs01,
+            asked: printable(&request.type_hash).into_owned(),
+        });
+    }
+    let type_description = alone(info)?;
+    let mut referenced = BTreeMap::new();
+    collect(&type_description, &mut referenced)?;
+    let type_sources = if request.include_type_sources {
+        let nested = referenced.values().map(|(_, info)| source(info));
+        std::iter::once(source(info)).chain(nested).collect()
+    } else {
+        Vec::new()
+    };
+    Ok(GetTypeDescriptionResponse {
+        successful: true,
+        failure_reason: String::new(),
+        type_description: TypeDescription {
+            type_description,
+            referenced_type_descriptions: referenced.into_values().map(|(described, _)| described).collect(),
+        },
+        type_sources,
+        extra_information: vec![KeyValue {
+            key: "type_hash".to_owned(),
+            value: info.rihs01.to_owned(),
+        }],
+    })
+}
+
+/// Creates the server; `node` is the node's full name.
+pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, node: &str) -> Task {
+    let kind = "type_description_interfaces/srv/GetTypeDescription";
+    let server = ServiceServer::new(port, &format!("{node}/get_type_description"), kind, mapping);
+    Box::pin(server.serve(at_once(|request: GetTypeDescriptionRequest| {
+        describe(&request).unwrap_or_else(|why| GetTypeDescriptionResponse {
+            successful: false,
+            failure_reason: why.to_string(),
+            ..GetTypeDescriptionResponse::default()
+        })
+    })))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::messages::{generated, topics};
+
+    fn request(type_name: &str, type_hash: &str) -> GetTypeDescriptionRequest {
+        GetTypeDescriptionRequest {
+            type_name: type_name.into(),
+            type_hash: type_hash.into(),
+            include_type_sources: true,
+        }
+    }
+
+    #[test]
+    fn every_type_of_a_topic_is_described_with_all_that_it_is_made_of() {
+        for topic in topics::ALL {
+            let described = describe(&request(topic.kind.ros_type, topic.kind.rihs01)).unwrap();
+            let parts = 1 + described.type_description.referenced_type_descriptions.len();
+            assert_eq!(described.type_sources.len(), parts, "{}", topic.name);
+            let joined: usize = described
+                .type_sources
+                .iter()
+                .map(|source| source.raw_file_contents.len())
+                .sum();
+            assert!(joined <= topic.kind.schema.len() && joined > 0, "{}", topic.name);
+        }
+    }
+
+    #[test]
+    fn the_descriptions_in_the_table_can_all_be_read() {
+        for info in generated::TYPES {
+            assert_eq!(alone(info).unwrap().type_name, info.ros_type);
+        }
+        let asked = find_type("type_description_interfaces/srv/GetTypeDescription_Request").unwrap();
+        assert_eq!(alone(asked).unwrap().fields[2].default_value, "True");
+    }
+
+    #[test]
+    fn another_definition_and_an_unknown_type_are_refused_in_words() {
+        let refused = |name: &str, hash: &str| describe(&request(name, hash)).unwrap_err().to_string();
+        let hash = format!("RIHS01_{}", "0".repeat(64));
+        assert!(refused("std_msgs/msg/Float64", &hash).contains("has the hash RIHS01_705b"));
+        assert!(refused("std_msgs/msg/Nothing\n", "").contains("no message type 'std_msgs/msg/Nothing\\n'"));
+        assert!(refused("std_srvs/srv/Trigger_Request", "").contains("no message type"));
+    }
+}

@@ -1,0 +1,230 @@
+//! The command line as people meet it: the first start, words that are no commands, completions, man pages, the schema,
+//! and every command that the documents show.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn flexdrill(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// Exit code, standard output and standard error.
+fn said(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = flexdrill(arguments);
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn without_arguments_it_says_what_it_is_and_what_to_type() {
+    let (code, out, err) = said(&[]);
+    assert_eq!((code, out.as_str()), (Some(2), ""));
+    assert!(err.contains("digital twin"), "{err}");
+    let commands: Vec<&str> = err.lines().filter(|line| line.starts_with("  flexdrill ")).collect();
+    assert!(commands.len() >= 5, "{err}");
+    for line in commands {
+        let command = line.trim().split("  ").next().unwrap();
+        flexdrill::cli::understand(command.split(' ').map(str::to_owned)).unwrap_or_else(|why| panic!("{line}: {why}"));
+    }
+}
+
+#[test]
+fn wrong_use_is_told_the_nearest_right_command() {
+    for (arguments, expected) in [
+        (&["rnu"][..], "'run'"),
+        (&["reprot", "bag"], "'report'"),
+        (&["run", "--recrod", "x"], "'--record'"),
+        (&["check", "--ful", "x.yaml"], "'--full'"),
+        (&["validate", "x.yaml"], "flexdrill check CONFIG"),
+        (&["my_tool.yaml"], "flexdrill run --config my_tool.yaml"),
+        (&["play", "log.csv"], "flexdrill rig LOG"),
+        (&["run.mcap"], "flexdrill report run.mcap --out DIR"),
+    ] {
+        let (code, _, err) = said(arguments);
+        assert_eq!(code, Some(2), "{arguments:?}: {err}");
+        assert!(err.contains(expected), "{arguments:?}: {err}");
+    }
+    // A terminal's commands in a file's name are shown and not obeyed.
+    let (_, _, err) = said(&["\u{1b}[2Jx.yaml"]);
+    assert!(!err.contains('\u{1b}'), "{err:?}");
+}
+
+#[test]
+fn completions_and_man_pages_know_every_command() {
+    let (_, help, _) = said(&["--help"]);
+    let commands: Vec<&str> = help
+        .lines()
+        .skip_while(|line| *line != "Commands:")
+        .skip(1)
+        .take_while(|line| !line.is_empty())
+        .filter_map(|line| line.trim().split(' ').next())
+        .filter(|command| *command != "help")
+        .collect();
+    assert!(commands.contains(&"run") && commands.contains(&"report"), "{help}");
+    let folder = tempfile::tempdir().unwrap();
+    let (code, _, err) = said(&["man", "--out", folder.path().to_str().unwrap()]);
+    assert_eq!(code, Some(0), "{err}");
+    for shell in ["bash", "zsh", "fish"] {
+        let (code, out, err) = said(&["completions", shell]);
+        assert_eq!(code, Some(0), "{err}");
+        for command in &commands {
+            assert!(out.contains(command), "{shell}: {command}");
+        }
+    }
+    for command in commands {
+        let page = std::fs::read_to_string(folder.path().join(format!("flexdrill-{command}.1"))).unwrap();
+        assert!(page.contains(".SH SYNOPSIS"), "{command}");
+    }
+    assert!(folder.path().join("flexdrill.1").exists());
+}
+
+/// Rewritten by: flexdrill check --schema > config/flexdrill.schema.json
+#[test]
+fn the_schema_that_is_checked_in_is_that_of_this_version() {
+    let (code, out, err) = said(&["check", "--schema"]);
+    assert_eq!(code, Some(0), "{err}");
+    let path = root().join("config/flexdrill.schema.json");
+    assert!(
+        std::fs::read_to_string(&path).unwrap() == out,
+        "{} is old; flexdrill check --schema > config/flexdrill.schema.json",
+        path.display()
+    );
+    // Editors find it from the file that people begin with.
+    let config = std::fs::read_to_string(root().join("config/default.yaml")).unwrap();
+    assert!(config.contains("# yaml-language-server: $schema=flexdrill.schema.json"));
+}
+
+/// Rewritten by: flexdrill reference PAGE > docs/PAGE.md
+#[test]
+fn the_reference_pages_that_are_checked_in_are_those_of_this_version() {
+    for page in ["topics", "configuration"] {
+        let (code, out, err) = said(&["reference", page]);
+        assert_eq!(code, Some(0), "{err}");
+        let path = root().join(format!("docs/{page}.md"));
+        assert!(
+            std::fs::read_to_string(&path).unwrap() == out,
+            "{} is old; flexdrill reference {page} > docs/{page}.md",
+            path.display()
+        );
+    }
+}
+
+/// Markdown files of the repository and the pages of the manual.
+fn documents() -> Vec<PathBuf> {
+    let mut found = vec![root().join("README.md"), root().join("CONTRIBUTING.md")];
+    let mut folders = vec![root().join("docs")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path
+                .extension()
+                .is_some_and(|extension| extension == "md" || extension == "py" || extension == "yaml")
+            {
+                found.push(path);
+            }
+        }
+    }
+    found
+}
+
+/// The command line of a line of a code block, if it is one of flexdrill.
+fn command(line: &str) -> Option<Vec<String>> {
+    let line = line
+        .trim()
+        .trim_start_matches("# ")
+        .trim_start_matches("$ ")
+        .trim_start_matches("sudo ")
+        .trim();
+    let mut words: Vec<String> = Vec::new();
+    let mut quote = None;
+    let mut word = String::new();
+    for letter in line.chars() {
+        match (letter, quote) {
+            ('\'' | '"', None) => quote = Some(letter),
+            (_, Some(open)) if letter == open => quote = None,
+            (' ', None) => words.push(std::mem::take(&mut word)),
+            // What follows is a comment, or for the shell.
+            ('#' | '|' | '&' | ';' | '>' | '<', None) => break,
+            _ => word.push(letter),
+        }
+    }
+    words.push(word);
+    words.retain(|word| !word.is_empty());
+    let is_setting = |word: &String| {
+        word.split_once('=')
+            .is_some_and(|(name, _)| name.chars().all(|c| c.is_ascii_uppercase() || c == '_'))
+    };
+    let mut words: Vec<String> = words.into_iter().skip_while(is_setting).collect();
+    let program = words.first()?;
+    // A sentence may begin with the program's name too; a command has no full stop or comma behind a word.
+    let is_command =
+        ["flexdrill", "target/release/flexdrill", "./target/release/flexdrill"].contains(&program.as_str());
+    if !is_command || words.len() < 2 || words.iter().any(|word| word == "..." || word.ends_with(',')) {
+        return None;
+    }
+    words[0] = "flexdrill".to_owned();
+    Some(words)
+}
+
+#[test]
+fn commands_in_the_documents_are_understood() {
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for file in documents() {
+        let text = std::fs::read_to_string(&file).unwrap();
+        let markdown = file.extension().is_some_and(|extension| extension == "md");
+        let mut fenced = false;
+        for (number, line) in text.lines().enumerate() {
+            fenced ^= markdown && line.trim_start().starts_with("```");
+            let shown = fenced || line.starts_with("    ") || (!markdown && line.starts_with("#     "));
+            let Some(words) = shown.then(|| command(line)).flatten() else {
+                continue;
+            };
+            count += 1;
+            if let Err(why) = flexdrill::cli::understand(words.clone()) {
+                let why = why.lines().next().unwrap_or_default().to_owned();
+                wrong.push(format!("{}:{}: {}: {why}", file.display(), number + 1, words.join(" ")));
+            }
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "commands that flexdrill does not understand:\n{}",
+        wrong.join("\n")
+    );
+    // Fewer would mean that they are no longer found.
+    assert!(count >= 20, "{count}");
+}
+
+#[test]
+fn a_command_in_a_document_is_found() {
+    let words = |line: &str| command(line).map(|words| words.join(" "));
+    assert_eq!(
+        words("    $ flexdrill rig LOG  # in real time").unwrap(),
+        "flexdrill rig LOG"
+    );
+    assert_eq!(
+        words("ROS_DOMAIN_ID=3 flexdrill run --ros-args -r __ns:=/rig_7").unwrap(),
+        "flexdrill run --ros-args -r __ns:=/rig_7"
+    );
+    assert_eq!(
+        words("flexdrill completions bash > file").unwrap(),
+        "flexdrill completions bash"
+    );
+    assert_eq!(words("cargo build"), None);
+}

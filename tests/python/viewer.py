@@ -1,0 +1,206 @@
+"""A viewer as Foxglove is one, from other hands: the package websockets for the protocol, mcap-ros2-support for the messages.
+
+viewer.py decode URL SECONDS [SUBPROTOCOL]   subscribes to everything; says per topic what came, decoded by its own schema
+viewer.py crowd URL COUNT SECONDS            COUNT viewers that subscribe to everything, one of which takes nothing; one decodes
+viewer.py play URL                           pauses, seeks, plays faster, to the end; says what the server answered
+viewer.py refused URL SUBPROTOCOL ORIGIN     says with which code it is not let in ("-" leaves either out)
+
+Answers one JSON object. Ends with 77 when the packages are missing.
+"""
+
+import asyncio
+import json
+import math
+import socket
+import struct
+import sys
+import time
+
+try:
+    import websockets
+    from mcap.records import Schema
+    from mcap_ros2.decoder import DecoderFactory
+    from websockets.asyncio.client import connect
+except ImportError as missing:
+    print(f"missing: {missing.name}")
+    sys.exit(77)
+
+PROTOCOL = "foxglove.sdk.v1"
+
+
+class Viewer:
+    def __init__(self, socket):
+        self.socket = socket
+        self.info = None
+        self.channels = {}
+        self.found = {}
+        self.decoders = {}
+        self.states = []
+        self.times = []
+
+    async def greet(self):
+        """Server info and all channels, with an id that is not theirs for each."""
+        self.info = json.loads(await self.socket.recv())
+        assert self.info["op"] == "serverInfo", self.info
+        said = json.loads(await self.socket.recv())
+        assert said["op"] == "advertise", said
+        self.channels = {1000 + index: channel for index, channel in enumerate(said["channels"])}
+        subscriptions = [{"id": id, "channelId": channel["id"]} for id, channel in self.channels.items()]
+        await self.socket.send(json.dumps({"op": "subscribe", "subscriptions": subscriptions}))
+
+    def decode(self, id, data):
+        channel = self.channels[id]
+        if id not in self.decoders:
+            assert (channel["encoding"], channel["schemaEncoding"]) == ("cdr", "ros2msg"), channel
+            schema = Schema(id=id, name=channel["schemaName"], encoding="ros2msg", data=channel["schema"].encode())
+            self.decoders[id] = DecoderFactory().decoder_for("cdr", schema)
+        return self.decoders[id](data)
+
+    def take(self, frame, decode=True):
+        if isinstance(frame, str):
+            said = json.loads(frame)
+            assert said["op"] != "status" or said["level"] == 0, said
+            return
+        if frame[0] == 5:
+            status, now, speed, sought, length = struct.unpack_from("<BQfBI", frame, 1)
+            request = frame[19 : 19 + length].decode()
+            self.states.append({"status": status, "time": now, "speed": speed, "did_seek": sought, "request": request})
+            return
+        if frame[0] == 2:
+            self.times.append(struct.unpack_from("<Q", frame, 1)[0])
+            return
+        assert frame[0] == 1, frame[0]
+        id, stamp = struct.unpack_from("<IQ", frame, 1)
+        topic = self.found.setdefault(self.channels[id]["topic"], {"count": 0, "stamps": []})
+        topic["count"] += 1
+        topic["stamps"].append(stamp)
+        if decode:
+            message = self.decode(id, frame[13:])
+            topic["type"] = self.channels[id]["schemaName"]
+            header = getattr(message, "header", None)
+            if header is not None:
+                topic["header"] = header.stamp.sec * 10**9 + header.stamp.nanosec
+                topic["frame"] = header.frame_id
+            for field in ("weight_on_bit", "real_time_factor", "data", "max_bend_angle", "sequence", "configuration"):
+                value = getattr(message, field, None)
+                if isinstance(value, (int, float, str)) and not (isinstance(value, float) and not math.isfinite(value)):
+                    topic[field] = value
+
+    async def listen(self, seconds, decode=True, until=None):
+        deadline = time.monotonic() + seconds
+        while (left := deadline - time.monotonic()) > 0 and not (until and until()):
+            try:
+                self.take(await asyncio.wait_for(self.socket.recv(), min(left, 0.1)), decode)
+            except TimeoutError:
+                pass
+
+    async def control(self, command, speed, seek, request):
+        """Asks to play (0) or to pause (1); the server's answer."""
+        text = request.encode()
+        head = struct.pack("<BBfBQI", 3, command, speed, seek is not None, seek or 0, len(text))
+        await self.socket.send(head + text)
+        await self.listen(5.0, until=lambda: any(state["request"] == request for state in self.states))
+        return next(state for state in self.states if state["request"] == request)
+
+
+def opened(url, protocol=PROTOCOL, **more):
+    return connect(url, subprotocols=[protocol], max_size=None, compression=None, **more)
+
+
+async def decode(url, seconds, protocol=PROTOCOL):
+    async with opened(url, protocol) as socket:
+        viewer = Viewer(socket)
+        await viewer.greet()
+        await viewer.listen(float(seconds))
+        for topic in viewer.found.values():
+            stamps = topic.pop("stamps")
+            topic["first"], topic["last"] = stamps[0], stamps[-1]
+        return {
+            "name": viewer.info["name"],
+            "capabilities": viewer.info["capabilities"],
+            "offered": [channel["topic"] for channel in viewer.channels.values()],
+            "found": viewer.found,
+        }
+
+
+async def crowd(url, count, seconds):
+    """All subscribe to everything. The first takes nothing after that, with the smallest buffer; the last decodes."""
+    frozen = socket.socket()
+    frozen.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    host, port = url.split("/")[2].rsplit(":", 1)
+    frozen.connect((host, int(port)))
+    viewers = []
+    for index in range(int(count)):
+        more = {"sock": frozen, "max_queue": 1} if index == 0 else {}
+        viewer = Viewer(await opened(url, **more))
+        await viewer.greet()
+        viewers.append(viewer)
+    viewers[0].socket.transport.pause_reading()
+
+    async def take(viewer, is_last):
+        await viewer.listen(float(seconds), decode=is_last)
+        return sum(topic["count"] for topic in viewer.found.values())
+
+    counts = await asyncio.gather(*(take(viewer, viewer is viewers[-1]) for viewer in viewers[1:]))
+    stamps = viewers[-1].found["/twin/joint_deflections"]["stamps"]
+    gaps = sum(later - earlier > 25_000_000 for earlier, later in zip(stamps, stamps[1:]))
+    for viewer in viewers[1:]:
+        await viewer.socket.close()
+    frozen.close()
+    return {"counts": counts, "joints": len(stamps), "gaps": gaps, "topics": len(viewers[-1].found)}
+
+
+async def play(url):
+    async with opened(url) as socket:
+        viewer = Viewer(socket)
+        await viewer.greet()
+        start, end = (viewer.info[key]["sec"] * 10**9 + viewer.info[key]["nsec"] for key in ("dataStartTime", "dataEndTime"))
+        middle = (start + end) // 2
+        paused = await viewer.control(1, 1.0, middle, "pause in the middle")
+        await viewer.listen(1.0)
+        status = "/twin/status"
+        at_rest = max(viewer.found[status]["stamps"][-1:] or [0])
+        count = sum(topic["count"] for topic in viewer.found.values())
+        await viewer.listen(1.0)
+        still = sum(topic["count"] for topic in viewer.found.values()) - count
+        began = time.monotonic()
+        played = await viewer.control(0, 4.0, None, "four times as fast")
+        await viewer.listen(60.0, until=lambda: any(state["status"] == 3 for state in viewer.states))
+        took = time.monotonic() - began
+        again = await viewer.control(0, 1.0, start, "from the beginning")
+        await viewer.listen(0.5)
+        return {
+            "capabilities": viewer.info["capabilities"],
+            "start": start,
+            "end": end,
+            "middle": middle,
+            "paused": paused,
+            "at_rest": at_rest,
+            "still": still,
+            "played": played,
+            "took": took,
+            "ended": next(state for state in viewer.states if state["status"] == 3),
+            "again": again,
+            "after": viewer.found[status]["stamps"][-1],
+            "times": len(viewer.times),
+            "session": viewer.found.get("/twin/session", {}).get("count", 0),
+        }
+
+
+async def refused(url, protocol, origin):
+    more = {} if origin == "-" else {"origin": origin}
+    try:
+        async with connect(url, subprotocols=None if protocol == "-" else [protocol], **more):
+            return {"code": 101}
+    except websockets.exceptions.InvalidStatus as error:
+        return {"code": error.response.status_code, "body": error.response.body.decode()}
+
+
+def main():
+    command, *arguments = sys.argv[1:]
+    answer = asyncio.run({"decode": decode, "crowd": crowd, "play": play, "refused": refused}[command](*arguments))
+    print(json.dumps(answer))
+
+
+if __name__ == "__main__":
+    main()

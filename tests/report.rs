@@ -1,0 +1,312 @@
+//! The page of a recording: what stands on it is what is in the bag, and what is not in the bag is said.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+mod common;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use flexdrill::bag::{self, Recorder, Topic};
+use flexdrill::messages::builtin_interfaces::Time;
+use flexdrill::messages::std_msgs::{Float64, Header};
+use flexdrill::messages::topics::{self, TopicInfo};
+use flexdrill::messages::{AlarmEvent, BitState, ContactForces, SessionInfo, TwinStatus, to_cdr};
+
+/// An instant of the rig's clock (ns): 2023-11-14 22:13:20 UTC.
+const START: i64 = 1_700_000_000_000_000_000;
+
+fn flexdrill(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// The page of a bag, and what was said while it was made.
+fn report(bag: &Path, more: &[&str]) -> (String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let output = flexdrill(&[&["report", text(bag), "--out", text(folder.path())], more].concat());
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    check_page(&page);
+    (page, said)
+}
+
+/// What holds of every page: it is whole, needs nothing beside itself, runs nothing, and says no number that is none.
+fn check_page(page: &str) {
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>"));
+    for outside in ["<script", "<link", "<iframe", "src=", "url(", "@import"] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    let addresses = page.matches("://").count();
+    assert_eq!(addresses, page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
+    for (open, close) in [
+        ("<svg", "</svg>"),
+        ("<table", "</table>"),
+        ("<section", "</section>"),
+        ("<figure", "</figure>"),
+    ] {
+        assert_eq!(page.matches(open).count(), page.matches(close).count(), "{open}");
+    }
+    for wrong in ["NaN", ">inf", "-inf"] {
+        assert!(!page.contains(wrong), "{wrong}");
+    }
+}
+
+/// Twenty seconds of drilling, replayed from the log of the demonstration, which has WOB from there on.
+fn replayed(folder: &Path) -> PathBuf {
+    let root = common::root();
+    let out = folder.join("run");
+    let output = flexdrill(&[
+        "replay",
+        text(&root.join("config/field_logs/demo.csv")),
+        "--mapping",
+        text(&root.join("config/field_logs/rig_1hz.yaml")),
+        "--config",
+        text(&common::small_config()),
+        "--from",
+        "60",
+        "--duration",
+        "20",
+        "--out",
+        text(&out),
+    ]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    out
+}
+
+#[test]
+fn a_replay_gives_a_page_with_the_numbers_of_its_bag() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = replayed(folder.path());
+    let (page, said) = report(&run, &[]);
+    // The largest force, taken from the bag in another way.
+    let (mut largest, mut bit_torque) = ([0.0_f64; 2], f64::NEG_INFINITY);
+    let mut session = SessionInfo::default();
+    for message in bag::open(&run).unwrap() {
+        let message = message.unwrap();
+        if message.topic.is("twin/contact_forces") {
+            let m: ContactForces = message.decode().unwrap();
+            for (largest, peaks) in largest
+                .iter_mut()
+                .zip([m.pipe_guide_normal_peak, m.guide_wall_normal_peak])
+            {
+                *largest = peaks.into_iter().fold(*largest, f64::max);
+            }
+        } else if message.topic.is("twin/bit_state") {
+            bit_torque = bit_torque.max(message.decode::<BitState>().unwrap().torque);
+        } else if message.topic.is("twin/session") {
+            session = message.decode().unwrap();
+        }
+    }
+    assert!(largest[0] > 10.0 && bit_torque > 10.0, "{largest:?} {bit_torque}");
+    let digits = |value: f64| match value {
+        ..1.0 => format!("{value:.3}"),
+        ..10.0 => format!("{value:.2}"),
+        _ => format!("{value:.1}"),
+    };
+    let tile = format!("<b>{} kN</b>largest force, pipe on guide", digits(largest[0] / 1e3));
+    assert!(page.contains(&tile), "{tile}");
+    assert!(
+        page.contains(&format!("<td class=\"n\">{}</td>", digits(bit_torque))),
+        "{bit_torque}"
+    );
+    assert!(page.contains(&session.config_hash) && page.contains("tool:\n"));
+    for figure in ["inputs", "orbits", "envelopes", "torque"] {
+        assert!(page.contains(&format!("<figure id=\"{figure}\">")), "{figure}");
+    }
+    // A replay keeps no pace, and says so.
+    assert!(
+        page.contains("A replay has none") && said.contains("twin/status"),
+        "{said}"
+    );
+    assert!(!page.contains("<figure id=\"pace\">"));
+}
+
+#[test]
+fn a_bag_that_was_cut_short_gives_a_page_that_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = replayed(folder.path());
+    let whole = std::fs::read(run.join("run_0.mcap")).unwrap();
+    let cut = folder.path().join("cut.mcap");
+    std::fs::write(&cut, &whole[..whole.len() / 2]).unwrap();
+    let (page, said) = report(&cut, &[]);
+    assert!(
+        page.contains("was cut short") && said.contains("was cut short"),
+        "{said}"
+    );
+    assert!(page.contains("largest force, pipe on guide"));
+}
+
+struct Bag {
+    recorder: Recorder,
+    topics: Vec<Topic>,
+}
+
+impl Bag {
+    fn new(path: &Path, topics: &[(&str, &TopicInfo)]) -> Self {
+        let topics: Vec<Topic> = topics
+            .iter()
+            .map(|(namespace, topic)| Topic::new(format!("{namespace}{}", topic.name), &topic.kind, topic.qos))
+            .collect();
+        Self {
+            recorder: Recorder::create(path, &topics).unwrap(),
+            topics,
+        }
+    }
+
+    fn put(&mut self, topic: &str, time: f64, bytes: &[u8]) {
+        let index = self.topics.iter().position(|known| known.name == topic).unwrap();
+        self.recorder.record(index, START + (time * 1e9) as i64, bytes).unwrap();
+    }
+}
+
+fn header(time: f64) -> Header {
+    Header {
+        stamp: Time::from_nanoseconds(START + (time * 1e9) as i64),
+        frame_id: "flexible_tool".to_owned(),
+    }
+}
+
+fn event(time: f64, change: u8, evidence: &str) -> Vec<u8> {
+    to_cdr(&AlarmEvent {
+        header: header(time),
+        id: "shock".to_owned(),
+        name: "shock".to_owned(),
+        change,
+        priority: 3,
+        evidence: evidence.to_owned(),
+        what_to_do: "Lower the speed.".to_owned(),
+        measured_depth: 2.5,
+        body: 1,
+        ..AlarmEvent::default()
+    })
+    .unwrap()
+}
+
+#[test]
+fn alarms_and_health_are_told_and_texts_of_others_stay_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.mcap");
+    let mut bag = Bag::new(
+        &path,
+        &[
+            ("/rig_7/", &topics::STATUS),
+            ("/rig_7/", &topics::ALARM_EVENTS),
+            ("/rig_7/", &topics::BIT_STATE),
+        ],
+    );
+    for index in 0..100_u32 {
+        let time = f64::from(index) * 0.2;
+        let status = TwinStatus {
+            header: header(time),
+            state: TwinStatus::RUNNING,
+            real_time_factor: if index == 50 { 0.25 } else { 1.0 },
+            model_quality: u8::from(index >= 75),
+            model_quality_cause: "steps too long".to_owned(),
+            recording_drops: 17,
+            ..TwinStatus::default()
+        };
+        bag.put("/rig_7/twin/status", time, &to_cdr(&status).unwrap());
+        if index == 10 {
+            bag.put(
+                "/rig_7/twin/alarm_events",
+                time,
+                &event(time, AlarmEvent::ACTIVATED, "<script>alert(1)</script>"),
+            );
+        }
+        if index == 45 {
+            bag.put("/rig_7/twin/alarm_events", time, &event(time, AlarmEvent::RETURNED, ""));
+        }
+    }
+    // Bytes that are no message of their type.
+    bag.put("/rig_7/twin/bit_state", 19.9, &[0, 1, 0, 0, 7]);
+    bag.recorder.finish().unwrap();
+    let (page, said) = report(&path, &[]);
+    assert!(page.contains("2023-11-14 22:13:20 UTC") && page.contains("<code>/rig_7</code>"));
+    assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;"));
+    // From 2 s to 9 s.
+    assert!(page.contains("HIGH") && page.contains("once, 7.0 s in all"), "{page}");
+    assert!(page.contains("pipe, 2.50 m") && page.contains("Lower the speed."));
+    assert!(page.contains("good 75 %, degraded 25 %") && page.contains("steps too long"));
+    assert!(page.contains("0.250 to 1") && page.contains("recording 17"));
+    assert!(said.contains("1 messages of twin/bit_state cannot be read"), "{said}");
+    for missing in ["twin/contact_forces", "twin/joint_deflections", "twin/session"] {
+        assert!(said.contains(&format!("The bag has no {missing}")), "{missing}: {said}");
+    }
+}
+
+#[test]
+fn of_several_twins_one_is_asked_for_and_of_none_the_next_step_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("two.mcap");
+    let mut bag = Bag::new(&path, &[("/a/", &topics::BIT_STATE), ("/b/", &topics::BIT_STATE)]);
+    for (name, torque) in [("/a/twin/bit_state", 111.0), ("/b/twin/bit_state", 222.0)] {
+        let state = BitState {
+            header: header(1.0),
+            torque,
+            ..BitState::default()
+        };
+        bag.put(name, 1.0, &to_cdr(&state).unwrap());
+    }
+    bag.recorder.finish().unwrap();
+    let out = folder.path().join("out");
+    let output = flexdrill(&["report", text(&path), "--out", text(&out)]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.contains("namespaces /a, /b; say which with --namespace"), "{said}");
+    let (page, _) = report(&path, &["--namespace", "/b"]);
+    assert!(page.contains("<td class=\"n\">222</td>") && !page.contains("<td class=\"n\">111</td>"));
+
+    let rig = folder.path().join("rig/rig.mcap");
+    let mut bag = Bag::new(&rig, &[("/", &topics::ROTARY_SPEED_RPM)]);
+    bag.put("/rig/rotary_speed_rpm", 0.0, &to_cdr(&Float64 { data: 40.0 }).unwrap());
+    bag.recorder.finish().unwrap();
+    let output = flexdrill(&["report", text(&rig), "--out", text(&out)]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        said.contains("none of its topics is the twin's") && said.contains("flexdrill replay"),
+        "{said}"
+    );
+    assert!(!out.exists());
+}
+
+/// The example of the manual, on a bag of ours, with the packages that it names.
+#[test]
+fn interop_the_python_example_reads_and_draws_a_recording() {
+    let Some(python) = common::python::with("rosbags, matplotlib") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let run = replayed(folder.path());
+    let picture = folder.path().join("run.png");
+    let output = Command::new(python)
+        .arg(common::root().join("docs/examples/plot_recording.py"))
+        .args([text(&run), "--out", text(&picture)])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(std::fs::read(&picture).unwrap().starts_with(b"\x89PNG"));
+    // Both found the same largest force.
+    let (page, _) = report(&run, &[]);
+    let force = said
+        .lines()
+        .find_map(|line| line.strip_prefix("largest force, pipe on guide: "))
+        .unwrap();
+    let newtons: f64 = force.split(' ').next().unwrap().parse().unwrap();
+    assert!(newtons > 10.0, "{said}");
+    let tile = format!("<b>{:.3} kN</b>largest force, pipe on guide", newtons / 1e3);
+    assert!(newtons >= 1000.0 || page.contains(&tile), "{tile}");
+}
