@@ -22,6 +22,7 @@ pub mod builtin_interfaces {
         const DDS_TYPE: &'static str = "builtin_interfaces::msg::dds_::Duration_";
         const RIHS01: &'static str = "RIHS01_e8d009f659816f758b75334ee1a9ca5b5c0b859843261f14c7f937349599d93b";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/builtin_interfaces/msg/Duration.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "builtin_interfaces/msg/Duration", "fields": [{"name": "sec", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nanosec", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `builtin_interfaces/msg/Time`.
@@ -38,6 +39,7 @@ pub mod builtin_interfaces {
         const DDS_TYPE: &'static str = "builtin_interfaces::msg::dds_::Time_";
         const RIHS01: &'static str = "RIHS01_b106235e25a4c5ed35098aa0a61a3ee9c9b18d197f398b0e4206cea9acf9c197";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "builtin_interfaces/msg/Time", "fields": [{"name": "sec", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nanosec", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
 
@@ -71,6 +73,7 @@ pub mod diagnostic_msgs {
             "================================================================================\nMSG: diagnostic_msgs/KeyValue\n",
             include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "diagnostic_msgs/msg/DiagnosticArray", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "status", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "diagnostic_msgs/msg/DiagnosticStatus"}}]}"#;
     }
 
     /// `diagnostic_msgs/msg/DiagnosticStatus`.
@@ -101,6 +104,7 @@ pub mod diagnostic_msgs {
             "================================================================================\nMSG: diagnostic_msgs/KeyValue\n",
             include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "diagnostic_msgs/msg/DiagnosticStatus", "fields": [{"name": "level", "type": {"type_id": 16, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hardware_id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "values", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "diagnostic_msgs/msg/KeyValue"}}]}"#;
     }
 
     /// `diagnostic_msgs/msg/KeyValue`.
@@ -117,6 +121,7 @@ pub mod diagnostic_msgs {
         const DDS_TYPE: &'static str = "diagnostic_msgs::msg::dds_::KeyValue_";
         const RIHS01: &'static str = "RIHS01_d68081eaa540288c5440753baecef0c4e16e81a5f78ad68902ded5100413bb42";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "diagnostic_msgs/msg/KeyValue", "fields": [{"name": "key", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
 
@@ -171,6 +176,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Ageing", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "woehler_slope", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rated_moment", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bending_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "relative_damage", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// One alarm as it stands: one thing that an operator can do something about. What each of them means is in docs/alarms.md.
@@ -265,6 +271,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Alarm", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "active", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "acknowledged", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "threshold", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "consequence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_minute", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// One change of one alarm: the journal. What the states and priorities are says Alarm.
@@ -347,6 +354,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmEvent", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "change", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciates", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// All alarms, the worst first, sent when one of them changes and every second. Latched: of several received, the one with
@@ -387,6 +395,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: flexdrill/Alarm\n",
             include_str!("../../msg/Alarm.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmList", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/Alarm"}}, {"name": "unacknowledged", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_ten_minutes", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "flood", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_per_hour", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "flood_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// What drives the model from a step on, sent when anything of it changes. The sequence of these messages and the
@@ -422,6 +431,8 @@ pub mod flexdrill {
         pub parameter_name: Vec<std::string::String>,
         /// Their new values, in the parameter's unit.
         pub parameter_value: Vec<f64>,
+        /// Who asked for them: the service and its client, as node @ host (id of its DDS writer).
+        pub parameter_asked_by: Vec<std::string::String>,
         /// Every model step is taken in 2^refinement equal parts: what the motion asks for, as far as the pace allows it.
         pub refinement: u8,
     }
@@ -444,7 +455,7 @@ pub mod flexdrill {
         const NAME: &'static str = "AppliedInputs";
         const ROS_TYPE: &'static str = "flexdrill/msg/AppliedInputs";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AppliedInputs_";
-        const RIHS01: &'static str = "RIHS01_f78a5d37f39069f5ad7ebad2deb71057bab25c9324e6753cc7785ed5664c6249";
+        const RIHS01: &'static str = "RIHS01_1c82816f859bebe6dc1a7f3241f352f0a9eadcdf18327edfd5871298a6be51f3";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/AppliedInputs.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -452,6 +463,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AppliedInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "skipped_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reset", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inner_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "outer_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_value", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_asked_by", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "refinement", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// The bit.
@@ -506,6 +518,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/BitState", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stick_slip_index", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "tangential_acceleration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_acceleration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_acceleration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_acceleration_peak", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_impulse", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stick_slip_severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Contact between pipe and guide pipe and between guide pipe and bore wall. All arrays have one entry per station, top
@@ -599,6 +612,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/ContactForces", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "max_pipe_guide_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_pipe_guide_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_guide_wall_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_guide_wall_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_gap", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_tangential", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_axial", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal_peak", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal_rms", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_gap", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_tangential", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_axial", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal_peak", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal_rms", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_shock", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_shock", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_impulse", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_layer", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
@@ -653,6 +667,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/JointDeflections", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "max_bend_angle", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_bend_joint", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joints_at_limit", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bend_angle", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bend_direction", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "limit_angle", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_moment", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "spin_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_force", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shear_force", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Both inputs of the rig with the time at which they were measured, for rigs that have it; the topics rig/rotary_speed_rpm and
@@ -693,6 +708,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// What a run was made with, so that a recording stands alone.
@@ -725,6 +741,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/SessionInfo", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "start", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "configuration", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Health of the twin. The sequence is its heartbeat: when it stops, the twin has stopped.
@@ -849,6 +866,8 @@ pub mod flexdrill {
         pub frames_dropped: u64,
         /// Changes of the inputs that found it so: a recording of this run cannot be replayed exactly.
         pub events_lost: u64,
+        /// Per input: samples that came faster than they were taken since the start: the oldest of 256 that waited were given up.
+        pub input_overrun: Vec<u64>,
         /// Step in which the motion is computed, the model step or a half or a quarter of it (s).
         pub step_in_force: f64,
         /// Step that the motion asks for (s); shorter than the one in force where the machine is too slow for it.
@@ -894,7 +913,7 @@ pub mod flexdrill {
         const NAME: &'static str = "TwinStatus";
         const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
-        const RIHS01: &'static str = "RIHS01_3e6bbcb66e314243cf7c6237b1f33fe6e7e224679e69fb8ca35ec2b3185fae97";
+        const RIHS01: &'static str = "RIHS01_d7b295fcbd4b768bd540bd1952d2fa92b06f23461b7657acb36959ea5da63873";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -902,6 +921,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/TwinStatus", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_time", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_count", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "real_time_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateness", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "deadline_misses", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_skipped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p50", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p99", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_max", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "newton_iterations_mean", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rejected_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "halved_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_path", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_messages", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_age", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_received", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_applied", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_rejected", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_topic", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_sent", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_dropped", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_time", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_up", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restarts", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restart_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_stalled_reader", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "namesake", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clock_set_by", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_driver", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_publishers", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_several_drivers", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_not_driving", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_unreadable", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_safe", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_source", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_suspect", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "frames_dropped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "events_lost", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_overrun", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_in_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_wanted", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Whirl of every watched place. All arrays have one entry per watched station and pipe.
@@ -978,6 +998,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhirlState", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kind", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_ratio", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "orbit_radius", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clearance_ratio", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_duty", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "severity", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rolling_share", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "gap_turns", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bending_cycles", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "impulse", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "impact_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_power", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// The level at which the whirl warning stands, sent when it changes. Latched: of several received, the one with the
@@ -1071,6 +1092,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhirlWarning", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kind", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clearance_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_duty", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "window", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "peak_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rolling_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Says that somebody knows of an alarm.
@@ -1091,6 +1113,7 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::AcknowledgeAlarm_Request_";
         const RIHS01: &'static str = "RIHS01_f79a38c9120398574da69bcb97cbfea7b2a75af0eff1ed18a6f487237848290a";
         const SCHEMA: &'static str = "# Says that somebody knows of an alarm.\n\n# Of the alarm, such as backward_whirl; empty or all: every alarm that is to be acknowledged.\nstring id\n# Who says so. Must not be empty.\nstring operator_name\n# For the journal; may be empty.\nstring reason\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm_Request", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `flexdrill/srv/AcknowledgeAlarm_Response`.
@@ -1109,6 +1132,7 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::AcknowledgeAlarm_Response_";
         const RIHS01: &'static str = "RIHS01_982e6903d0b88cc10f418258bf38db0249f8a0c1b33ea6c1986541d3e1868730";
         const SCHEMA: &'static str = "# Whether the journal has it.\nbool success\n# What was done, or why not.\nstring message\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Puts an alarm aside for a time.
@@ -1133,6 +1157,7 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::ShelveAlarm_Request_";
         const RIHS01: &'static str = "RIHS01_3866739753c91bc6e370b97f9df74188b76166a9447cafc3d397eb710bf730ef";
         const SCHEMA: &'static str = "# Puts an alarm aside for a time.\n\n# Of the alarm, such as backward_whirl.\nstring id\n# Until the condition has gone, at most for the longest time of the configuration; duration is not looked at then.\nbool one_shot\n# For so long (s), at most the longest time of the configuration.\nfloat64 duration\n# Who wants it. Must not be empty.\nstring operator_name\n# Why. Must not be empty.\nstring reason\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/ShelveAlarm_Request", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `flexdrill/srv/ShelveAlarm_Response`.
@@ -1151,6 +1176,7 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::ShelveAlarm_Response_";
         const RIHS01: &'static str = "RIHS01_08f2120785f28bfdee73a05f02403c5148f0c329cc732190381602da11261d7e";
         const SCHEMA: &'static str = "# Whether it is shelved.\nbool success\n# Until when, or why not.\nstring message\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/ShelveAlarm_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Takes an alarm back from the shelf.
@@ -1171,6 +1197,7 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::UnshelveAlarm_Request_";
         const RIHS01: &'static str = "RIHS01_b7d3b33cc977e3739b3e05be7729d5b4218c4542821b13bae8075ce872ff253c";
         const SCHEMA: &'static str = "# Takes an alarm back from the shelf.\n\n# Of the alarm, such as backward_whirl.\nstring id\n# Who wants it. Must not be empty.\nstring operator_name\n# For the journal; may be empty.\nstring reason\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/UnshelveAlarm_Request", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `flexdrill/srv/UnshelveAlarm_Response`.
@@ -1189,6 +1216,7 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::UnshelveAlarm_Response_";
         const RIHS01: &'static str = "RIHS01_a2c420ea33db6edd380a9599a50564c47cabf1e7d292c4a15efd0ad61032f37a";
         const SCHEMA: &'static str = "# Whether it is back.\nbool success\n# What was done, or why not.\nstring message\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/UnshelveAlarm_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
 
@@ -1213,6 +1241,7 @@ pub mod geometry_msgs {
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Point_";
         const RIHS01: &'static str = "RIHS01_6963084842a9b04494d6b2941d11444708d892da2f4b09843b9c43f42a7f6881";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Point", "fields": [{"name": "x", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "y", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "z", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `geometry_msgs/msg/Pose`.
@@ -1235,6 +1264,7 @@ pub mod geometry_msgs {
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
             include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Pose", "fields": [{"name": "position", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Point"}}, {"name": "orientation", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Quaternion"}}]}"#;
     }
 
     /// `geometry_msgs/msg/Quaternion`.
@@ -1253,6 +1283,7 @@ pub mod geometry_msgs {
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Quaternion_";
         const RIHS01: &'static str = "RIHS01_8a765f66778c8ff7c8ab94afcc590a2ed5325a1d9a076ffff38fbce36f458684";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Quaternion", "fields": [{"name": "x", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "y", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "z", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "w", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `geometry_msgs/msg/Transform`.
@@ -1275,6 +1306,7 @@ pub mod geometry_msgs {
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
             include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Transform", "fields": [{"name": "translation", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Vector3"}}, {"name": "rotation", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Quaternion"}}]}"#;
     }
 
     /// `geometry_msgs/msg/TransformStamped`.
@@ -1304,6 +1336,7 @@ pub mod geometry_msgs {
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
             include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/TransformStamped", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "child_frame_id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "transform", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Transform"}}]}"#;
     }
 
     /// `geometry_msgs/msg/Vector3`.
@@ -1321,6 +1354,7 @@ pub mod geometry_msgs {
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Vector3_";
         const RIHS01: &'static str = "RIHS01_cc12fe83e4c02719f1ce8070bfd14aecd40f75a96696a67a2a1f37f7dbb0765d";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Vector3", "fields": [{"name": "x", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "y", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "z", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
 
@@ -1358,6 +1392,7 @@ pub mod lifecycle_msgs {
         const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::State_";
         const RIHS01: &'static str = "RIHS01_dd2d02b82f3ebc858e53c431b1e6e91f3ffc71436fc81d0715214ac6ee2107a0";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/msg/State", "fields": [{"name": "id", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "label", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `lifecycle_msgs/msg/Transition`.
@@ -1407,6 +1442,7 @@ pub mod lifecycle_msgs {
         const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::Transition_";
         const RIHS01: &'static str = "RIHS01_c65d7b31ea134cba4f54fc867b817979be799f7452035cd35fac9b7421fb3424";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/msg/Transition", "fields": [{"name": "id", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "label", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `lifecycle_msgs/msg/TransitionDescription`.
@@ -1430,6 +1466,7 @@ pub mod lifecycle_msgs {
             "================================================================================\nMSG: lifecycle_msgs/State\n",
             include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/msg/TransitionDescription", "fields": [{"name": "transition", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/Transition"}}, {"name": "start_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}, {"name": "goal_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}]}"#;
     }
 
     /// `lifecycle_msgs/msg/TransitionEvent`.
@@ -1454,6 +1491,7 @@ pub mod lifecycle_msgs {
             "================================================================================\nMSG: lifecycle_msgs/State\n",
             include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/msg/TransitionEvent", "fields": [{"name": "timestamp", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "transition", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/Transition"}}, {"name": "start_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}, {"name": "goal_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}]}"#;
     }
 
     /// `lifecycle_msgs/srv/ChangeState_Request`.
@@ -1473,6 +1511,7 @@ pub mod lifecycle_msgs {
             "================================================================================\nMSG: lifecycle_msgs/Transition\n",
             include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/ChangeState_Request", "fields": [{"name": "transition", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/Transition"}}]}"#;
     }
 
     /// `lifecycle_msgs/srv/ChangeState_Response`.
@@ -1488,6 +1527,7 @@ pub mod lifecycle_msgs {
         const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::ChangeState_Response_";
         const RIHS01: &'static str = "RIHS01_e1ddfed0271fefe63767aa71561926e4d9eac0f1ddf9e71a8873eb46b36deac2";
         const SCHEMA: &'static str = "bool success\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/ChangeState_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `lifecycle_msgs/srv/GetAvailableStates_Request`.
@@ -1504,6 +1544,7 @@ pub mod lifecycle_msgs {
         const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetAvailableStates_Request_";
         const RIHS01: &'static str = "RIHS01_c2c0c12de6023822f284929577d4ca2862e0501150010966e8a90b632e4424de";
         const SCHEMA: &'static str = "";
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetAvailableStates_Request", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `lifecycle_msgs/srv/GetAvailableStates_Response`.
@@ -1523,6 +1564,7 @@ pub mod lifecycle_msgs {
             "================================================================================\nMSG: lifecycle_msgs/State\n",
             include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetAvailableStates_Response", "fields": [{"name": "available_states", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}]}"#;
     }
 
     /// `lifecycle_msgs/srv/GetAvailableTransitions_Request`.
@@ -1539,6 +1581,7 @@ pub mod lifecycle_msgs {
         const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetAvailableTransitions_Request_";
         const RIHS01: &'static str = "RIHS01_52a73c0b5d7489bee0df6ddb0aec45c41289d223ff225b58fe11d859ac8109a6";
         const SCHEMA: &'static str = "";
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Request", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `lifecycle_msgs/srv/GetAvailableTransitions_Response`.
@@ -1562,6 +1605,7 @@ pub mod lifecycle_msgs {
             "================================================================================\nMSG: lifecycle_msgs/State\n",
             include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Response", "fields": [{"name": "available_transitions", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/TransitionDescription"}}]}"#;
     }
 
     /// `lifecycle_msgs/srv/GetState_Request`.
@@ -1578,6 +1622,7 @@ pub mod lifecycle_msgs {
         const DDS_TYPE: &'static str = "lifecycle_msgs::srv::dds_::GetState_Request_";
         const RIHS01: &'static str = "RIHS01_77a9c844e7975f15bc2221e8bbebafc4d118afb78c7f7071eef91f83f940f2f6";
         const SCHEMA: &'static str = "";
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetState_Request", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `lifecycle_msgs/srv/GetState_Response`.
@@ -1597,6 +1642,7 @@ pub mod lifecycle_msgs {
             "================================================================================\nMSG: lifecycle_msgs/State\n",
             include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetState_Response", "fields": [{"name": "current_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}]}"#;
     }
 }
 
@@ -1621,6 +1667,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::FloatingPointRange_";
         const RIHS01: &'static str = "RIHS01_e6af23a23c177fee5f3075c8b1e435162a9b63c863d78c06017460b49684262d";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/FloatingPointRange.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/FloatingPointRange", "fields": [{"name": "from_value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/msg/IntegerRange`.
@@ -1638,6 +1685,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::IntegerRange_";
         const RIHS01: &'static str = "RIHS01_f7b7fdc0f65f07702e099218e13288c3963bcb9345bde78b560e6cd19800fc5a";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/IntegerRange", "fields": [{"name": "from_value", "type": {"type_id": 8, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_value", "type": {"type_id": 8, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/msg/ListParametersResult`.
@@ -1654,6 +1702,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ListParametersResult_";
         const RIHS01: &'static str = "RIHS01_237ae3428413dcbcfb452b510c42355f3a2b021dc091afa3e18526d57022f1cd";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ListParametersResult.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ListParametersResult", "fields": [{"name": "names", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "prefixes", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/msg/Log`.
@@ -1687,6 +1736,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/Log", "fields": [{"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "level", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "msg", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "file", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "function", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "line", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/msg/LoggerLevel`.
@@ -1713,6 +1763,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::LoggerLevel_";
         const RIHS01: &'static str = "RIHS01_95785cc42f048ab4f395af65035aeaf2181d8e1c7a44edb8ad4558445fdb43c0";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/LoggerLevel", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "level", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/msg/Parameter`.
@@ -1733,6 +1784,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/Parameter", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/ParameterValue"}}]}"#;
     }
 
     /// `rcl_interfaces/msg/ParameterDescriptor`.
@@ -1761,6 +1813,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/IntegerRange\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ParameterDescriptor", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "description", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "additional_constraints", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "read_only", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dynamic_typing", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "floating_point_range", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/FloatingPointRange"}}, {"name": "integer_range", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/IntegerRange"}}]}"#;
     }
 
     /// `rcl_interfaces/msg/ParameterEvent`.
@@ -1788,6 +1841,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ParameterEvent", "fields": [{"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "node", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "new_parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}, {"name": "changed_parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}, {"name": "deleted_parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}]}"#;
     }
 
     /// `rcl_interfaces/msg/ParameterType`.
@@ -1817,6 +1871,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterType_";
         const RIHS01: &'static str = "RIHS01_df29ed057a834862187be24dd187d981790ff3ea6502f4cd27b432cbc42c6d46";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterType.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ParameterType", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/msg/ParameterValue`.
@@ -1841,6 +1896,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterValue_";
         const RIHS01: &'static str = "RIHS01_115fc089a387e23c7ecd3525c9189c379109119d6ab82e8dfbde0fdf6a7f9b68";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ParameterValue", "fields": [{"name": "type", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bool_value", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "integer_value", "type": {"type_id": 8, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "double_value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_value", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "byte_array_value", "type": {"type_id": 160, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bool_array_value", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "integer_array_value", "type": {"type_id": 152, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "double_array_value", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_array_value", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/msg/SetLoggerLevelsResult`.
@@ -1857,6 +1913,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::SetLoggerLevelsResult_";
         const RIHS01: &'static str = "RIHS01_9316e5e679a5b72d2dd7fd80c539bae9e106fa0890a06dc5da3a8177a3ff6909";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/SetLoggerLevelsResult.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/SetLoggerLevelsResult", "fields": [{"name": "successful", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/msg/SetParametersResult`.
@@ -1873,6 +1930,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::SetParametersResult_";
         const RIHS01: &'static str = "RIHS01_cfcc0fb0371ee5159b403960ef4300f8f9d2f1fd6117c8666b7f9654d528a9b1";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/SetParametersResult", "fields": [{"name": "successful", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/srv/DescribeParameters_Request`.
@@ -1888,6 +1946,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::DescribeParameters_Request_";
         const RIHS01: &'static str = "RIHS01_05dd1c2bc87dec2627105c8070d6f9725c781a4f2ab852975bf105462b82b644";
         const SCHEMA: &'static str = "string[] names\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/DescribeParameters_Request", "fields": [{"name": "names", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/srv/DescribeParameters_Response`.
@@ -1911,6 +1970,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/IntegerRange\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/DescribeParameters_Response", "fields": [{"name": "descriptors", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/ParameterDescriptor"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/GetLoggerLevels_Request`.
@@ -1926,6 +1986,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetLoggerLevels_Request_";
         const RIHS01: &'static str = "RIHS01_490ace424a5f5b14cb4e1e95030d7fe366d8df0fd9fe4d03b44d6009504fd2cc";
         const SCHEMA: &'static str = "string[] names\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/GetLoggerLevels_Request", "fields": [{"name": "names", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/srv/GetLoggerLevels_Response`.
@@ -1945,6 +2006,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/LoggerLevel\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/GetLoggerLevels_Response", "fields": [{"name": "levels", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/LoggerLevel"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/GetParameterTypes_Request`.
@@ -1960,6 +2022,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetParameterTypes_Request_";
         const RIHS01: &'static str = "RIHS01_87d7ec5ef545d4daa289d500025d31fb2437bc8b8365ca367161c4dac4be33fd";
         const SCHEMA: &'static str = "string[] names\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/GetParameterTypes_Request", "fields": [{"name": "names", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/srv/GetParameterTypes_Response`.
@@ -1975,6 +2038,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetParameterTypes_Response_";
         const RIHS01: &'static str = "RIHS01_ac1335dce67c478e669434f6ac2fbff34fcd529580f272d3006785ba8b54e47f";
         const SCHEMA: &'static str = "uint8[] types\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/GetParameterTypes_Response", "fields": [{"name": "types", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/srv/GetParameters_Request`.
@@ -1990,6 +2054,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::GetParameters_Request_";
         const RIHS01: &'static str = "RIHS01_135a9e1c3d7cebef792f6687d7ddf99949b21a0bd9a320d863a9110a3f5cf4d6";
         const SCHEMA: &'static str = "string[] names\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/GetParameters_Request", "fields": [{"name": "names", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/srv/GetParameters_Response`.
@@ -2009,6 +2074,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/GetParameters_Response", "fields": [{"name": "values", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/ParameterValue"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/ListParameters_Request`.
@@ -2029,6 +2095,7 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::srv::dds_::ListParameters_Request_";
         const RIHS01: &'static str = "RIHS01_a1b0b5d6b967a5b8ac5bc8563c3ea678f349e312a6a4967227c5a96bc5ce38df";
         const SCHEMA: &'static str = "uint64 DEPTH_RECURSIVE = 0\nstring[] prefixes\nuint64 depth\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/ListParameters_Request", "fields": [{"name": "prefixes", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "depth", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `rcl_interfaces/srv/ListParameters_Response`.
@@ -2048,6 +2115,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/ListParametersResult\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/ListParametersResult.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/ListParameters_Response", "fields": [{"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/ListParametersResult"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/SetLoggerLevels_Request`.
@@ -2067,6 +2135,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/LoggerLevel\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetLoggerLevels_Request", "fields": [{"name": "levels", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/LoggerLevel"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/SetLoggerLevels_Response`.
@@ -2086,6 +2155,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/SetLoggerLevelsResult\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/SetLoggerLevelsResult.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetLoggerLevels_Response", "fields": [{"name": "results", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/SetLoggerLevelsResult"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/SetParametersAtomically_Request`.
@@ -2107,6 +2177,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically_Request", "fields": [{"name": "parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/SetParametersAtomically_Response`.
@@ -2126,6 +2197,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/SetParametersResult\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically_Response", "fields": [{"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/SetParametersResult"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/SetParameters_Request`.
@@ -2147,6 +2219,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetParameters_Request", "fields": [{"name": "parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}]}"#;
     }
 
     /// `rcl_interfaces/srv/SetParameters_Response`.
@@ -2166,6 +2239,7 @@ pub mod rcl_interfaces {
             "================================================================================\nMSG: rcl_interfaces/SetParametersResult\n",
             include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetParameters_Response", "fields": [{"name": "results", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/SetParametersResult"}}]}"#;
     }
 }
 
@@ -2192,6 +2266,7 @@ pub mod rosgraph_msgs {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "rosgraph_msgs/msg/Clock", "fields": [{"name": "clock", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
 }
 
@@ -2222,6 +2297,7 @@ pub mod sensor_msgs {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "sensor_msgs/msg/CompressedImage", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "format", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "data", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `sensor_msgs/msg/JointState`.
@@ -2247,6 +2323,7 @@ pub mod sensor_msgs {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "sensor_msgs/msg/JointState", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "position", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "velocity", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "effort", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
 
@@ -2272,6 +2349,7 @@ pub mod std_msgs {
         const DDS_TYPE: &'static str = "std_msgs::msg::dds_::ColorRGBA_";
         const RIHS01: &'static str = "RIHS01_77a7a5b9ae477306097665106e0413ba74440245b1f3d0c6d6405fe5c7813fe8";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/ColorRGBA.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "std_msgs/msg/ColorRGBA", "fields": [{"name": "r", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "g", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "b", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "a", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `std_msgs/msg/Float64`.
@@ -2287,6 +2365,7 @@ pub mod std_msgs {
         const DDS_TYPE: &'static str = "std_msgs::msg::dds_::Float64_";
         const RIHS01: &'static str = "RIHS01_705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/Float64.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "std_msgs/msg/Float64", "fields": [{"name": "data", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `std_msgs/msg/Header`.
@@ -2307,6 +2386,7 @@ pub mod std_msgs {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "std_msgs/msg/Header", "fields": [{"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "frame_id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `std_msgs/msg/String`.
@@ -2322,6 +2402,7 @@ pub mod std_msgs {
         const DDS_TYPE: &'static str = "std_msgs::msg::dds_::String_";
         const RIHS01: &'static str = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/String.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "std_msgs/msg/String", "fields": [{"name": "data", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
 
@@ -2344,6 +2425,7 @@ pub mod std_srvs {
         const DDS_TYPE: &'static str = "std_srvs::srv::dds_::SetBool_Request_";
         const RIHS01: &'static str = "RIHS01_c62fbb99d94e1b25e8ef9e109f9581956bb1b3361a45a4e5810c36a90d29932e";
         const SCHEMA: &'static str = "bool data\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "std_srvs/srv/SetBool_Request", "fields": [{"name": "data", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `std_srvs/srv/SetBool_Response`.
@@ -2360,6 +2442,7 @@ pub mod std_srvs {
         const DDS_TYPE: &'static str = "std_srvs::srv::dds_::SetBool_Response_";
         const RIHS01: &'static str = "RIHS01_d0814e7f7b4880ab77e9c57426c7aa1562ab69f11eef8e2e968812f9cbd0b059";
         const SCHEMA: &'static str = "bool success\nstring message\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "std_srvs/srv/SetBool_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `std_srvs/srv/Trigger_Request`.
@@ -2376,6 +2459,7 @@ pub mod std_srvs {
         const DDS_TYPE: &'static str = "std_srvs::srv::dds_::Trigger_Request_";
         const RIHS01: &'static str = "RIHS01_d010825374ce8918e72bfd826c82603e60f45419e932ea976f807b74a863a199";
         const SCHEMA: &'static str = "";
+        const DESCRIPTION: &'static str = r#"{"type_name": "std_srvs/srv/Trigger_Request", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `std_srvs/srv/Trigger_Response`.
@@ -2392,6 +2476,7 @@ pub mod std_srvs {
         const DDS_TYPE: &'static str = "std_srvs::srv::dds_::Trigger_Response_";
         const RIHS01: &'static str = "RIHS01_2d946c21e2fc3f1e9ca6986a8191d85fcc70097a8bb7771a053564bc47009cdf";
         const SCHEMA: &'static str = "bool success\nstring message\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "std_srvs/srv/Trigger_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
 
@@ -2428,6 +2513,229 @@ pub mod tf2_msgs {
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
             include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "tf2_msgs/msg/TFMessage", "fields": [{"name": "transforms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/TransformStamped"}}]}"#;
+    }
+}
+
+/// Messages of the ROS package `type_description_interfaces`.
+pub mod type_description_interfaces {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// `type_description_interfaces/msg/Field`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Field {
+        /// One field of a type.
+        pub name: std::string::String,
+        pub type_: FieldType,
+        /// As text; empty if it has none.
+        pub default_value: std::string::String,
+    }
+
+    impl Message for Field {
+        const PACKAGE: &'static str = "type_description_interfaces";
+        const NAME: &'static str = "Field";
+        const ROS_TYPE: &'static str = "type_description_interfaces/msg/Field";
+        const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::Field_";
+        const RIHS01: &'static str = "RIHS01_c0b01379cd4226281285ccaf6be46653968f855f7c5e41614ff5d7a854efef7c";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/type_description_interfaces/msg/Field.msg"),
+            "================================================================================\nMSG: type_description_interfaces/FieldType\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/Field", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/FieldType"}}, {"name": "default_value", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `type_description_interfaces/msg/FieldType`.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    pub struct FieldType {
+        /// REP-2016's number of the type: 1 is another message, 2 to 22 are built in; 48 more for an array of fixed length, 96 for
+        /// one with a bound, 144 for one without.
+        pub type_id: u8,
+        /// Length or bound of an array, else 0.
+        pub capacity: u64,
+        /// Bound of a string, else 0.
+        pub string_capacity: u64,
+        /// The other message, as package/msg/Name; else empty.
+        pub nested_type_name: std::string::String,
+    }
+
+    impl Default for FieldType {
+        fn default() -> Self {
+            Self {
+                type_id: 0,
+                capacity: Default::default(),
+                string_capacity: Default::default(),
+                nested_type_name: Default::default(),
+            }
+        }
+    }
+
+    impl Message for FieldType {
+        const PACKAGE: &'static str = "type_description_interfaces";
+        const NAME: &'static str = "FieldType";
+        const ROS_TYPE: &'static str = "type_description_interfaces/msg/FieldType";
+        const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::FieldType_";
+        const RIHS01: &'static str = "RIHS01_a70b6dd919645a03a3586f7f821defbc886ea3e531a1d95cc0f380a3973ccaa6";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/FieldType", "fields": [{"name": "type_id", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}, "default_value": "0"}, {"name": "capacity", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_capacity", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nested_type_name", "type": {"type_id": 21, "capacity": 0, "string_capacity": 255, "nested_type_name": ""}}]}"#;
+    }
+
+    /// A type alone.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct IndividualTypeDescription {
+        /// As package/msg/Name.
+        pub type_name: std::string::String,
+        pub fields: Vec<Field>,
+    }
+
+    impl Message for IndividualTypeDescription {
+        const PACKAGE: &'static str = "type_description_interfaces";
+        const NAME: &'static str = "IndividualTypeDescription";
+        const ROS_TYPE: &'static str = "type_description_interfaces/msg/IndividualTypeDescription";
+        const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::IndividualTypeDescription_";
+        const RIHS01: &'static str = "RIHS01_55c827d86c3c141bdd318fe6c22e11190e4d3b37c8f4f9751a084aa05ce96560";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
+            "================================================================================\nMSG: type_description_interfaces/Field\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/Field.msg"),
+            "================================================================================\nMSG: type_description_interfaces/FieldType\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/IndividualTypeDescription", "fields": [{"name": "type_name", "type": {"type_id": 21, "capacity": 0, "string_capacity": 255, "nested_type_name": ""}}, {"name": "fields", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/Field"}}]}"#;
+    }
+
+    /// `type_description_interfaces/msg/KeyValue`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct KeyValue {
+        pub key: std::string::String,
+        pub value: std::string::String,
+    }
+
+    impl Message for KeyValue {
+        const PACKAGE: &'static str = "type_description_interfaces";
+        const NAME: &'static str = "KeyValue";
+        const ROS_TYPE: &'static str = "type_description_interfaces/msg/KeyValue";
+        const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::KeyValue_";
+        const RIHS01: &'static str = "RIHS01_274fe56bf14f33c7512e34c646a37579ee36779f745f049a9760763e817f0c42";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/type_description_interfaces/msg/KeyValue.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/KeyValue", "fields": [{"name": "key", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `type_description_interfaces/msg/TypeDescription`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TypeDescription {
+        /// A type with all that it is made of.
+        pub type_description: IndividualTypeDescription,
+        /// Sorted by name.
+        pub referenced_type_descriptions: Vec<IndividualTypeDescription>,
+    }
+
+    impl Message for TypeDescription {
+        const PACKAGE: &'static str = "type_description_interfaces";
+        const NAME: &'static str = "TypeDescription";
+        const ROS_TYPE: &'static str = "type_description_interfaces/msg/TypeDescription";
+        const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::TypeDescription_";
+        const RIHS01: &'static str = "RIHS01_739f2508c9fa3a6f330913ff5b9d25fb74159a077da71e1087f51a60c12a080b";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/type_description_interfaces/msg/TypeDescription.msg"),
+            "================================================================================\nMSG: type_description_interfaces/IndividualTypeDescription\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
+            "================================================================================\nMSG: type_description_interfaces/Field\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/Field.msg"),
+            "================================================================================\nMSG: type_description_interfaces/FieldType\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/TypeDescription", "fields": [{"name": "type_description", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/IndividualTypeDescription"}}, {"name": "referenced_type_descriptions", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/IndividualTypeDescription"}}]}"#;
+    }
+
+    /// `type_description_interfaces/msg/TypeSource`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct TypeSource {
+        /// The text that a type was defined by.
+        pub type_name: std::string::String,
+        /// Its language: msg, srv, idl.
+        pub encoding: std::string::String,
+        pub raw_file_contents: std::string::String,
+    }
+
+    impl Message for TypeSource {
+        const PACKAGE: &'static str = "type_description_interfaces";
+        const NAME: &'static str = "TypeSource";
+        const ROS_TYPE: &'static str = "type_description_interfaces/msg/TypeSource";
+        const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::TypeSource_";
+        const RIHS01: &'static str = "RIHS01_faeaec7596c04ecf5b6e99ad225e4c7cbb997ad5435f793526fb3984d011aae5";
+        const SCHEMA: &'static str = include_str!("../../src/messages/external/type_description_interfaces/msg/TypeSource.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/TypeSource", "fields": [{"name": "type_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "encoding", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "raw_file_contents", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `type_description_interfaces/srv/GetTypeDescription_Request`.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    pub struct GetTypeDescriptionRequest {
+        /// As package/msg/Name.
+        pub type_name: std::string::String,
+        /// As RIHS01_ and 64 hexadecimal digits.
+        pub type_hash: std::string::String,
+        /// Whether to give the texts too.
+        pub include_type_sources: bool,
+    }
+
+    impl Default for GetTypeDescriptionRequest {
+        fn default() -> Self {
+            Self {
+                type_name: Default::default(),
+                type_hash: Default::default(),
+                include_type_sources: true,
+            }
+        }
+    }
+
+    impl Message for GetTypeDescriptionRequest {
+        const PACKAGE: &'static str = "type_description_interfaces";
+        const NAME: &'static str = "GetTypeDescription_Request";
+        const ROS_TYPE: &'static str = "type_description_interfaces/srv/GetTypeDescription_Request";
+        const DDS_TYPE: &'static str = "type_description_interfaces::srv::dds_::GetTypeDescription_Request_";
+        const RIHS01: &'static str = "RIHS01_470f56ccbcf13d55c78c8b735fb12da03e639e5acded994426c89d94778d9e28";
+        const SCHEMA: &'static str = "# As package/msg/Name.\nstring type_name\n# As RIHS01_ and 64 hexadecimal digits.\nstring type_hash\n# Whether to give the texts too.\nbool include_type_sources true\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription_Request", "fields": [{"name": "type_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "include_type_sources", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}, "default_value": "True"}]}"#;
+    }
+
+    /// `type_description_interfaces/srv/GetTypeDescription_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetTypeDescriptionResponse {
+        /// Whether there is a description.
+        pub successful: bool,
+        /// Why not; else empty.
+        pub failure_reason: std::string::String,
+        pub type_description: TypeDescription,
+        /// The texts of the type and of those it is made of.
+        pub type_sources: Vec<TypeSource>,
+        pub extra_information: Vec<KeyValue>,
+    }
+
+    impl Message for GetTypeDescriptionResponse {
+        const PACKAGE: &'static str = "type_description_interfaces";
+        const NAME: &'static str = "GetTypeDescription_Response";
+        const ROS_TYPE: &'static str = "type_description_interfaces/srv/GetTypeDescription_Response";
+        const DDS_TYPE: &'static str = "type_description_interfaces::srv::dds_::GetTypeDescription_Response_";
+        const RIHS01: &'static str = "RIHS01_648c49d976240861a482f961c5621ddd0d2135d8cce6f297a76d4f6376d93b75";
+        const SCHEMA: &'static str = concat!(
+            "# Whether there is a description.\nbool successful\n# Why not; else empty.\nstring failure_reason\nTypeDescription type_description\n# The texts of the type and of those it is made of.\nTypeSource[] type_sources\nKeyValue[] extra_information\n",
+            "================================================================================\nMSG: type_description_interfaces/TypeDescription\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/TypeDescription.msg"),
+            "================================================================================\nMSG: type_description_interfaces/IndividualTypeDescription\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
+            "================================================================================\nMSG: type_description_interfaces/Field\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/Field.msg"),
+            "================================================================================\nMSG: type_description_interfaces/FieldType\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg"),
+            "================================================================================\nMSG: type_description_interfaces/TypeSource\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/TypeSource.msg"),
+            "================================================================================\nMSG: type_description_interfaces/KeyValue\n",
+            include_str!("../../src/messages/external/type_description_interfaces/msg/KeyValue.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription_Response", "fields": [{"name": "successful", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure_reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type_description", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/TypeDescription"}}, {"name": "type_sources", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/TypeSource"}}, {"name": "extra_information", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/KeyValue"}}]}"#;
     }
 }
 
@@ -2512,6 +2820,7 @@ pub mod visualization_msgs {
             "================================================================================\nMSG: visualization_msgs/MeshFile\n",
             include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "visualization_msgs/msg/Marker", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "ns", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "action", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pose", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Pose"}}, {"name": "scale", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Vector3"}}, {"name": "color", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/ColorRGBA"}}, {"name": "lifetime", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Duration"}}, {"name": "frame_locked", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "points", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Point"}}, {"name": "colors", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/ColorRGBA"}}, {"name": "texture_resource", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "texture", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "sensor_msgs/msg/CompressedImage"}}, {"name": "uv_coordinates", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "visualization_msgs/msg/UVCoordinate"}}, {"name": "text", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "mesh_resource", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "mesh_file", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "visualization_msgs/msg/MeshFile"}}, {"name": "mesh_use_embedded_materials", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `visualization_msgs/msg/MarkerArray`.
@@ -2553,6 +2862,7 @@ pub mod visualization_msgs {
             "================================================================================\nMSG: visualization_msgs/MeshFile\n",
             include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg"),
         );
+        const DESCRIPTION: &'static str = r#"{"type_name": "visualization_msgs/msg/MarkerArray", "fields": [{"name": "markers", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "visualization_msgs/msg/Marker"}}]}"#;
     }
 
     /// `visualization_msgs/msg/MeshFile`.
@@ -2569,6 +2879,7 @@ pub mod visualization_msgs {
         const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::MeshFile_";
         const RIHS01: &'static str = "RIHS01_7710ece15a148fb7c9b546364cfb215bb06098087bd6394fe5b73a493508f8c4";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "visualization_msgs/msg/MeshFile", "fields": [{"name": "filename", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "data", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `visualization_msgs/msg/UVCoordinate`.
@@ -2585,6 +2896,7 @@ pub mod visualization_msgs {
         const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::UVCoordinate_";
         const RIHS01: &'static str = "RIHS01_f27f7ed21fe360c6066944f856b801a0c0d1e94e815b6886444b42d90b196a26";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/visualization_msgs/msg/UVCoordinate.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "visualization_msgs/msg/UVCoordinate", "fields": [{"name": "u", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "v", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
 
@@ -2672,6 +2984,14 @@ pub const TYPES: &[TypeInfo] = &[
     <std_srvs::TriggerRequest as super::Message>::INFO,
     <std_srvs::TriggerResponse as super::Message>::INFO,
     <tf2_msgs::TFMessage as super::Message>::INFO,
+    <type_description_interfaces::Field as super::Message>::INFO,
+    <type_description_interfaces::FieldType as super::Message>::INFO,
+    <type_description_interfaces::IndividualTypeDescription as super::Message>::INFO,
+    <type_description_interfaces::KeyValue as super::Message>::INFO,
+    <type_description_interfaces::TypeDescription as super::Message>::INFO,
+    <type_description_interfaces::TypeSource as super::Message>::INFO,
+    <type_description_interfaces::GetTypeDescriptionRequest as super::Message>::INFO,
+    <type_description_interfaces::GetTypeDescriptionResponse as super::Message>::INFO,
     <visualization_msgs::Marker as super::Message>::INFO,
     <visualization_msgs::MarkerArray as super::Message>::INFO,
     <visualization_msgs::MeshFile as super::Message>::INFO,

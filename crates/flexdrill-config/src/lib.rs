@@ -299,7 +299,7 @@ impl Config {
         let (speed, weight) = (&self.inputs.rotary_speed, &self.inputs.weight_on_bit);
         SimulationSettings {
             time_step: self.solver.time_step,
-            step: self.solver.step,
+            step: self.solver.rule(),
             scheme: self.solver.describe(),
             max_iterations: self.solver.max_iterations,
             max_halvings: self.solver.max_halvings,

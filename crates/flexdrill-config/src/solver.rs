@@ -15,7 +15,7 @@ pub struct Solver {
     /// Time step (s). Default 0.0005.
     pub time_step: f64,
     /// Whether the step is taken whole or in two or four parts. Default `auto`.
-    pub step: StepRule,
+    pub step: StepTaken,
     /// Default `generalised_alpha`.
     pub scheme: TimeScheme,
     /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Default 0.55. Given alone, it means `scheme: newmark`.
@@ -27,6 +27,16 @@ pub struct Solver {
     pub max_iterations: u32,
     /// Most halvings of a step that does not converge. Default 6.
     pub max_halvings: u32,
+}
+
+/// `solver.step`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StepTaken {
+    /// In two parts; in four where the motion asks for it, whole where the machine is too slow.
+    Auto,
+    /// Whole.
+    Fixed,
 }
 
 /// `solver.scheme`.
@@ -49,7 +59,7 @@ const HHT_LEAST: f64 = 0.5;
 #[serde(deny_unknown_fields, rename = "Solver")]
 struct Given {
     time_step: Option<f64>,
-    step: Option<StepRule>,
+    step: Option<StepTaken>,
     scheme: Option<TimeScheme>,
     gamma: Option<f64>,
     rho_infinity: Option<f64>,
@@ -87,7 +97,7 @@ impl Default for Solver {
     fn default() -> Self {
         Self {
             time_step: 0.0005,
-            step: StepRule::Auto,
+            step: StepTaken::Auto,
             scheme: TimeScheme::GeneralisedAlpha,
             gamma: 0.55,
             rho_infinity: 0.45,
@@ -106,6 +116,13 @@ impl Solver {
         }
     }
 
+    pub(super) fn rule(&self) -> StepRule {
+        match self.step {
+            StepTaken::Auto => StepRule::Auto,
+            StepTaken::Fixed => StepRule::Fixed,
+        }
+    }
+
     /// The scheme and its parameter, for people.
     pub fn scheme_in_words(&self) -> String {
         match self.scheme {
@@ -119,8 +136,8 @@ impl Solver {
     pub fn step_in_words(&self) -> String {
         let whole = self.time_step * 1e3;
         match self.step {
-            StepRule::Fixed => format!("{whole} ms"),
-            StepRule::Auto => format!(
+            StepTaken::Fixed => format!("{whole} ms"),
+            StepTaken::Auto => format!(
                 "{whole} ms, in parts of {} or {} ms (step: auto)",
                 whole / 2.0,
                 whole / 4.0

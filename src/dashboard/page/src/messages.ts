@@ -348,6 +348,10 @@ export interface AppliedInputs {
   parameter_name: string[];
   /** Their new values, in the parameter's unit. */
   parameter_value: Float64Array;
+  /** Who asked for them: the service and its client, as node @ host (id of its DDS writer). */
+  parameter_asked_by: string[];
+  /** Every model step is taken in 2^refinement equal parts: what the motion asks for, as far as the pace allows it. */
+  refinement: number;
 }
 export const AppliedInputs = {
   /** No sample yet: the twin runs on its configured start values. */
@@ -378,6 +382,8 @@ export function decodeAppliedInputs(reader: CdrReader): AppliedInputs {
     bit_friction_factor: reader.float64(),
     parameter_name: reader.many(reader.length(), () => reader.string()),
     parameter_value: reader.float64Array(reader.length()),
+    parameter_asked_by: reader.many(reader.length(), () => reader.string()),
+    refinement: reader.uint8(),
   };
 }
 
@@ -801,6 +807,12 @@ export interface TwinStatus {
   frames_dropped: number;
   /** Changes of the inputs that found it so: a recording of this run cannot be replayed exactly. */
   events_lost: number;
+  /** Per input: samples that came faster than they were taken since the start: the oldest of 256 that waited were given up. */
+  input_overrun: number[];
+  /** Step in which the motion is computed, the model step or a half or a quarter of it (s). */
+  step_in_force: number;
+  /** Step that the motion asks for (s); shorter than the one in force where the machine is too slow for it. */
+  step_wanted: number;
 }
 export const TwinStatus = {
   /** The tool is being brought to rest under gravity and weight on bit. */
@@ -898,6 +910,9 @@ export function decodeTwinStatus(reader: CdrReader): TwinStatus {
     input_suspect: reader.many(reader.length(), () => reader.bool()),
     frames_dropped: reader.uint64(),
     events_lost: reader.uint64(),
+    input_overrun: reader.many(reader.length(), () => reader.uint64()),
+    step_in_force: reader.float64(),
+    step_wanted: reader.float64(),
   };
 }
 
