@@ -4,7 +4,8 @@
 // picture.
 
 import type { Tool } from "../api";
-import type { Geometry, Moment } from "../store/store";
+import type { Geometry } from "../store/geometry";
+import type { Moment } from "../store/store";
 import type { Vec3 } from "./matrix";
 import { Mesh } from "./mesh";
 

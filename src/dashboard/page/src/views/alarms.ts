@@ -6,7 +6,7 @@ import { Alarm } from "../messages";
 import { clock, lapse, number } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { ALARM_STATE, CHANGE, PRIORITY, PRIORITY_SHAPE, word } from "../words";
-import { nearest } from "../store/store";
+import { nearest } from "../store/geometry";
 import { alarmPlace } from "./state";
 
 /** Entries of the journal that are shown. */

@@ -3,7 +3,7 @@
 import { fit, h, setText } from "../dom";
 import { roundUp } from "../scene/tool";
 import type { Vector } from "../store/layout";
-import { nearest } from "../store/store";
+import { nearest } from "../store/geometry";
 import { shade } from "../theme";
 import { digits, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
