@@ -138,9 +138,27 @@ test("a twin that was away leaves a gap; a clock that was set back begins anew",
   assert.ok(Number.isNaN(layout.scalar(store.hour.row(gap), "max_pipe_guide_force")));
   const before = store.hour.length;
   assert.ok(before >= 7);
+  // A topic that comes late is none.
+  hear(store, 119, 1);
+  assert.equal(store.hour.length, before);
   drill(store, 50, 51.1);
   assert.equal(store.hour.length, 1);
   assert.equal(store.now, 51);
+});
+
+test("a recording that is brought elsewhere shows that time, and forgets the motion of the one before", () => {
+  const store = new Store();
+  store.session = { mode: "bag" } as Session;
+  drill(store, 100, 110);
+  // All but the first, which came before the tool was known.
+  assert.equal(store.joints.length, 40 - 1);
+  for (const there of [103, 150]) {
+    hear(store, there, 1);
+    assert.equal(store.now, there);
+    assert.equal(store.joints.length, 1);
+  }
+  // Its hour is the server's.
+  assert.equal(store.hour.length, 0);
 });
 
 test("another tool is another layout", () => {
@@ -217,6 +235,7 @@ test("events of the journal come once, whether heard or asked for", () => {
     name: "shock",
     change: 0,
     priority: Alarm.LOW,
+    annunciates: true,
     operator_name: "",
     reason: "",
     evidence: "",

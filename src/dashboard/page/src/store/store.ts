@@ -44,6 +44,13 @@ const SHAPES = 600;
 /** Most entries of the journal, and of alarm lists to drag back through. */
 const JOURNAL = 2000;
 const LISTS = 500;
+/**
+ * Time that goes back further than this (s) is another time: topics of a loaded machine come out of order by some seconds,
+ * those of a recording hardly. A recording that leaps ahead is elsewhere too.
+ */
+const SET_BACK = 10;
+const BAG_BACK = 0.5;
+const BAG_AHEAD = 2;
 /** Without a heartbeat for this long the twin is gone (ms): ten beats at 5 Hz, as in the terminal. */
 export const SILENT = 2000;
 
@@ -351,7 +358,8 @@ export class Store {
     if (!this.layout) this.build();
     const second = this.second;
     if (!second) return null;
-    if (time < this.newest - 1 || (this.isBag && Math.abs(time - this.newest) > 2)) this.rewind(time);
+    const back = this.newest - time;
+    if (back > (this.isBag ? BAG_BACK : SET_BACK) || (this.isBag && -back > BAG_AHEAD)) this.rewind(time);
     this.newest = Number.isNaN(this.newest) ? time : Math.max(this.newest, time);
     const number = Math.floor(time);
     if (Number.isNaN(this.secondNumber)) this.secondNumber = number;

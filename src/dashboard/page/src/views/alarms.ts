@@ -32,6 +32,7 @@ export class Alarms implements View {
       ["once", "until it is gone"],
     ].map(([value, text]) => h("option", { value }, text)),
   );
+  private readonly every = h("input", { type: "checkbox", id: "journal-every", onchange: () => (this.journalKey = "") });
   private readonly control = h("div", { class: "control" });
   private readonly locked = h("p", { class: "hint" });
   private readonly pace = new Pace(250);
@@ -63,7 +64,7 @@ export class Alarms implements View {
       this.answer,
       h("details", {}, this.quietTitle, this.quiet),
       this.figures,
-      h("h2", {}, "Journal"),
+      h("div", { class: "row" }, h("h2", {}, "Journal"), h("label", { class: "hint" }, this.every, " suppression too")),
       this.journal,
     );
   }
@@ -220,7 +221,10 @@ export class Alarms implements View {
   private fillJournal(): void {
     const { store } = this.context;
     const cursor = store.cursor ?? Infinity;
-    const entries = store.journal.filter((event) => Number(BigInt(event.stamp_ns)) / 1e9 <= cursor);
+    // A drive that stands suppresses five alarms at once: asked for, that is shown too.
+    const matters = (event: api.JournalEntry) =>
+      this.every.checked || event.priority > 0 || event.operator_name !== "" || event.annunciates;
+    const entries = store.journal.filter((event) => matters(event) && Number(BigInt(event.stamp_ns)) / 1e9 <= cursor);
     this.journal.replaceChildren(
       ...entries
         .slice(-SHOWN)
