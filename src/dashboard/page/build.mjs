@@ -24,7 +24,9 @@ async function files() {
     outdir: "dist",
     write: false,
   });
-  const outputs = new Map(bundle.outputFiles.map((file) => [file.path.slice(file.path.lastIndexOf("/") + 1), file.text]));
+  const outputs = new Map(
+    bundle.outputFiles.map((file) => [file.path.slice(file.path.lastIndexOf("/") + 1), file.text]),
+  );
   outputs.set("index.html", await readFile(join(root, "src/index.html"), "utf8"));
   return outputs;
 }

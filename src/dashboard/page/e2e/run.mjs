@@ -1,7 +1,8 @@
 // The page in headless Chromium against running programs: a twin, a rig that plays a log into it, the server.
 //
-// `node e2e/run.mjs --flexdrill FILE [--shots FOLDER] [--dist FOLDER]`, in a network of its own (launch_scripts/page_test.sh makes one).
-// With --dist the page comes from that folder instead of out of the program. Every step has a bound; what was started is stopped; the last line sums up.
+// `node e2e/run.mjs --flexdrill FILE [--shots FOLDER] [--dist FOLDER]`, in a network of its own
+// (launch_scripts/page_test.sh makes one). With --dist the page comes from that folder instead of out of the program.
+// Every step has a bound; what was started is stopped; the last line sums up.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, openSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -317,7 +318,10 @@ if (failed) {
   console.log(`not ok ${done + 1} ${failed.stack ?? failed}`);
   for (const name of ["server", "node", "rig"]) {
     try {
-      const words = readFileSync(join(work, `${name}.log`), "utf8").split("\n").slice(-12).join("\n");
+      const words = readFileSync(join(work, `${name}.log`), "utf8")
+        .split("\n")
+        .slice(-12)
+        .join("\n");
       console.log(`--- last words of ${name}:\n${words}`);
     } catch {
       // It was never started.

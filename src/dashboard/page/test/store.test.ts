@@ -15,7 +15,8 @@ function header(time: number): Header {
   return { stamp: { sec, nanosec: Math.round((time - sec) * 1e9) }, frame_id: "tool" };
 }
 
-const range = (count: number, value: (index: number) => number) => Float64Array.from({ length: count }, (_, i) => value(i));
+const range = (count: number, value: (index: number) => number) =>
+  Float64Array.from({ length: count }, (_, i) => value(i));
 
 /** One of each message of a small tool in a quarter circle, at `time`, with forces of `force`. */
 function hear(store: Store, time: number, force: number, stations = STATIONS): void {
@@ -226,7 +227,13 @@ test("of alarm lists the highest sequence holds, and the past has those of its t
 
 test("events of the journal come once, whether heard or asked for", () => {
   const store = new Store();
-  const event = (sequence: number) => ({ header: header(100 + sequence), sequence, id: "shock", name: "shock", change: 0 });
+  const event = (sequence: number) => ({
+    header: header(100 + sequence),
+    sequence,
+    id: "shock",
+    name: "shock",
+    change: 0,
+  });
   for (const sequence of [7, 8, 8]) store.accept("twin/alarm_events", event(sequence));
   const asked = [5, 6, 7].map((sequence) => ({
     stamp_ns: `${100 + sequence}000000000`,
@@ -262,7 +269,11 @@ test("a twin is silent without a connection or a heartbeat, a recording never is
 
 test("bytes that are no message are counted and change nothing", () => {
   const store = new Store();
-  store.take("twin/status", "flexdrill/msg/TwinStatus", new DataView(new Uint8Array([0, 1, 0, 0, 1, 2, 3, 4, 5, 6]).buffer));
+  store.take(
+    "twin/status",
+    "flexdrill/msg/TwinStatus",
+    new DataView(new Uint8Array([0, 1, 0, 0, 1, 2, 3, 4, 5, 6]).buffer),
+  );
   store.take("twin/status", "other/msg/Type", new DataView(new ArrayBuffer(8)));
   assert.equal(store.unreadable, 1);
   assert.equal(store.status, null);

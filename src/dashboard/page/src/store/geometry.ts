@@ -46,9 +46,9 @@ export function geometryOf({ contacts, joints, whirl, shape }: First): Geometry 
 }
 
 /**
- * Displacements of pipe and guide from the bore's axis at every station, horizontal and towards the low side (m), out of
- * the drawn shape, which shows them `exaggeration` times as large. Hands each to `put`; nothing of a shape of another
- * tool.
+ * Displacements of pipe and guide from the bore's axis at every station, horizontal and towards the low side (m), out
+ * of the drawn shape, which shows them `exaggeration` times as large. Hands each to `put`; nothing of a shape of
+ * another tool.
  */
 export function displacements(
   shape: MarkerArray,

@@ -45,8 +45,8 @@ const SHAPES = 600;
 const JOURNAL = 2000;
 const LISTS = 500;
 /**
- * Time that goes back further than this (s) is another time: topics of a loaded machine come out of order by some seconds,
- * those of a recording hardly. A recording that leaps ahead is elsewhere too.
+ * Time that goes back further than this (s) is another time: topics of a loaded machine come out of order by some
+ * seconds, those of a recording hardly. A recording that leaps ahead is elsewhere too.
  */
 const SET_BACK = 10;
 const BAG_BACK = 0.5;

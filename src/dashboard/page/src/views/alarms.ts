@@ -32,7 +32,11 @@ export class Alarms implements View {
       ["once", "until it is gone"],
     ].map(([value, text]) => h("option", { value }, text)),
   );
-  private readonly every = h("input", { type: "checkbox", id: "journal-every", onchange: () => (this.journalKey = "") });
+  private readonly every = h("input", {
+    type: "checkbox",
+    id: "journal-every",
+    onchange: () => (this.journalKey = ""),
+  });
   private readonly control = h("div", { class: "control" });
   private readonly locked = h("p", { class: "hint" });
   private readonly pace = new Pace(250);
@@ -53,7 +57,11 @@ export class Alarms implements View {
       h("label", {}, "operator", this.operator),
       h("label", {}, "reason", this.reason),
       h("label", {}, "shelve for", this.duration),
-      h("button", { type: "button", id: "acknowledge-all", onclick: () => this.request("acknowledge", "all") }, "Acknowledge all"),
+      h(
+        "button",
+        { type: "button", id: "acknowledge-all", onclick: () => this.request("acknowledge", "all") },
+        "Acknowledge all",
+      ),
     );
     this.element = h(
       "section",
@@ -187,7 +195,12 @@ export class Alarms implements View {
         : "";
     return h(
       "li",
-      { class: "alarm", "data-level": String(alarm.priority), "data-id": alarm.id, "data-calls": String(unacknowledged) },
+      {
+        class: "alarm",
+        "data-level": String(alarm.priority),
+        "data-id": alarm.id,
+        "data-calls": String(unacknowledged),
+      },
       h(
         "div",
         { class: "alarm-head" },

@@ -37,7 +37,12 @@ export class Steer implements View {
   private timer: ReturnType<typeof setInterval> | null = null;
 
   constructor(private readonly context: Context) {
-    this.operator = h("input", { type: "text", id: "steer-operator", maxlength: "60", value: context.settings.operator });
+    this.operator = h("input", {
+      type: "text",
+      id: "steer-operator",
+      maxlength: "60",
+      value: context.settings.operator,
+    });
     this.token = h("input", {
       type: "password",
       id: "steer-token",
@@ -59,7 +64,11 @@ export class Steer implements View {
     this.element = h(
       "section",
       { class: "steer", "aria-label": "Steer" },
-      h("p", { class: "hint" }, "Sends targets for rotary speed and weight on bit to the twin, slewed and within its limits."),
+      h(
+        "p",
+        { class: "hint" },
+        "Sends targets for rotary speed and weight on bit to the twin, slewed and within its limits.",
+      ),
       this.locked,
       this.form,
       this.answer,
@@ -162,7 +171,9 @@ export class Steer implements View {
     show(this.form, allowed);
     setText(
       this.locked,
-      store.isBag ? "A recording cannot be steered." : "Steering is off: start the server with --allow-control and open the address that it prints.",
+      store.isBag
+        ? "A recording cannot be steered."
+        : "Steering is off: start the server with --allow-control and open the address that it prints.",
     );
     const limits = store.session?.limits;
     const unit = quantity("weight", settings.units).unit;
