@@ -252,7 +252,8 @@ export class PlaceView implements View {
             h(
               "li",
               {},
-              `${PRIORITY_SHAPE[alarm.priority]} ${alarm.name} (${word(PRIORITY, alarm.priority)}): ` + alarm.what_to_do,
+              `${PRIORITY_SHAPE[alarm.priority]} ${alarm.name} (${word(PRIORITY, alarm.priority)}): ` +
+                alarm.what_to_do,
             ),
           )
         : [h("li", { class: "none" }, "none")]),

@@ -2,6 +2,7 @@
 
 import * as api from "../api";
 import { h, setText, show } from "../dom";
+import { TwinStatus } from "../messages";
 import { convert, number, quantity } from "../units";
 import { type Context, Pace, type View } from "../view";
 
@@ -26,6 +27,10 @@ export class Steer implements View {
     { type: "button", id: "steer-release", onclick: () => void this.end() },
     "Release: stop steering",
   );
+  private readonly pause = h("button", { type: "button", id: "model-pause", onclick: () => void this.holdModel() });
+  private readonly reset = h("button", { type: "button", id: "model-reset", onclick: () => void this.resetModel() });
+  private readonly model = h("div", { class: "buttons" }, this.pause, this.reset);
+  private resetting = 0;
   private readonly answer = h("p", { class: "answer", role: "status", id: "steer-answer" });
   private readonly standing = h("dl", { class: "facts-list", id: "steer-state" });
   private readonly pace = new Pace(250);
@@ -71,6 +76,7 @@ export class Steer implements View {
       ),
       this.locked,
       this.form,
+      this.model,
       this.answer,
       h("h2", {}, "Who drives"),
       this.standing,
@@ -142,6 +148,33 @@ export class Steer implements View {
     this.polled = -Infinity;
   }
 
+  /** Asks for something of the model itself, in the operator's name. */
+  private async askModel(what: "pause" | "reset", body: object): Promise<void> {
+    const operator = this.operator.value.trim();
+    if (operator === "") return this.say(false, "Say who you are.");
+    api.setToken(this.token.value);
+    this.context.change({ operator });
+    const { ok, message } = await api.request(what, { operator, ...body });
+    this.say(ok, message || (ok ? "done" : "refused"));
+  }
+
+  private async holdModel(): Promise<void> {
+    await this.askModel("pause", { paused: !this.paused });
+  }
+
+  private async resetModel(): Promise<void> {
+    if (performance.now() > this.resetting) {
+      this.resetting = performance.now() + CONFIRM;
+      return;
+    }
+    this.resetting = 0;
+    await this.askModel("reset", {});
+  }
+
+  private get paused(): boolean {
+    return this.context.store.status?.state === TwinStatus.PAUSED;
+  }
+
   private stop(): void {
     this.target = null;
     if (this.timer !== null) clearInterval(this.timer);
@@ -169,6 +202,11 @@ export class Steer implements View {
     const allowed = store.session?.control === true && !store.isBag;
     show(this.locked, !allowed);
     show(this.form, allowed);
+    show(this.model, allowed);
+    setText(this.pause, this.paused ? "Let the model go on" : "Pause the model");
+    const resetting = performance.now() < this.resetting;
+    this.reset.classList.toggle("confirm", resetting);
+    setText(this.reset, resetting ? "Confirm: back to the start" : "Reset the model…");
     setText(
       this.locked,
       store.isBag
