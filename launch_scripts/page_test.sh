@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The rig page in a headless browser against a running twin, rig and server, in a network of its own. Does its own set-up
-# on a fresh Debian or Ubuntu (as root or with sudo): Chromium, Node.js 18 or newer, the page's packages; then checks that
-# dist/ is what the sources give, runs the unit tests and the browser's. The last line sums up.
+# The rig page in a headless browser against a running twin, rig and server, in a network of its own. Does its own
+# set-up on a fresh Debian or Ubuntu (as root or with sudo): Chromium, Node.js 18 or newer, the page's packages; then
+# checks that dist/ is what the sources give, runs the unit tests and the browser's. The last line sums up.
 #   --shots FOLDER   keep screenshots
 #   --no-browser     only the build's check and the unit tests
 # FLEXDRILL_BINARY names the program if it is built already.
@@ -20,11 +20,13 @@ while [ $# -gt 0 ]; do
 done
 
 command -v node >/dev/null && command -v npm >/dev/null || need_packages nodejs npm
-[ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ] || fail "Node.js $(node --version) is too old, 18 or newer is needed"
+[ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ] ||
+    fail "Node.js $(node --version) is too old, 18 or newer is needed"
 page=$root/src/dashboard/page
 cd "$page"
 say "step 1 of 3: packages of the page, as package-lock.json has them"
-timeout 600 npm ci --no-fund --no-audit --loglevel=error || fail "npm could not install what package-lock.json names; is there a network?"
+timeout 600 npm ci --no-fund --no-audit --loglevel=error ||
+    fail "npm could not install what package-lock.json names; is there a network?"
 say "step 2 of 3: dist/ is what the sources give; unit tests"
 npm run --silent check || fail "dist/ is not what the sources give"
 timeout 300 npm test --silent || fail "unit tests of the page"
@@ -39,4 +41,5 @@ options=(--flexdrill "$(realpath "$flexdrill")")
 [ -z "$shots" ] || options+=(--shots "$shots")
 own_network=(unshare --net)
 [ "$(id -u)" -eq 0 ] || own_network=(unshare --user --map-root-user --net)
-exec timeout -k 30 "$limit" "${own_network[@]}" sh -c 'ip link set lo up && exec node e2e/run.mjs "$@"' page "${options[@]}"
+exec timeout -k 30 "$limit" "${own_network[@]}" \
+    sh -c 'ip link set lo up && exec node e2e/run.mjs "$@"' page "${options[@]}"

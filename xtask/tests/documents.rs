@@ -8,7 +8,7 @@ const WIDTH: usize = 120;
 /// Sections that a command writes are between such lines.
 const WRITTEN: &str = "<!-- flexdrill bench";
 /// Folders that are not the repository's own.
-const FOREIGN: [&str; 4] = ["target", ".git", ".venv", ".venv-peers"];
+const FOREIGN: [&str; 5] = ["target", ".git", ".venv", ".venv-peers", "node_modules"];
 /// First folders of a path that is meant from the repository's root.
 const ROOTS: [&str; 11] = [
     ".ci",

@@ -10,6 +10,8 @@ const root = dirname(fileURLToPath(import.meta.url));
 const target = ["chrome109", "firefox115", "safari16.4"];
 
 async function files() {
+  // The licence of what is bundled asks to go with it.
+  const licence = await readFile(join(root, "node_modules/uplot/LICENSE"), "utf8");
   const bundle = await build({
     absWorkingDir: root,
     entryPoints: { page: "src/main.ts" },
@@ -18,11 +20,13 @@ async function files() {
     format: "iife",
     target,
     charset: "utf8",
-    legalComments: "eof",
+    footer: { js: `/* With uPlot (https://github.com/leeoniya/uPlot):\n${licence.trim()}\n*/` },
     outdir: "dist",
     write: false,
   });
-  const outputs = new Map(bundle.outputFiles.map((file) => [file.path.slice(file.path.lastIndexOf("/") + 1), file.text]));
+  const outputs = new Map(
+    bundle.outputFiles.map((file) => [file.path.slice(file.path.lastIndexOf("/") + 1), file.text]),
+  );
   outputs.set("index.html", await readFile(join(root, "src/index.html"), "utf8"));
   return outputs;
 }

@@ -1,7 +1,7 @@
 //! TypeScript source of the messages that the rig page reads: types, constants and decoders.
 //!
-//! Numbers of 64 bits become `number`: exact up to 2^53, which no counter of ours reaches. Arrays of numbers become typed
-//! arrays, without a copy where the platform allows it.
+//! Numbers of 64 bits become `number`: exact up to 2^53, which no counter of ours reaches. Arrays of numbers become
+//! typed arrays, which look at the message's bytes in place.
 
 use std::fmt::Write as _;
 

@@ -74,6 +74,7 @@ export interface JournalEntry {
   name: string;
   change: number;
   priority: number;
+  annunciates: boolean;
   operator_name: string;
   reason: string;
   evidence: string;

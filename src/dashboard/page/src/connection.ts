@@ -36,6 +36,8 @@ export class Connection {
   private nextId = 1;
   private playback: Playback = { playing: false, ended: false, time: 0n, speed: 1 };
   private requests = 0;
+  /** The player has said whether it plays. */
+  private told = false;
 
   constructor(
     private readonly url: string,
@@ -51,6 +53,7 @@ export class Connection {
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     this.topics.clear();
+    this.told = false;
     socket.onopen = () => this.listener.onConnected(true);
     socket.onclose = () => {
       this.listener.onConnected(false);
@@ -84,11 +87,16 @@ export class Connection {
         this.listener.onMessage(channel.topic, channel.schema, view.getBigUint64(5, true), data);
         return;
       }
-      case 0x02:
-        this.playback = { ...this.playback, time: view.getBigUint64(1, true) };
+      case 0x02: {
+        const time = view.getBigUint64(1, true);
+        // The player says how it does only when that changes; until then time that goes on tells.
+        const goesOn = !this.told && this.playback.time !== 0n && time > this.playback.time;
+        this.playback = { ...this.playback, time, playing: this.playback.playing || goesOn };
         this.listener.onPlayback(this.playback);
         return;
+      }
       case 0x05: {
+        this.told = true;
         const status = view.getUint8(1);
         this.playback = {
           playing: status === 0,

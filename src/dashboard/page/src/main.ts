@@ -45,7 +45,13 @@ class Panels implements View {
       const id = name.toLowerCase();
       const tab = h(
         "button",
-        { type: "button", role: "tab", id: `tab-${id}`, "aria-controls": `panel-${id}`, onclick: () => this.open(name) },
+        {
+          type: "button",
+          role: "tab",
+          id: `tab-${id}`,
+          "aria-controls": `panel-${id}`,
+          onclick: () => this.open(name),
+        },
         name,
       );
       tab.addEventListener("keydown", (event) => {

@@ -30,7 +30,10 @@ const QUANTITIES = {
   },
   depth: { si: { unit: "m", factor: 1, digits: 2 }, field: { unit: "ft", factor: 1 / FOOT, digits: 2 } },
   gap: { si: { unit: "mm", factor: 1e3, digits: 1 }, field: { unit: "in", factor: 12 / FOOT, digits: 3 } },
-  angle: { si: { unit: "°", factor: 180 / Math.PI, digits: 2 }, field: { unit: "°", factor: 180 / Math.PI, digits: 2 } },
+  angle: {
+    si: { unit: "°", factor: 180 / Math.PI, digits: 2 },
+    field: { unit: "°", factor: 180 / Math.PI, digits: 2 },
+  },
 } satisfies Record<string, Record<System, Quantity>>;
 
 export type Kind = keyof typeof QUANTITIES;

@@ -40,12 +40,22 @@ export class Renderer {
   private readonly uniforms: Record<"matrix" | "eye" | "colour" | "rim", WebGLUniformLocation | null>;
   private readonly buffers = new Map<
     Mesh,
-    { array: WebGLVertexArrayObject; vertices: WebGLBuffer; indices: WebGLBuffer; vertexBytes: number; indexBytes: number }
+    {
+      array: WebGLVertexArrayObject;
+      vertices: WebGLBuffer;
+      indices: WebGLBuffer;
+      vertexBytes: number;
+      indexBytes: number;
+    }
   >();
 
   /** Throws when the browser has no WebGL2. */
   constructor(canvas: HTMLCanvasElement) {
-    const gl = canvas.getContext("webgl2", { antialias: !drawnBySoftware(), alpha: false, powerPreference: "low-power" });
+    const gl = canvas.getContext("webgl2", {
+      antialias: !drawnBySoftware(),
+      alpha: false,
+      powerPreference: "low-power",
+    });
     if (!gl) throw new Error("this browser has no WebGL2");
     this.gl = gl;
     this.program = link(gl);

@@ -4,7 +4,8 @@
 // picture.
 
 import type { Tool } from "../api";
-import type { Geometry, Moment } from "../store/store";
+import type { Geometry } from "../store/geometry";
+import type { Moment } from "../store/store";
 import type { Vec3 } from "./matrix";
 import { Mesh } from "./mesh";
 
@@ -80,7 +81,12 @@ export class ToolMeshes {
     this.forces(moment, geometry, pipeRadius, guideRadius, boreRadius);
     this.whirling(moment, geometry, guideRadius);
     if (chosen !== null && chosen < stations) {
-      this.chosen.collar(point(geometry.stationPosition, chosen), this.axis(geometry, chosen), boreRadius * 1.04, 0.025);
+      this.chosen.collar(
+        point(geometry.stationPosition, chosen),
+        this.axis(geometry, chosen),
+        boreRadius * 1.04,
+        0.025,
+      );
     }
   }
 
@@ -109,12 +115,19 @@ export class ToolMeshes {
     return [Math.sin(angle), 0, Math.cos(angle)];
   }
 
-  private forces(moment: Moment, geometry: Geometry, pipeRadius: number, guideRadius: number, boreRadius: number): void {
+  private forces(
+    moment: Moment,
+    geometry: Geometry,
+    pipeRadius: number,
+    guideRadius: number,
+    boreRadius: number,
+  ): void {
     const { layout, row } = moment;
     const inner = layout.vector(row, "pipe_guide_normal_peak");
     const outer = layout.vector(row, "guide_wall_normal_peak");
     let most = 0;
-    for (let station = 0; station < inner.length; station++) most = Math.max(most, inner[station] || 0, outer[station] || 0);
+    for (let station = 0; station < inner.length; station++)
+      most = Math.max(most, inner[station] || 0, outer[station] || 0);
     // The scale changes rarely: up when it must, down when it is far too large.
     if (most > this.fullForce || most < this.fullForce / 5) this.fullForce = Math.max(200, roundUp(most));
     const [py, pz] = [layout.vector(row, "pipe_y"), layout.vector(row, "pipe_z")];

@@ -16,8 +16,11 @@ import {
   type TwinStatus,
   type WhirlState,
 } from "../messages";
-import { Layout, type Counts, type Scalar, type Vector } from "./layout";
+import { displacements, geometryOf, type Geometry } from "./geometry";
+import { merged } from "./history";
+import { Layout, type Counts } from "./layout";
 import { Ring } from "./ring";
+import { Second } from "./second";
 
 /** Topics that the page listens to, without namespace. */
 export const TOPICS = [
@@ -41,41 +44,15 @@ const SHAPES = 600;
 /** Most entries of the journal, and of alarm lists to drag back through. */
 const JOURNAL = 2000;
 const LISTS = 500;
+/**
+ * Time that goes back further than this (s) is another time: topics of a loaded machine come out of order by some
+ * seconds, those of a recording hardly. A recording that leaps ahead is elsewhere too.
+ */
+const SET_BACK = 10;
+const BAG_BACK = 0.5;
+const BAG_AHEAD = 2;
 /** Without a heartbeat for this long the twin is gone (ms): ten beats at 5 Hz, as in the terminal. */
 export const SILENT = 2000;
-
-/** Columns that keep the largest value of their second. */
-const LARGEST: readonly (Scalar | Vector)[] = [
-  "bit_speed_max",
-  "bit_torque_max",
-  "stick_slip_index",
-  "stick_slip_severity",
-  "max_pipe_guide_force",
-  "max_guide_wall_force",
-  "shock_severity",
-  "max_bend_angle",
-  "joints_at_limit",
-  "joint_bend_angle",
-  "joint_stop_moment",
-  "pipe_guide_normal_peak",
-  "guide_wall_normal_peak",
-];
-
-/** Where things are along the tool; does not change while a configuration runs. */
-export interface Geometry {
-  /** Measured depth of stations (m), their inclination (rad) and place in the world (x, y, z each, m). */
-  stationDepth: Float64Array;
-  stationInclination: Float64Array;
-  stationPosition: Float32Array;
-  /** Measured depth of joints (m), their station and the angle of their stop (rad). */
-  jointDepth: Float64Array;
-  jointStation: Int32Array;
-  jointLimit: number;
-  /** Measured depth of watched places (m), their body and station. */
-  watchedDepth: Float64Array;
-  watchedBody: Uint8Array;
-  watchedStation: Int32Array;
-}
 
 /** The tool at one instant. */
 export interface Moment {
@@ -114,12 +91,8 @@ export class Store {
 
   private cursorTime: number | null = null;
   private arrived = new Map<string, number>();
-  private second = new Float32Array(0);
-  private live = new Float32Array(0);
+  private second: Second | null = null;
   private secondNumber = NaN;
-  private speedSum = 0;
-  private torqueSum = 0;
-  private bitCount = 0;
   private newest = NaN;
   private lists: { time: number; list: AlarmList }[] = [];
   private firstContacts: ContactForces | null = null;
@@ -138,8 +111,13 @@ export class Store {
       this.unreadable++;
       return;
     }
+    this.accept(topic as Topic, message);
+  }
+
+  /** Takes a message that has been decoded. */
+  accept(topic: Topic, message: unknown): void {
     this.arrived.set(topic, performance.now());
-    switch (topic as Topic) {
+    switch (topic) {
       case "twin/status":
         return this.takeStatus(message as TwinStatus);
       case "twin/session":
@@ -217,15 +195,14 @@ export class Store {
 
   /** The tool as it was at the shown time; null until enough has been heard. */
   moment(): Moment | null {
-    const layout = this.layout;
-    if (!layout) return null;
+    const { layout, second } = this;
+    if (!layout || !second) return null;
     if (this.cursorTime !== null) {
       if (this.hour.length === 0) return null;
       const at = Math.max(0, this.hour.before(this.cursorTime));
       return { time: this.hour.time(at), live: false, layout, row: this.hour.row(at) };
     }
-    this.refreshLive(layout);
-    return { time: this.newest, live: true, layout, row: this.live };
+    return { time: this.newest, live: true, layout, row: second.live() };
   }
 
   /** Alarms as they stood at the shown time; null when that is not known. */
@@ -241,32 +218,10 @@ export class Store {
 
   /** Takes the server's hour, older than what has been heard here; with a bag all of it. */
   takeHistory(history: History): void {
-    const column = new Map(history.head.columns.map((entry) => [entry.name, entry]));
-    const length = (name: string) => column.get(name)?.length ?? 0;
-    if (!this.layout) {
-      this.build({ stations: length("pipe_y"), joints: length("joint_bend_angle"), watched: length("whirl_kind") });
-    }
     const layout = this.layout;
     if (!layout) return;
-    const base = Number(BigInt(history.head.base_ns)) / 1e9;
-    const before = this.isBag || this.hour.length === 0 ? Infinity : this.hour.time(0) - 0.5;
-    const hour = new Ring(HOUR, layout.stride);
-    const timeColumn = column.get("time")?.offset ?? 0;
-    for (let frame = 0; frame < history.head.count; frame++) {
-      const from = frame * history.head.stride;
-      const time = base + history.values[from + timeColumn];
-      if (!Number.isFinite(time) || time >= before) continue;
-      const row = hour.push(time).fill(NaN);
-      for (const { name, offset, length } of history.head.columns) {
-        const ours = layout.find(name);
-        if (!ours || ours.length !== length) continue;
-        row.set(history.values.subarray(from + offset, from + offset + length), ours.offset);
-      }
-    }
-    if (!this.isBag) {
-      for (let index = 0; index < this.hour.length; index++) hour.push(this.hour.time(index)).set(this.hour.row(index));
-    }
-    this.hour = hour;
+    const own = this.isBag ? null : this.hour;
+    this.hour = merged(history, layout, own, HOUR);
     this.hourRevision++;
   }
 
@@ -282,18 +237,16 @@ export class Store {
 
   private takeStatus(status: TwinStatus): void {
     this.status = status;
-    const layout = this.begin(status.header);
-    if (!layout) return;
-    const row = this.second;
-    const set = (name: Scalar, value: number) => (row[layout.offset(name)] = value);
-    set("state", status.state);
-    set("real_time_factor", status.real_time_factor);
-    set("model_quality", status.model_quality);
+    const second = this.begin(status.header);
+    if (!second) return;
+    second.set("state", status.state);
+    second.set("real_time_factor", status.real_time_factor);
+    second.set("model_quality", status.model_quality);
     status.input_name.forEach((name, index) => {
       const input = name === "rotary_speed" ? "rotary_speed" : "weight_on_bit";
-      set(`${input}_state`, status.input_state[index]);
-      set(`${input}_received`, status.input_received[index]);
-      set(`${input}_applied`, status.input_applied[index]);
+      second.set(`${input}_state`, status.input_state[index]);
+      second.set(`${input}_received`, status.input_received[index]);
+      second.set(`${input}_applied`, status.input_applied[index]);
     });
   }
 
@@ -306,11 +259,9 @@ export class Store {
       this.lists.push({ time: stamp(list.header), list });
       if (this.lists.length > LISTS) this.lists.shift();
     }
-    const layout = this.layout;
-    if (!layout) return;
     const active = list.alarms.filter((alarm) => alarm.state >= 1 && alarm.state <= 3);
-    this.second[layout.offset("unacknowledged_alarms")] = list.unacknowledged;
-    this.second[layout.offset("worst_alarm_priority")] = Math.max(0, ...active.map((alarm) => alarm.priority));
+    this.second?.set("unacknowledged_alarms", list.unacknowledged);
+    this.second?.set("worst_alarm_priority", Math.max(0, ...active.map((alarm) => alarm.priority)));
   }
 
   private takeEvent(event: AlarmEvent): void {
@@ -322,39 +273,30 @@ export class Store {
   }
 
   private takeBit(bit: BitState): void {
-    const layout = this.begin(bit.header);
-    if (!layout) return;
-    const row = this.second;
-    this.speedSum += bit.rotary_speed;
-    this.torqueSum += bit.torque;
-    this.bitCount++;
-    row[layout.offset("bit_speed_mean")] = this.speedSum / this.bitCount;
-    row[layout.offset("bit_torque_mean")] = this.torqueSum / this.bitCount;
-    smallest(row, layout.offset("bit_speed_min"), bit.rotary_speed);
-    largest(row, layout.offset("bit_speed_max"), bit.rotary_speed);
-    largest(row, layout.offset("bit_torque_max"), bit.torque);
-    largest(row, layout.offset("stick_slip_index"), bit.stick_slip_index);
-    largest(row, layout.offset("stick_slip_severity"), bit.stick_slip_severity);
+    const second = this.begin(bit.header);
+    if (!second) return;
+    second.means({ bit_speed_mean: bit.rotary_speed, bit_torque_mean: bit.torque });
+    second.smallest("bit_speed_min", bit.rotary_speed);
+    second.largest("bit_speed_max", bit.rotary_speed);
+    second.largest("bit_torque_max", bit.torque);
+    second.largest("stick_slip_index", bit.stick_slip_index);
+    second.largest("stick_slip_severity", bit.stick_slip_severity);
   }
 
   private takeContacts(contacts: ContactForces): void {
     this.firstContacts ??= contacts;
-    const layout = this.begin(contacts.header);
-    if (!layout) return;
-    if (contacts.measured_depth.length !== layout.counts.stations) return this.forget();
-    const row = this.second;
-    largest(row, layout.offset("max_pipe_guide_force"), contacts.max_pipe_guide_force);
-    largest(row, layout.offset("max_guide_wall_force"), contacts.max_guide_wall_force);
-    largest(row, layout.offset("shock_severity"), contacts.shock_severity);
-    const pipeGuide = layout.offset("pipe_guide_normal_peak");
-    const guideWall = layout.offset("guide_wall_normal_peak");
-    const state = layout.offset("contact_state");
-    const stations = layout.counts.stations;
+    const second = this.begin(contacts.header);
+    const stations = this.layout?.counts.stations ?? 0;
+    if (!second) return;
+    if (contacts.measured_depth.length !== stations) return this.forget();
+    second.largest("max_pipe_guide_force", contacts.max_pipe_guide_force);
+    second.largest("max_guide_wall_force", contacts.max_guide_wall_force);
+    second.largest("shock_severity", contacts.shock_severity);
+    second.setAll("contact_state", contacts.state);
     const quick = this.contacts.push(stamp(contacts.header));
     for (let station = 0; station < stations; station++) {
-      largest(row, pipeGuide + station, contacts.pipe_guide_normal_peak[station]);
-      largest(row, guideWall + station, contacts.guide_wall_normal_peak[station]);
-      row[state + station] = contacts.state[station];
+      second.largest("pipe_guide_normal_peak", contacts.pipe_guide_normal_peak[station], station);
+      second.largest("guide_wall_normal_peak", contacts.guide_wall_normal_peak[station], station);
       quick[station] = contacts.pipe_guide_normal_peak[station];
       quick[stations + station] = contacts.guide_wall_normal_peak[station];
     }
@@ -362,19 +304,18 @@ export class Store {
 
   private takeJoints(joints: JointDeflections): void {
     this.firstJoints ??= joints;
-    const layout = this.begin(joints.header);
-    if (!layout) return;
-    const count = layout.counts.joints;
+    const second = this.begin(joints.header);
+    const count = this.layout?.counts.joints ?? 0;
+    if (!second) return;
     if (joints.measured_depth.length !== count) return this.forget();
-    const row = this.second;
-    largest(row, layout.offset("max_bend_angle"), joints.max_bend_angle);
-    largest(row, layout.offset("joints_at_limit"), joints.joints_at_limit);
+    second.largest("max_bend_angle", joints.max_bend_angle);
+    second.largest("joints_at_limit", joints.joints_at_limit);
+    second.setAll("joint_lateral_y", joints.lateral_y);
+    second.setAll("joint_lateral_z", joints.lateral_z);
     const quick = this.joints.push(stamp(joints.header));
     for (let joint = 0; joint < count; joint++) {
-      largest(row, layout.offset("joint_bend_angle") + joint, joints.bend_angle[joint]);
-      largest(row, layout.offset("joint_stop_moment") + joint, joints.stop_moment[joint]);
-      row[layout.offset("joint_lateral_y") + joint] = joints.lateral_y[joint];
-      row[layout.offset("joint_lateral_z") + joint] = joints.lateral_z[joint];
+      second.largest("joint_bend_angle", joints.bend_angle[joint], joint);
+      second.largest("joint_stop_moment", joints.stop_moment[joint], joint);
       quick[joint] = joints.lateral_y[joint];
       quick[count + joint] = joints.lateral_z[joint];
       quick[2 * count + joint] = joints.stop_moment[joint];
@@ -383,67 +324,54 @@ export class Store {
 
   private takeWhirl(whirl: WhirlState): void {
     this.firstWhirl ??= whirl;
-    const layout = this.begin(whirl.header);
-    if (!layout) return;
-    if (whirl.measured_depth.length !== layout.counts.watched) return this.forget();
-    const set = (name: Vector, values: ArrayLike<number>) => this.second.set(values, layout.offset(name));
-    set("whirl_kind", whirl.kind);
-    set("whirl_severity", whirl.severity);
-    set("whirl_ratio", whirl.whirl_ratio);
-    set("clearance_ratio", whirl.clearance_ratio);
-    set("contact_duty", whirl.contact_duty);
+    const second = this.begin(whirl.header);
+    if (!second) return;
+    if (whirl.measured_depth.length !== this.layout?.counts.watched) return this.forget();
+    second.setAll("whirl_kind", whirl.kind);
+    second.setAll("whirl_severity", whirl.severity);
+    second.setAll("whirl_ratio", whirl.whirl_ratio);
+    second.setAll("clearance_ratio", whirl.clearance_ratio);
+    second.setAll("contact_duty", whirl.contact_duty);
   }
 
   private takeShape(shape: MarkerArray): void {
     this.firstShape ??= shape;
     const header = shape.markers[0]?.header;
-    const layout = header ? this.begin(header) : null;
-    const geometry = this.geometry;
-    if (!layout || !geometry || !header) return;
-    const find = (name: string) => shape.markers.find((marker) => marker.ns === name)?.points ?? [];
-    const [bore, pipe, guide] = [find("bore"), find("flexible_pipe"), find("guide_pipe")];
+    const second = header ? this.begin(header) : null;
+    const { geometry, layout } = this;
+    if (!second || !geometry || !layout || !header) return;
     const stations = layout.counts.stations;
-    const factor = 1 / (this.session?.tool?.exaggeration || 10);
-    if (bore.length !== stations || pipe.length !== stations || guide.length !== stations) return;
-    const row = this.second;
-    const quick = this.shapes.push(stamp(header));
-    for (let station = 0; station < stations; station++) {
-      const angle = geometry.stationInclination[station];
-      const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
-      [pipe, guide].forEach((body, index) => {
-        const x = body[station].x - bore[station].x;
-        const y = body[station].y - bore[station].y;
-        const z = body[station].z - bore[station].z;
-        const across = y * factor;
-        const low = (sin * z - cos * x) * factor;
-        quick[(2 * index) * stations + station] = across;
-        quick[(2 * index + 1) * stations + station] = low;
-        row[layout.offset(index === 0 ? "pipe_y" : "guide_y") + station] = across;
-        row[layout.offset(index === 0 ? "pipe_z" : "guide_z") + station] = low;
-      });
-    }
+    const quick = this.shapes.push(stamp(header)).fill(NaN);
+    displacements(shape, geometry, this.session?.tool?.exaggeration || 10, (body, station, across, low) => {
+      const first = body === "pipe" ? 0 : 2 * stations;
+      quick[first + station] = across;
+      quick[first + stations + station] = low;
+      second.setAt(body === "pipe" ? "pipe_y" : "guide_y", station, across);
+      second.setAt(body === "pipe" ? "pipe_z" : "guide_z", station, low);
+    });
     this.shapeRevision++;
   }
 
-  /** Takes note of a message's time; gives the layout once it is known. */
-  private begin(header: Header): Layout | null {
+  /** Takes note of a message's time; gives the running second once the tool is known. */
+  private begin(header: Header): Second | null {
     const time = stamp(header);
-    if (!this.layout) this.buildFromMessages();
-    const layout = this.layout;
-    if (!layout) return null;
-    if (time < this.newest - 1 || (this.isBag && Math.abs(time - this.newest) > 2)) this.rewind(time);
+    if (!this.layout) this.build();
+    const second = this.second;
+    if (!second) return null;
+    const back = this.newest - time;
+    if (back > (this.isBag ? BAG_BACK : SET_BACK) || (this.isBag && -back > BAG_AHEAD)) this.rewind(time);
     this.newest = Number.isNaN(this.newest) ? time : Math.max(this.newest, time);
     const number = Math.floor(time);
     if (Number.isNaN(this.secondNumber)) this.secondNumber = number;
-    if (number > this.secondNumber) this.endSecond(layout, number);
-    return layout;
+    if (number > this.secondNumber) this.endSecond(second, number);
+    return second;
   }
 
   /** Time went back, or a bag was brought elsewhere: what is at hand belongs to another time. */
   private rewind(time: number): void {
     this.newest = time;
     this.secondNumber = Math.floor(time);
-    this.second.fill(NaN);
+    this.second?.clear();
     this.joints.clear();
     this.contacts.clear();
     this.shapes.clear();
@@ -454,47 +382,23 @@ export class Store {
     this.hourRevision++;
   }
 
-  private endSecond(layout: Layout, number: number): void {
+  private endSecond(second: Second, number: number): void {
     if (!this.isBag) {
-      const before = this.secondNumber;
-      this.second[layout.offset("time")] = 0;
-      this.hour.push(before + 1).set(this.second);
+      second.set("time", 0);
+      this.hour.push(this.secondNumber + 1).set(second.row);
       // A gap: the twin was away.
-      if (number > before + 2) this.hour.push(number - 1).fill(NaN);
+      if (number > this.secondNumber + 2) this.hour.push(number - 1).fill(NaN);
       this.hourRevision++;
     }
-    this.live.set(this.second);
     this.secondNumber = number;
-    for (const name of LARGEST) {
-      const column = layout.find(name);
-      if (column) this.second.fill(NaN, column.offset, column.offset + column.length);
-    }
-    this.second[layout.offset("bit_speed_min")] = NaN;
-    this.speedSum = this.torqueSum = this.bitCount = 0;
-    this.ended.set(this.live);
-  }
-
-  /** The last whole second, for the largest values of a running one. */
-  private ended = new Float32Array(0);
-
-  private refreshLive(layout: Layout): void {
-    this.live.set(this.second);
-    for (const name of LARGEST) {
-      const column = layout.find(name);
-      if (!column) continue;
-      for (let index = column.offset; index < column.offset + column.length; index++) {
-        const before = this.ended[index];
-        if (Number.isNaN(this.live[index]) || before > this.live[index]) this.live[index] = before;
-      }
-    }
-    const low = layout.offset("bit_speed_min");
-    if (Number.isNaN(this.live[low]) || this.ended[low] < this.live[low]) this.live[low] = this.ended[low];
+    second.end();
   }
 
   /** Another tool: all that is known is of the last one. */
   private forget(): void {
     this.layout = null;
     this.geometry = null;
+    this.second = null;
     this.firstContacts = this.firstJoints = this.firstWhirl = null;
     this.firstShape = null;
     this.newest = this.secondNumber = NaN;
@@ -503,63 +407,26 @@ export class Store {
     this.hourRevision++;
   }
 
-  private buildFromMessages(): void {
+  /** Makes room for a tool once one of each message has said how large it is. */
+  private build(): void {
     const [contacts, joints, whirl, shape] = [this.firstContacts, this.firstJoints, this.firstWhirl, this.firstShape];
     if (!contacts || !joints || !whirl || !shape) return;
-    this.build({
+    const counts: Counts = {
       stations: contacts.measured_depth.length,
       joints: joints.measured_depth.length,
       watched: whirl.measured_depth.length,
-    });
-  }
-
-  private build(counts: Counts): void {
-    const [contacts, joints, whirl, shape] = [this.firstContacts, this.firstJoints, this.firstWhirl, this.firstShape];
-    if (!contacts || !joints || !whirl || !shape) return;
+    };
     this.layout = new Layout(counts);
-    this.second = new Float32Array(this.layout.stride).fill(NaN);
-    this.live = this.second.slice();
-    this.ended = this.second.slice();
+    this.second = new Second(this.layout);
     this.hour = new Ring(HOUR, this.layout.stride);
     this.joints = new Ring(QUICK, 3 * counts.joints);
     this.contacts = new Ring(QUICK, 2 * counts.stations);
     this.shapes = new Ring(SHAPES, 4 * counts.stations);
-    const depth = contacts.measured_depth.slice();
-    const bore = shape.markers.find((marker) => marker.ns === "bore")?.points ?? [];
-    const position = new Float32Array(3 * counts.stations);
-    bore.forEach((point, index) => position.set([point.x, point.y, point.z], 3 * index));
-    this.geometry = {
-      stationDepth: depth,
-      stationInclination: contacts.inclination.slice(),
-      stationPosition: position,
-      jointDepth: joints.measured_depth.slice(),
-      jointStation: Int32Array.from(joints.measured_depth, (at) => nearest(depth, at)),
-      jointLimit: joints.limit_angle[0] ?? NaN,
-      watchedDepth: whirl.measured_depth.slice(),
-      watchedBody: whirl.body.slice(),
-      watchedStation: Int32Array.from(whirl.measured_depth, (at) => nearest(depth, at)),
-    };
+    this.geometry = geometryOf({ contacts, joints, whirl, shape });
   }
 }
 
 /** A header's time (s). */
 export function stamp(header: Header): number {
   return header.stamp.sec + header.stamp.nanosec * 1e-9;
-}
-
-function largest(row: Float32Array, at: number, value: number): void {
-  if (!(row[at] >= value)) row[at] = value;
-}
-
-function smallest(row: Float32Array, at: number, value: number): void {
-  if (!(row[at] <= value)) row[at] = value;
-}
-
-/** Index of the entry nearest to a value. */
-export function nearest(values: ArrayLike<number>, value: number): number {
-  let best = 0;
-  for (let index = 1; index < values.length; index++) {
-    if (Math.abs(values[index] - value) < Math.abs(values[best] - value)) best = index;
-  }
-  return best;
 }

@@ -6,7 +6,7 @@ import { Alarm } from "../messages";
 import { clock, lapse, number } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { ALARM_STATE, CHANGE, PRIORITY, PRIORITY_SHAPE, word } from "../words";
-import { nearest } from "../store/store";
+import { nearest } from "../store/geometry";
 import { alarmPlace } from "./state";
 
 /** Entries of the journal that are shown. */
@@ -32,6 +32,11 @@ export class Alarms implements View {
       ["once", "until it is gone"],
     ].map(([value, text]) => h("option", { value }, text)),
   );
+  private readonly every = h("input", {
+    type: "checkbox",
+    id: "journal-every",
+    onchange: () => (this.journalKey = ""),
+  });
   private readonly control = h("div", { class: "control" });
   private readonly locked = h("p", { class: "hint" });
   private readonly pace = new Pace(250);
@@ -52,7 +57,11 @@ export class Alarms implements View {
       h("label", {}, "operator", this.operator),
       h("label", {}, "reason", this.reason),
       h("label", {}, "shelve for", this.duration),
-      h("button", { type: "button", id: "acknowledge-all", onclick: () => this.request("acknowledge", "all") }, "Acknowledge all"),
+      h(
+        "button",
+        { type: "button", id: "acknowledge-all", onclick: () => this.request("acknowledge", "all") },
+        "Acknowledge all",
+      ),
     );
     this.element = h(
       "section",
@@ -63,7 +72,7 @@ export class Alarms implements View {
       this.answer,
       h("details", {}, this.quietTitle, this.quiet),
       this.figures,
-      h("h2", {}, "Journal"),
+      h("div", { class: "row" }, h("h2", {}, "Journal"), h("label", { class: "hint" }, this.every, " suppression too")),
       this.journal,
     );
   }
@@ -186,7 +195,12 @@ export class Alarms implements View {
         : "";
     return h(
       "li",
-      { class: "alarm", "data-level": String(alarm.priority), "data-id": alarm.id, "data-calls": String(unacknowledged) },
+      {
+        class: "alarm",
+        "data-level": String(alarm.priority),
+        "data-id": alarm.id,
+        "data-calls": String(unacknowledged),
+      },
       h(
         "div",
         { class: "alarm-head" },
@@ -220,7 +234,10 @@ export class Alarms implements View {
   private fillJournal(): void {
     const { store } = this.context;
     const cursor = store.cursor ?? Infinity;
-    const entries = store.journal.filter((event) => Number(BigInt(event.stamp_ns)) / 1e9 <= cursor);
+    // A drive that stands suppresses five alarms at once: asked for, that is shown too.
+    const matters = (event: api.JournalEntry) =>
+      this.every.checked || event.priority > 0 || event.operator_name !== "" || event.annunciates;
+    const entries = store.journal.filter((event) => matters(event) && Number(BigInt(event.stamp_ns)) / 1e9 <= cursor);
     this.journal.replaceChildren(
       ...entries
         .slice(-SHOWN)

@@ -3,7 +3,7 @@
 import { fit, h, setText } from "../dom";
 import { roundUp } from "../scene/tool";
 import type { Vector } from "../store/layout";
-import { nearest } from "../store/store";
+import { nearest } from "../store/geometry";
 import { shade } from "../theme";
 import { digits, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
@@ -28,12 +28,7 @@ export class HeatMap implements View {
     private readonly vector: Vector,
   ) {
     this.canvas = h("canvas", { role: "img", "aria-label": `${title}: force by depth against time` });
-    this.element = h(
-      "section",
-      { class: "heatmap", "aria-label": title },
-      h("h2", {}, title, this.scale),
-      this.canvas,
-    );
+    this.element = h("section", { class: "heatmap", "aria-label": title }, h("h2", {}, title, this.scale), this.canvas);
     this.canvas.addEventListener("click", (event) => this.look(event));
   }
 
@@ -126,7 +121,11 @@ export class HeatMap implements View {
     pencil.putImageData(image, 0, 0);
   }
 
-  private paint(from: number, to: number, { width, height, ratio }: { width: number; height: number; ratio: number }): void {
+  private paint(
+    from: number,
+    to: number,
+    { width, height, ratio }: { width: number; height: number; ratio: number },
+  ): void {
     const { store, palette, place, settings } = this.context;
     const { geometry } = store;
     const pencil = this.canvas.getContext("2d");

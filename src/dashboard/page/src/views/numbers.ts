@@ -33,7 +33,9 @@ interface Tile {
 }
 
 /** Range from zero with some room above. */
-const fromZero = (least: number) => (_min: number, max: number): [number, number] => [0, Math.max(least, max * 1.1)];
+const fromZero =
+  (least: number) =>
+  (_min: number, max: number): [number, number] => [0, Math.max(least, max * 1.1)];
 
 export class Numbers implements View {
   readonly element = h("section", { class: "numbers", "aria-label": "Numbers" });
@@ -109,7 +111,12 @@ export class Numbers implements View {
       const newton = 1e3 * (store.session?.limits?.weight_on_bit_kn.max ?? setting("inputs.weight_on_bit.max_kn"));
       return convert(newton, "weight", system());
     };
-    const force = (id: string, label: string, column: Scalar, vector: "pipe_guide_normal_peak" | "guide_wall_normal_peak") => ({
+    const force = (
+      id: string,
+      label: string,
+      column: Scalar,
+      vector: "pipe_guide_normal_peak" | "guide_wall_normal_peak",
+    ) => ({
       id,
       label,
       unit: unit("force"),
@@ -189,7 +196,8 @@ export class Numbers implements View {
           return {
             value: number(at(moment, "joints_at_limit"), 0),
             note:
-              `bend ${withUnit(at(moment, "max_bend_angle"), "angle", system())} / ${withUnit(limit, "angle", system())}` +
+              `bend ${withUnit(at(moment, "max_bend_angle"), "angle", system())}` +
+              ` / ${withUnit(limit, "angle", system())}` +
               ` · stop's peak ${withUnit(most, "torque", system())}`,
             level: 0,
           };

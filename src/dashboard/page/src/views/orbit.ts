@@ -71,8 +71,9 @@ export function drawOrbit(
   }
   pencil.fillStyle = palette.muted;
   pencil.font = "11px system-ui, sans-serif";
+  pencil.textAlign = "left";
+  pencil.fillText("high side", 4, 11);
   pencil.textAlign = "center";
-  pencil.fillText("high side", cx - 14, 11);
   pencil.fillText("low side", cx, height - 4);
   pencil.textAlign = "right";
   const unit = quantity("gap", settings.units).unit;

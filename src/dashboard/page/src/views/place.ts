@@ -20,7 +20,11 @@ export class PlaceView implements View {
   private readonly title = h("h2", { id: "place-title" });
   private readonly none = h("p", { class: "none" }, "Click a joint or station of the tool, or go through the joints.");
   private readonly body: HTMLElement;
-  private readonly orbit = h("canvas", { id: "orbit", role: "img", "aria-label": "Orbit of the pipe in its clearance" });
+  private readonly orbit = h("canvas", {
+    id: "orbit",
+    role: "img",
+    "aria-label": "Orbit of the pipe in its clearance",
+  });
   private readonly spectrum = h("canvas", { id: "spectrum", role: "img", "aria-label": "Full spectrum of the orbit" });
   private readonly source = h("p", { class: "hint" });
   private readonly facts = h("dl", { class: "facts-list" });
@@ -53,12 +57,21 @@ export class PlaceView implements View {
       () => convert(100, "force", units()),
     );
     const rated = () =>
-      convert(configured(context.store.sessionInfo?.configuration ?? "", "joint_load.rated_moment_nm"), "torque", units());
+      convert(
+        configured(context.store.sessionInfo?.configuration ?? "", "joint_load.rated_moment_nm"),
+        "torque",
+        units(),
+      );
     this.moments = strip(
       () => [rated()].filter(Number.isFinite),
       () => convert(10, "torque", units()),
     );
-    const go = (by: number) => h("button", { type: "button", "aria-label": by < 0 ? "joint above" : "joint below", onclick: () => this.step(by) }, by < 0 ? "◂" : "▸");
+    const go = (by: number) =>
+      h(
+        "button",
+        { type: "button", "aria-label": by < 0 ? "joint above" : "joint below", onclick: () => this.step(by) },
+        by < 0 ? "◂" : "▸",
+      );
     this.body = h(
       "div",
       { class: "place-body" },
@@ -144,15 +157,17 @@ export class PlaceView implements View {
     const geometry = store.geometry;
     if (!moment || !geometry) return;
     const { layout, row } = moment;
-    const rate = pipe.times.length > 1 ? (pipe.times.length - 1) / (pipe.times[pipe.times.length - 1] - pipe.times[0]) : 0;
+    const rate =
+      pipe.times.length > 1 ? (pipe.times.length - 1) / (pipe.times[pipe.times.length - 1] - pipe.times[0]) : 0;
     const turns = layout.scalar(row, "rotary_speed_applied") / (2 * Math.PI);
     drawSpectrum(this.spectrum, context, fullSpectrum(pipe.y, pipe.z, rate), turns);
     setText(
       this.source,
       pipe.times.length === 0
         ? "Motion is kept for a minute; this time is longer ago. A recording has it all."
-        : `Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: in the ` +
-            `guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ${number(rate, 0)} positions a second` +
+        : `Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: in ` +
+            `the guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ` +
+            `${number(rate, 0)} positions a second` +
             (place.joint === null ? "; a joint has more." : "."),
     );
     const { stations, joints } = layout.counts;
@@ -205,7 +220,10 @@ export class PlaceView implements View {
       const ratio = layout.vector(row, "whirl_ratio")[index];
       const severity = layout.vector(row, "whirl_severity")[index];
       const of = Number.isFinite(ratio) ? ` ${number(ratio, 2)}×` : "";
-      facts.push([`${title}: whirl`, `${word(WHIRL_KIND, kind)}${of}${severity > 0 ? `, ${word(SEVERITY, severity)}` : ""}`]);
+      facts.push([
+        `${title}: whirl`,
+        `${word(WHIRL_KIND, kind)}${of}${severity > 0 ? `, ${word(SEVERITY, severity)}` : ""}`,
+      ]);
       facts.push([`${title}: reach`, `${number(100 * layout.vector(row, "clearance_ratio")[index], 0)} %`]);
       facts.push([`${title}: contact`, `${number(100 * layout.vector(row, "contact_duty")[index], 0)} %`]);
     }
@@ -213,7 +231,10 @@ export class PlaceView implements View {
       const bend = layout.vector(row, "joint_bend_angle")[place.joint];
       const limit = geometry.jointLimit;
       const at = bend >= limit ? " ◆ stop" : "";
-      facts.push([`Bend${at}`, `${digits(bend, "angle", settings.units)} / ${withUnit(limit, "angle", settings.units)}`]);
+      facts.push([
+        `Bend${at}`,
+        `${digits(bend, "angle", settings.units)} / ${withUnit(limit, "angle", settings.units)}`,
+      ]);
       const stop = layout.vector(row, "joint_stop_moment")[place.joint];
       facts.push(["Stop", withUnit(stop, "torque", settings.units)]);
     }
@@ -228,7 +249,12 @@ export class PlaceView implements View {
     this.alarms.replaceChildren(
       ...(here.length > 0
         ? here.map((alarm) =>
-            h("li", {}, `${PRIORITY_SHAPE[alarm.priority]} ${alarm.name} (${word(PRIORITY, alarm.priority)}): ${alarm.what_to_do}`),
+            h(
+              "li",
+              {},
+              `${PRIORITY_SHAPE[alarm.priority]} ${alarm.name} (${word(PRIORITY, alarm.priority)}): ` +
+                alarm.what_to_do,
+            ),
           )
         : [h("li", { class: "none" }, "none")]),
     );

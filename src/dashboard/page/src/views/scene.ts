@@ -21,7 +21,7 @@ export class Scene implements View {
     tabindex: "0",
     role: "img",
     "aria-label":
-      "The tool in its well. Arrow keys turn it, plus and minus zoom, brackets go from joint to joint, F shows all of it.",
+      "The tool in its well. Arrow keys turn it, plus and minus zoom, brackets go from joint to joint, F shows all.",
   });
   private readonly overlay = h("div", { class: "overlay", "aria-hidden": "true" });
   private readonly legend = h("p", { class: "legend" });
@@ -185,7 +185,8 @@ export class Scene implements View {
     const moment = store.moment();
     const geometry = store.geometry;
     show(this.past, store.cursor !== null);
-    if (store.cursor !== null) setText(this.past, `PAST: ${clock(store.cursor)}, ${lapse(store.now - store.cursor)} ago`);
+    if (store.cursor !== null)
+      setText(this.past, `PAST: ${clock(store.cursor)}, ${lapse(store.now - store.cursor)} ago`);
     const known = moment !== null && geometry !== null;
     if (renderer) setText(this.trouble, known ? "" : "Nothing heard of a tool yet.");
     show(this.canvas, known);
@@ -263,13 +264,14 @@ export class Scene implements View {
       if (!at || !label) return;
       setText(element, label.level > 0 ? `${PRIORITY_SHAPE[label.level]} ${label.text}` : label.text);
       element.dataset.level = String(label.level);
-      element.style.transform = `translate(${Math.round(Math.min(Math.max(at[0], 4), width - 130))}px, ${Math.round(at[1])}px)`;
+      const left = Math.round(Math.min(Math.max(at[0], 4), width - 130));
+      element.style.transform = `translate(${left}px, ${Math.round(at[1])}px)`;
     });
     const scale = withUnit(this.meshes.fullForce, "force", settings.units);
     setText(
       this.legend,
-      `Clearances ×${number(settings.exaggeration, 0)}. Arrows: largest force of the last second on the pipe (blue) and ` +
-        `on the guide (${this.context.theme === "day" ? "black" : "white"}), longest ${scale}. ` +
+      `Clearances ×${number(settings.exaggeration, 0)}. Arrows: largest force of the last second on the pipe (blue) ` +
+        `and on the guide (${this.context.theme === "day" ? "black" : "white"}), longest ${scale}. ` +
         `Thick collars: joints at their stop. Rings: backward or chaotic whirl.`,
     );
   }

@@ -16,10 +16,14 @@ interface State {
 
 const CALLS: Record<number, string> = { 1: "WATCH", 2: "ACT SOON", 3: "ACT NOW" };
 
-/** The state now: what keeps the page from knowing first, then the twin, then alarms, then how far it can be trusted. */
+/** The state now: what keeps the page from knowing first, then the twin, then alarms, then how far to trust it. */
 export function stateNow(store: Store, system: System): State {
   if (!store.connected) {
-    return { level: 4, word: "NO SERVER", sentence: "The page has lost its server and tries again. All values are old." };
+    return {
+      level: 4,
+      word: "NO SERVER",
+      sentence: "The page has lost its server and tries again. All values are old.",
+    };
   }
   const status = store.status;
   if (!status) return { level: 4, word: "NO DATA", sentence: "Nothing heard of a twin yet." };
@@ -28,10 +32,18 @@ export function stateNow(store: Store, system: System): State {
     return { level: 4, word: "TWIN SILENT", sentence: `Last heard of the twin ${age} ago. All values are old.` };
   }
   if (status.state === TwinStatus.FAILED) {
-    return { level: 3, word: "MODEL FAILED", sentence: `The model stands still: ${status.last_rejection_cause}. Reset it.` };
+    return {
+      level: 3,
+      word: "MODEL FAILED",
+      sentence: `The model stands still: ${status.last_rejection_cause}. Reset it.`,
+    };
   }
   if (status.state === TwinStatus.STARTING) {
-    return { level: 4, word: "STARTING", sentence: "The tool is being brought to rest under gravity and weight on bit." };
+    return {
+      level: 4,
+      word: "STARTING",
+      sentence: "The tool is being brought to rest under gravity and weight on bit.",
+    };
   }
   if (status.state === TwinStatus.PAUSED) {
     return { level: 1, word: "PAUSED", sentence: "The model is paused by request; values stand still." };
@@ -67,7 +79,8 @@ export function stateNow(store: Store, system: System): State {
 export function alarmPlace(alarm: Alarm, system: System): string {
   if (alarm.body === Alarm.NOWHERE || !Number.isFinite(alarm.measured_depth)) return "";
   const body = alarm.body === Alarm.GUIDE ? "guide" : "pipe";
-  return `${body} at ${withUnit(alarm.measured_depth, "depth", system)} (${number((alarm.inclination * 180) / Math.PI, 0)}°)`;
+  const inclination = number((alarm.inclination * 180) / Math.PI, 0);
+  return `${body} at ${withUnit(alarm.measured_depth, "depth", system)} (${inclination}°)`;
 }
 
 export class StateLine implements View {
@@ -82,7 +95,13 @@ export class StateLine implements View {
   private readonly pace = new Pace(200);
 
   constructor(private readonly context: Context) {
-    this.line = h("div", { class: "state", role: "status", "aria-live": "polite" }, this.shape, this.word, this.sentence);
+    this.line = h(
+      "div",
+      { class: "state", role: "status", "aria-live": "polite" },
+      this.shape,
+      this.word,
+      this.sentence,
+    );
     const fact = (label: string, value: HTMLElement) => h("div", { class: "fact" }, h("span", {}, label), value);
     const units = h("button", { type: "button", id: "units", onclick: () => this.switchUnits() });
     const theme = h("button", { type: "button", id: "theme", onclick: () => this.switchTheme() });

@@ -2,6 +2,7 @@
 
 import * as api from "../api";
 import { h, setText, show } from "../dom";
+import { TwinStatus } from "../messages";
 import { convert, number, quantity } from "../units";
 import { type Context, Pace, type View } from "../view";
 
@@ -26,6 +27,10 @@ export class Steer implements View {
     { type: "button", id: "steer-release", onclick: () => void this.end() },
     "Release: stop steering",
   );
+  private readonly pause = h("button", { type: "button", id: "model-pause", onclick: () => void this.holdModel() });
+  private readonly reset = h("button", { type: "button", id: "model-reset", onclick: () => void this.resetModel() });
+  private readonly model = h("div", { class: "buttons" }, this.pause, this.reset);
+  private resetting = 0;
   private readonly answer = h("p", { class: "answer", role: "status", id: "steer-answer" });
   private readonly standing = h("dl", { class: "facts-list", id: "steer-state" });
   private readonly pace = new Pace(250);
@@ -37,7 +42,12 @@ export class Steer implements View {
   private timer: ReturnType<typeof setInterval> | null = null;
 
   constructor(private readonly context: Context) {
-    this.operator = h("input", { type: "text", id: "steer-operator", maxlength: "60", value: context.settings.operator });
+    this.operator = h("input", {
+      type: "text",
+      id: "steer-operator",
+      maxlength: "60",
+      value: context.settings.operator,
+    });
     this.token = h("input", {
       type: "password",
       id: "steer-token",
@@ -59,9 +69,14 @@ export class Steer implements View {
     this.element = h(
       "section",
       { class: "steer", "aria-label": "Steer" },
-      h("p", { class: "hint" }, "Sends targets for rotary speed and weight on bit to the twin, slewed and within its limits."),
+      h(
+        "p",
+        { class: "hint" },
+        "Sends targets for rotary speed and weight on bit to the twin, slewed and within its limits.",
+      ),
       this.locked,
       this.form,
+      this.model,
       this.answer,
       h("h2", {}, "Who drives"),
       this.standing,
@@ -133,6 +148,33 @@ export class Steer implements View {
     this.polled = -Infinity;
   }
 
+  /** Asks for something of the model itself, in the operator's name. */
+  private async askModel(what: "pause" | "reset", body: object): Promise<void> {
+    const operator = this.operator.value.trim();
+    if (operator === "") return this.say(false, "Say who you are.");
+    api.setToken(this.token.value);
+    this.context.change({ operator });
+    const { ok, message } = await api.request(what, { operator, ...body });
+    this.say(ok, message || (ok ? "done" : "refused"));
+  }
+
+  private async holdModel(): Promise<void> {
+    await this.askModel("pause", { paused: !this.paused });
+  }
+
+  private async resetModel(): Promise<void> {
+    if (performance.now() > this.resetting) {
+      this.resetting = performance.now() + CONFIRM;
+      return;
+    }
+    this.resetting = 0;
+    await this.askModel("reset", {});
+  }
+
+  private get paused(): boolean {
+    return this.context.store.status?.state === TwinStatus.PAUSED;
+  }
+
   private stop(): void {
     this.target = null;
     if (this.timer !== null) clearInterval(this.timer);
@@ -160,9 +202,16 @@ export class Steer implements View {
     const allowed = store.session?.control === true && !store.isBag;
     show(this.locked, !allowed);
     show(this.form, allowed);
+    show(this.model, allowed);
+    setText(this.pause, this.paused ? "Let the model go on" : "Pause the model");
+    const resetting = performance.now() < this.resetting;
+    this.reset.classList.toggle("confirm", resetting);
+    setText(this.reset, resetting ? "Confirm: back to the start" : "Reset the model…");
     setText(
       this.locked,
-      store.isBag ? "A recording cannot be steered." : "Steering is off: start the server with --allow-control and open the address that it prints.",
+      store.isBag
+        ? "A recording cannot be steered."
+        : "Steering is off: start the server with --allow-control and open the address that it prints.",
     );
     const limits = store.session?.limits;
     const unit = quantity("weight", settings.units).unit;

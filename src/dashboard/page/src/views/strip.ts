@@ -68,7 +68,11 @@ export class Strip {
         },
         axes: options.axes
           ? [
-              { ...axis, size: 20, values: (_plot, ticks) => ticks.map((tick) => `${Math.round(tick - store.shown)} s`) },
+              {
+                ...axis,
+                size: 20,
+                values: (_plot, ticks) => ticks.map((tick) => `${Math.round(tick - store.shown)} s`),
+              },
               { ...axis, size: 46 },
             ]
           : [{ show: false }, { show: false }],

@@ -16,8 +16,16 @@ export class TimeLine implements View {
   private readonly canvas: HTMLCanvasElement;
   private readonly live = h("button", { type: "button", id: "live", onclick: () => this.context.store.lookAt(null) });
   private readonly play = h("button", { type: "button", id: "play", onclick: () => this.toggle() });
-  private readonly before = h("button", { type: "button", id: "incident-before", onclick: () => this.jump(-1) }, "◂ incident");
-  private readonly after = h("button", { type: "button", id: "incident-after", onclick: () => this.jump(1) }, "incident ▸");
+  private readonly before = h(
+    "button",
+    { type: "button", id: "incident-before", onclick: () => this.jump(-1) },
+    "◂ incident",
+  );
+  private readonly after = h(
+    "button",
+    { type: "button", id: "incident-after", onclick: () => this.jump(1) },
+    "incident ▸",
+  );
   private readonly speed: HTMLSelectElement;
   private readonly time = h("output", { class: "shown-time", id: "shown-time" });
   private readonly incident = h("span", { class: "incident", role: "status" });
@@ -30,7 +38,8 @@ export class TimeLine implements View {
       id: "timeline",
       tabindex: "0",
       role: "slider",
-      "aria-label": "Time shown. Arrows go by a second, with shift by ten, page keys by a minute, Escape to the newest.",
+      "aria-label":
+        "Time shown. Arrows go by a second, with shift by ten, page keys by a minute, Escape to the newest.",
     });
     this.speed = h(
       "select",
@@ -39,8 +48,14 @@ export class TimeLine implements View {
     );
     const window_ = h(
       "select",
-      { id: "window", "aria-label": "Length of strips and maps", onchange: () => this.context.change({ window: Number(window_.value) }) },
-      ...WINDOWS.map(([value, text]) => h("option", { value, selected: Number(value) === context.settings.window }, text)),
+      {
+        id: "window",
+        "aria-label": "Length of strips and maps",
+        onchange: () => this.context.change({ window: Number(window_.value) }),
+      },
+      ...WINDOWS.map(([value, text]) =>
+        h("option", { value, selected: Number(value) === context.settings.window }, text),
+      ),
     );
     this.element = h(
       "footer",
@@ -157,7 +172,14 @@ export class TimeLine implements View {
           : `${clock(shown)} · ${lapse(back)} ago`,
     );
     const size = fit(this.canvas);
-    const key = `${store.hourRevision} ${shown.toFixed(1)} ${context.revision} ${store.journalRevision} ${size.width}x${size.height} ${context.range[0].toFixed(0)}`;
+    const key = [
+      store.hourRevision,
+      store.journalRevision,
+      context.revision,
+      shown.toFixed(1),
+      context.range[0].toFixed(0),
+      `${size.width}x${size.height}`,
+    ].join(" ");
     if (key === this.drawn || !(to > from)) return;
     this.drawn = key;
     setAttribute(this.canvas, "aria-valuemin", String(Math.round(from)));
