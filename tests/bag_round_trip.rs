@@ -207,3 +207,39 @@ fn a_message_larger_than_a_chunk_passes() {
     let read: Vec<_> = bag::open(&path).unwrap().map(Result::unwrap).collect();
     assert!(read[0].data == large && read.len() == 2);
 }
+
+/// Where a bag is sought, it goes on as if it had been read until there: forward, back, in whole files and in cut ones.
+#[test]
+fn a_bag_goes_on_from_any_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = recording(folder.path(), "run.mcap", 3000);
+    let whole = std::fs::read(&path).unwrap();
+    let cut = folder.path().join("cut.mcap");
+    std::fs::write(&cut, &whole[..whole.len() * 2 / 3]).unwrap();
+    for path in [path, cut] {
+        let all: Vec<_> = bag::open(&path).unwrap().map(Result::unwrap).collect();
+        assert!(all.len() > 1000);
+        let mut bag = bag::open(&path).unwrap();
+        let last = all[all.len() - 1].log_time;
+        for time in [
+            START + 301 * PERIOD,
+            START,
+            last,
+            START + 7 * PERIOD + 1,
+            i64::MIN,
+            last + 1,
+        ] {
+            bag.seek(time);
+            let wanted: Vec<_> = all
+                .iter()
+                .filter(|message| message.log_time >= time)
+                .take(100)
+                .collect();
+            let found: Vec<_> = bag.by_ref().take(wanted.len()).map(Result::unwrap).collect();
+            assert!(found.iter().eq(wanted.iter().copied()), "from {time}");
+            if wanted.len() < 100 {
+                assert!(bag.next().is_none());
+            }
+        }
+    }
+}

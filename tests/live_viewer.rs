@@ -1,6 +1,5 @@
 //! What is shown live, as a viewer from other hands sees it (Python: websockets, mcap-ros2-support).
 
-mod bag_support;
 mod common;
 
 use std::collections::BTreeSet;

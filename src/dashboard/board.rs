@@ -21,6 +21,8 @@ use crate::told::printable;
 
 /// Events kept for a page that is opened late.
 const MOST_EVENTS: usize = 2000;
+/// Longest event that is kept (bytes): some sentences.
+const LONGEST_EVENT: usize = 16 << 10;
 /// A twin whose status is older has gone: ten heartbeats at the default rate.
 const GONE: Duration = Duration::from_secs(2);
 /// The parameter that changes how the tool's shape is drawn.
@@ -175,7 +177,9 @@ impl Known {
             name if name == topics::ALARM_EVENTS.name => {
                 let message: AlarmEvent = read(body)?;
                 let time = stamp(&message.header.stamp);
-                self.event(time, message);
+                if body.len() <= LONGEST_EVENT {
+                    self.event(time, message);
+                }
                 time
             }
             name if name == topics::TOOL_SHAPE.name => {

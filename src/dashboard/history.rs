@@ -12,6 +12,8 @@ use crate::messages::{
 
 /// Frames kept: an hour at one a second. Of the default tool a frame has 6.4 kB, all of them 23 MB.
 pub(super) const CAPACITY: usize = 3600;
+/// Most bytes of frames, however long the tool and whatever is sent; the hour of a longer one is shorter.
+const MOST_BYTES: usize = 64 << 20;
 /// Times further back than this are another run, not messages out of order (ns).
 const ANOTHER_RUN: i64 = 2_000_000_000;
 const SECOND: i64 = 1_000_000_000;
@@ -117,6 +119,11 @@ impl Layout {
             layout.stride += layout.length(*many);
         }
         layout
+    }
+
+    /// Frames that are kept of this tool.
+    fn capacity(&self) -> usize {
+        CAPACITY.min(MOST_BYTES / (4 * self.stride.max(1))).max(1)
     }
 
     fn length(&self, many: Many) -> usize {
@@ -264,6 +271,10 @@ impl History {
 
     /// The first message of whirl completes what must be known of the tool's sizes.
     pub fn whirl(&mut self, time: i64, message: &WhirlState, session: &Session) {
+        // At most every station of both pipes is watched; more is not of this tool.
+        if message.kind.len() > 2 * session.places.len() {
+            return;
+        }
         let layout = Layout::new(session.joints, session.places.len(), message.kind.len());
         if self.layout.as_ref() != Some(&layout) {
             self.clear();
@@ -317,7 +328,7 @@ impl History {
         {
             if period > open.period {
                 let done = self.open.take()?;
-                if self.frames.len() == CAPACITY {
+                while self.frames.len() >= layout.capacity() {
                     self.frames.pop_front();
                 }
                 self.frames.push_back((done.period, done.values));
@@ -366,7 +377,7 @@ impl History {
         let mut head = json!({
             "base_ns": (base * self.period).to_string(),
             "period_s": self.period / SECOND,
-            "capacity": CAPACITY,
+            "capacity": layout.capacity(),
             "count": count,
             "stride": layout.stride,
             "complete": self.complete,
@@ -560,7 +571,25 @@ mod tests {
 
     #[test]
     fn an_hour_of_the_default_tool_has_the_memory_that_is_documented() {
-        let bytes = Layout::new(32, 166, 64).stride * 4 * CAPACITY;
+        let layout = Layout::new(32, 166, 64);
+        let bytes = layout.stride * 4 * layout.capacity();
         assert!((22_000_000..24_000_000).contains(&bytes), "{bytes}");
+        let longest = Layout::new(2000, 100_000, 200_000);
+        assert!(longest.stride * 4 * longest.capacity() <= MOST_BYTES);
+    }
+
+    #[test]
+    fn a_message_that_is_not_of_this_tool_takes_no_memory() {
+        let mut history = History::new(1);
+        let kind = vec![0; 1_000_000];
+        history.whirl(
+            0,
+            &WhirlState {
+                kind,
+                ..WhirlState::default()
+            },
+            &session(),
+        );
+        assert!(history.to_bytes().is_none());
     }
 }

@@ -18,9 +18,9 @@ use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
 use crate::told::printable;
 
-/// RustDDS warns of every datagram above 1500 bytes and of peers that go; ros2-client of every plain DDS client; foxglove tells
-/// of every client that comes and goes.
-const LIBRARIES: &str = "rustdds=error,ros2_client=error,mio=error,foxglove=warn";
+/// RustDDS warns of every datagram above 1500 bytes and of peers that go; ros2-client of every plain DDS client; foxglove calls
+/// a viewer that is closed an error.
+const LIBRARIES: &str = "rustdds=error,ros2_client=error,mio=error,foxglove=off";
 
 /// Where log lines go while the node is up.
 #[derive(Default)]
