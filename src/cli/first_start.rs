@@ -36,8 +36,11 @@ const MEANT: [(&str, &[&str]); 10] = [
     ("--help", &["usage", "commands"]),
 ];
 
-/// What was probably meant by a first word that is no command; `None` leaves it to the nearest spelling.
-pub(super) fn meant(word: &str) -> Option<String> {
+/// Most letters to change, leave out, put in or swap in a word that is misspelt.
+const SLIPS: usize = 2;
+
+/// What was probably meant by a first word that is none of the `commands`; `None` if nothing is near.
+pub(super) fn meant<'a>(word: &str, commands: impl Iterator<Item = &'a str>) -> Option<String> {
     if let Some((command, _)) = MEANT.iter().find(|(_, words)| words.contains(&word)) {
         return Some(format!("flexdrill {command}"));
     }
@@ -53,13 +56,25 @@ pub(super) fn meant(word: &str) -> Option<String> {
         _ if path.join("metadata.yaml").exists() => {
             format!("flexdrill report {word} --out DIR, or flexdrill replay {word} --out OUT")
         }
-        _ => return None,
+        _ => {
+            let near = |command: &'a str| (strsim::damerau_levenshtein(word, command), command);
+            let (slips, command) = commands.map(near).min()?;
+            // All letters of a short word changed is another word.
+            if slips > SLIPS || slips >= word.chars().count() {
+                return None;
+            }
+            format!("flexdrill {command}")
+        }
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    const COMMANDS: [&str; 4] = ["run", "rig", "replay", "report"];
+
+    fn meant(word: &str) -> Option<String> {
+        super::meant(word, COMMANDS.into_iter())
+    }
 
     #[test]
     fn a_file_or_another_programs_word_finds_its_command() {
@@ -70,6 +85,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("metadata.yaml"), "").unwrap();
         assert!(meant(&folder.path().display().to_string()).unwrap().contains("report"));
-        assert_eq!(meant("rnu"), None);
+        for (word, command) in [
+            ("rnu", "run"),
+            ("reprot", "report"),
+            ("replya", "replay"),
+            ("rgi", "rig"),
+        ] {
+            assert_eq!(meant(word).unwrap(), format!("flexdrill {command}"));
+        }
+        assert_eq!(meant("xyz"), None);
+        assert_eq!(meant("q"), None);
     }
 }

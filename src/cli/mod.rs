@@ -23,8 +23,8 @@ mod watch;
 
 use std::process::ExitCode;
 
-use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::cli::output::tell;
 use crate::dds::side;
@@ -74,7 +74,10 @@ const WRONG_USE: u8 = 2;
 /// and ends the program.
 fn wrong_use(error: &clap::Error, arguments: &[String]) -> ! {
     if error.kind() == ErrorKind::InvalidSubcommand
-        && let Some(command) = arguments.get(1).and_then(|word| first_start::meant(word))
+        && let Some(command) = arguments.get(1).and_then(|word| {
+            let cli = Cli::command();
+            first_start::meant(word, cli.get_subcommands().map(clap::Command::get_name))
+        })
     {
         let word = arguments
             .get(1)
@@ -90,19 +93,39 @@ fn wrong_use(error: &clap::Error, arguments: &[String]) -> ! {
     error.exit()
 }
 
+/// What is wrong with a command line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Misunderstood {
+    /// It only ends too early, as one that is quoted in part.
+    pub incomplete: bool,
+    /// The words that a user would read.
+    pub text: String,
+}
+
 /// Whether a command line, the program's name first, can be understood; nothing is run.
 ///
 /// # Errors
-/// What is wrong with it, in the words that a user would read.
-pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), String> {
+/// What is wrong with it.
+pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), Misunderstood> {
     let (arguments, ros_args) = args::split(arguments);
     match Cli::try_parse_from(arguments) {
-        Err(error) if error.use_stderr() => return Err(error.to_string()),
+        Err(error) if error.use_stderr() => {
+            let ends_early = [ErrorKind::MissingRequiredArgument, ErrorKind::MissingSubcommand];
+            // An option at the end, without the value that it takes.
+            let no_value = error.kind() == ErrorKind::InvalidValue
+                && matches!(error.get(ContextKind::InvalidValue), Some(ContextValue::String(value)) if value.is_empty());
+            return Err(Misunderstood {
+                incomplete: no_value || ends_early.contains(&error.kind()),
+                text: error.to_string(),
+            });
+        }
         _ => {}
     }
-    args::RosArgs::parse(&ros_args)
-        .map(drop)
-        .map_err(|error| error.to_string())
+    let ros = args::RosArgs::parse(&ros_args);
+    ros.map(drop).map_err(|error| Misunderstood {
+        incomplete: matches!(error, args::ArgsError::NoValue(_)),
+        text: error.to_string(),
+    })
 }
 
 /// Parses the command line, runs the subcommand, reports a failure on standard error.

@@ -14,6 +14,10 @@ pub fn json_schema() -> Value {
     if let Some(root) = schema.as_object_mut() {
         root.insert("title".to_owned(), "Configuration of flexdrill".into());
     }
+    // Each layer's keys have defaults of their own, which the type cannot know.
+    if let Some(layer) = schema.pointer_mut("/$defs/Layer").and_then(Value::as_object_mut) {
+        layer.remove("required");
+    }
     without_noise(&mut schema);
     schema
 }
@@ -178,6 +182,65 @@ mod tests {
         let required = schema["required"].as_array().unwrap();
         assert_eq!(required.len(), 2, "{required:?}");
         assert_eq!(schema["additionalProperties"], false);
+    }
+
+    /// What in `value` the schema would refuse by its keys: unknown ones, and those that are missing.
+    fn refused(root: &Value, schema: &Value, value: &Value, path: &str, wrong: &mut Vec<String>) {
+        let schema = match schema.get("$ref").and_then(Value::as_str) {
+            Some(reference) => root.pointer(reference.trim_start_matches('#')).unwrap(),
+            None => schema,
+        };
+        if let (Some(properties), Some(keys)) = (schema["properties"].as_object(), value.as_object()) {
+            for (key, below) in keys {
+                match properties.get(key) {
+                    Some(schema) => refused(root, schema, below, &format!("{path}.{key}"), wrong),
+                    None => wrong.push(format!("{path}.{key} is unknown")),
+                }
+            }
+            let required = schema["required"]
+                .as_array()
+                .into_iter()
+                .flatten()
+                .filter_map(Value::as_str);
+            let missing = required.filter(|key| !keys.contains_key(*key));
+            wrong.extend(missing.map(|key| format!("{path}.{key} is missing")));
+        }
+        if let (Some(items), Some(values)) = (schema.get("items"), value.as_array()) {
+            for value in values {
+                refused(root, items, value, &format!("{path}[]"), wrong);
+            }
+        }
+    }
+
+    #[test]
+    fn the_configurations_here_are_those_of_the_schema() {
+        let schema = json_schema();
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config");
+        let mut count = 0;
+        for folder in [folder.to_owned(), format!("{folder}/verify")] {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                if path.extension().is_some_and(|extension| extension == "yaml") {
+                    let text = std::fs::read_to_string(&path).unwrap();
+                    let mut wrong = Vec::new();
+                    refused(
+                        &schema,
+                        &schema,
+                        &serde_saphyr::from_str(&text).unwrap(),
+                        "",
+                        &mut wrong,
+                    );
+                    assert!(wrong.is_empty(), "{}: {}", path.display(), wrong.join(", "));
+                    count += 1;
+                }
+            }
+        }
+        assert!(count > 10, "{count}");
+        let (mut wrong, misspelt) = (Vec::new(), serde_json::json!({"well": {}, "tol": 1}));
+        refused(&schema, &schema, &misspelt, "", &mut wrong);
+        for part in [".tol is unknown", ".tool is missing", ".well.hole_diameter is missing"] {
+            assert!(wrong.iter().any(|wrong| wrong == part), "{wrong:?}");
+        }
     }
 
     fn undescribed(root: &Value, schema: &Value, path: &str) -> Vec<String> {

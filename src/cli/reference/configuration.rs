@@ -61,39 +61,46 @@ fn section(out: &mut String, root: &Value, schema: &Value, path: &str, above: &m
         } else {
             format!("{path}.{key}")
         };
-        let target = resolved(root, value);
-        let shown = match value.get("default").or_else(|| default?.get(key)) {
-            _ if required.contains(&key.as_str()) => "required".to_owned(),
-            Some(Value::Object(_) | Value::Array(_)) if properties(target).is_some() => "see below".to_owned(),
-            Some(Value::Null) | None => String::new(),
-            Some(value) => format!("`{value}`"),
-        };
-        let description = value
-            .get("description")
-            .or_else(|| target.get("description"))
-            .and_then(Value::as_str);
-        let _ = writeln!(
-            out,
-            "| {} | {} | {} | {} |",
-            if properties(target).is_some() {
-                format!("[`{key}`](#{})", anchor(&full))
-            } else {
-                format!("`{key}`")
-            },
-            kind(root, value),
-            cell(&shown),
-            cell(description.unwrap_or_default())
-        );
-    }
-    for (key, value) in keys {
-        let full = if path.is_empty() {
-            key.clone()
-        } else {
-            format!("{path}.{key}")
-        };
-        section(out, root, resolved(root, value), &full, above);
+        below(out, root, value, &full, above);
     }
     above.pop();
+}
+
+/// The sections of what stands under a key: of an object, of the items of a list, of each form that has keys of its own.
+fn below(out: &mut String, root: &Value, value: &Value, path: &str, above: &mut Vec<*const Value>) {
+    let target = resolved(root, value);
+    section(out, root, target, path, above);
+    if let Some(items) = target.get("items") {
+        below(out, root, items, &format!("{path}[]"), above);
+    }
+    let forms = target
+        .get("oneOf")
+        .or_else(|| target.get("anyOf"))
+        .and_then(Value::as_array);
+    for form in forms.into_iter().flatten() {
+        match properties(resolved(root, form)) {
+            // `{arc: {radius: ...}}`: one key that names the form.
+            Some(keys) if keys.len() == 1 => {
+                for (name, inner) in keys {
+                    below(out, root, inner, &format!("{path}.{name}"), above);
+                }
+            }
+            _ => below(out, root, form, path, above),
+        }
+    }
+}
+
+/// A default as one would write it.
+fn plain_value(value: &Value) -> String {
+    match value {
+        Value::String(text) if text.is_empty() => "\"\"".to_owned(),
+        Value::String(text) => text.clone(),
+        Value::Number(number) => number
+            .as_f64()
+            .map_or_else(|| number.to_string(), flexdrill_config::checker::number),
+        Value::Array(items) => format!("[{}]", items.iter().map(plain_value).collect::<Vec<_>>().join(", ")),
+        other => other.to_string(),
+    }
 }
 
 /// The anchor of a heading, as mdBook and GitHub make it.

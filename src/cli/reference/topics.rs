@@ -81,7 +81,7 @@ fn cadence(cadence: Cadence) -> String {
             let rates = serde_json::to_value(flexdrill_config::Rates::default()).unwrap_or_default();
             format!(
                 "{} Hz (`outputs.rates.{key}`)",
-                rates.get(key).unwrap_or(&serde_json::Value::Null)
+                rates.get(key).and_then(serde_json::Value::as_f64).unwrap_or(f64::NAN)
             )
         }
         Cadence::OnChange => "on change".to_owned(),
