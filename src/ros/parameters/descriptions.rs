@@ -46,15 +46,15 @@ const DESCRIPTIONS: &[(&str, &str)] = &[
     ),
     (
         "shock.repeats.watch",
-        "Impulses at one place, within the span, from which to keep an eye on it.",
+        "How many impulses beyond shock.levels.watch, within shock.span, reach that level.",
     ),
     (
         "shock.repeats.warning",
-        "Impulses at one place, within the span, from which to act soon.",
+        "How many impulses beyond shock.levels.warning, within shock.span, reach that level.",
     ),
     (
         "shock.repeats.critical",
-        "Impulses at one place, within the span, from which to act now.",
+        "How many impulses beyond shock.levels.critical, within shock.span, reach that level.",
     ),
     (
         "solver.max_halvings",
