@@ -165,11 +165,12 @@ pub(super) fn files(folder: &Path, metadata: &Path) -> Result<Vec<PathBuf>, BagE
             remedy: "convert it with `ros2 bag convert` to a bag without rosbag2's own compression",
         });
     }
-    // A file that is named twice holds its messages once.
-    let mut seen = BTreeSet::new();
+    // A file that is named twice, in one way or in several, holds its messages once.
+    let (mut names, mut seen) = (BTreeSet::new(), BTreeSet::new());
     Ok(information
         .relative_file_paths
         .iter()
+        .filter(|relative| names.insert(relative.as_str()))
         .map(|relative| {
             // Early versions put the folder's own name in front.
             let path = folder.join(relative);

@@ -1,6 +1,7 @@
 //! Which part of the network the node talks to: domain and reach, from options and ROS 2's environment variables.
 
 use std::net::{IpAddr, Ipv4Addr};
+use std::path::PathBuf;
 
 use ros2_client::{Context, CreateError};
 use rustdds::DomainParticipantBuilder;
@@ -27,6 +28,8 @@ pub struct Network {
     pub reach: Reach,
     /// Addresses of the interfaces to use; all if there are none.
     pub interfaces: Vec<IpAddr>,
+    /// Folder with the keys, certificates and permissions of DDS Security; without one anybody may read and write.
+    pub keys: Option<PathBuf>,
 }
 
 /// Why the network settings or the DDS participant cannot be used.
@@ -43,6 +46,15 @@ pub enum NetworkError {
     /// Not a word that ROS 2 knows.
     #[error("ROS_AUTOMATIC_DISCOVERY_RANGE is '{0}'; use SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT")]
     Range(String),
+    /// DDS Security is asked for, and it is not said with which keys.
+    #[error("ROS_SECURITY_ENABLE is true and ROS_SECURITY_KEYSTORE is not set; set it to the folder of the keystore")]
+    NoKeystore,
+    /// DDS Security is asked for, and this program cannot do it.
+    #[error(
+        "ROS_SECURITY_ENABLE is true, and this flexdrill was built without DDS Security; build it with \
+         `cargo build --release --features security`, or unset the variable to run where anybody may read and drive"
+    )]
+    NoSecurity,
     /// DDS did not start.
     #[error(
         "DDS did not start in domain {domain_id}: {source}. Is a network interface up (`ip link`), and is another participant limit reached?"
@@ -100,6 +112,7 @@ impl Network {
             domain_id,
             reach,
             interfaces: Vec::new(),
+            keys: keys(variable)?,
         };
         Ok((network, notes))
     }
@@ -124,7 +137,16 @@ impl Network {
             shown.join(", ")
         };
         match (self.reach, self.interfaces.is_empty()) {
-            (Reach::Localhost, _) => format!("domain {domain}, this machine only"),
+            (Reach::Localhost, _) => format!("domain {domain}, this machine only{}", self.security()),
+            (Reach::Subnet, is_all) if self.keys.is_some() => format!(
+                "domain {domain}, {}{}",
+                if is_all {
+                    "all interfaces".to_owned()
+                } else {
+                    interfaces()
+                },
+                self.security()
+            ),
             (Reach::Subnet, is_all) => format!(
                 "domain {domain}, {}: any machine there can read the outputs, send inputs and set parameters \
                  (network.reach: localhost keeps it on this machine)",
@@ -137,10 +159,20 @@ impl Network {
         }
     }
 
+    fn security(&self) -> String {
+        let keys = self.keys.as_ref();
+        keys.map_or_else(String::new, |keys| {
+            format!(
+                ", with DDS Security: only who has keys of {} reads or drives, as its governance says",
+                keys.display()
+            )
+        })
+    }
+
     /// Starts DDS in this process.
     ///
     /// # Errors
-    /// When no participant can be created.
+    /// When no participant can be created, or it is to be a secured one and this program cannot make such.
     pub fn start(&self) -> Result<Context, NetworkError> {
         let failed = |source| NetworkError::Participant {
             domain_id: self.domain_id,
@@ -152,9 +184,40 @@ impl Network {
         } else if !self.interfaces.is_empty() {
             builder = builder.with_only_networks(self.interfaces.iter().copied());
         }
+        if let Some(keys) = &self.keys {
+            builder = secured(builder, keys)?;
+        }
         let participant = builder.build().map_err(|error| failed(CreateError::from(error)))?;
         Context::from_domain_participant(participant).map_err(failed)
     }
+}
+
+/// The folder of an enclave of SROS2, from ROS 2's own variables.
+fn keys(variable: impl Fn(&str) -> Option<String>) -> Result<Option<PathBuf>, NetworkError> {
+    if variable("ROS_SECURITY_ENABLE").as_deref() != Some("true") {
+        return Ok(None);
+    }
+    if cfg!(not(feature = "security")) {
+        return Err(NetworkError::NoSecurity);
+    }
+    let keystore = variable("ROS_SECURITY_KEYSTORE").ok_or(NetworkError::NoKeystore)?;
+    let enclave = variable("ROS_SECURITY_ENCLAVE_OVERRIDE").unwrap_or_default();
+    let folder = PathBuf::from(keystore).join("enclaves");
+    Ok(Some(folder.join(enclave.trim_matches('/'))))
+}
+
+#[cfg(feature = "security")]
+fn secured(
+    builder: DomainParticipantBuilder,
+    keys: &std::path::Path,
+) -> Result<DomainParticipantBuilder, NetworkError> {
+    let files = rustdds::DomainParticipantSecurityConfigFiles::with_ros_default_names(keys, String::new());
+    Ok(builder.builtin_security(files))
+}
+
+#[cfg(not(feature = "security"))]
+fn secured(_: DomainParticipantBuilder, _: &std::path::Path) -> Result<DomainParticipantBuilder, NetworkError> {
+    Err(NetworkError::NoSecurity)
 }
 
 fn checked_domain(origin: &'static str, value: String) -> Result<u16, NetworkError> {
@@ -185,6 +248,7 @@ mod tests {
                 domain_id: 0,
                 reach: Reach::Subnet,
                 interfaces: Vec::new(),
+                keys: None,
             }
         );
         assert_eq!(read(None, &[("ROS_DOMAIN_ID", "7")]).unwrap().0.domain_id, 7);
@@ -214,6 +278,25 @@ mod tests {
         )
         .unwrap();
         assert_eq!((network.reach, notes.len()), (Reach::Localhost, 2));
+    }
+
+    /// Whoever asks for security gets it or is refused.
+    #[test]
+    fn keys_are_those_of_the_enclave() {
+        let (on, store) = (("ROS_SECURITY_ENABLE", "true"), ("ROS_SECURITY_KEYSTORE", "/keys"));
+        assert_eq!(read(None, &[store]).unwrap().0.keys, None, "not enabled");
+        if cfg!(not(feature = "security")) {
+            let refused = read(None, &[on, store]).unwrap_err().to_string();
+            assert!(refused.contains("--features security"), "{refused}");
+            return;
+        }
+        assert!(matches!(read(None, &[on]), Err(NetworkError::NoKeystore)));
+        let (network, _) = read(None, &[on, store]).unwrap();
+        assert_eq!(network.keys, Some("/keys/enclaves".into()));
+        assert!(network.describe().contains("/keys/enclaves"), "{}", network.describe());
+        let enclave = ("ROS_SECURITY_ENCLAVE_OVERRIDE", "/rig_7/twin");
+        let (network, _) = read(None, &[on, store, enclave]).unwrap();
+        assert_eq!(network.keys, Some("/keys/enclaves/rig_7/twin".into()));
     }
 
     #[test]

@@ -167,11 +167,14 @@ pub(super) fn inputs(status: &TwinStatus) -> Judgement {
         values.push((
             key,
             format!(
-                "{}; {} samples of others refused, {} unreadable, {} came too fast to be taken",
+                "{}; {} samples of others refused, {} unreadable{}",
                 if publishers.is_empty() { "none" } else { publishers },
                 count(&status.input_not_driving),
                 count(&status.input_unreadable),
-                count(&status.input_overrun)
+                match count(&status.input_overrun) {
+                    0 => String::new(),
+                    samples => format!(", {samples} came too fast to be taken"),
+                }
             ),
         ));
     }

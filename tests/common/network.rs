@@ -105,7 +105,14 @@ impl Network {
 
     /// The DDS program on Fast DDS; `None` where that is not.
     pub fn fast_peer(&self) -> Option<Peer> {
-        Some(Peer::start(self.command(fast::program()?)))
+        self.fast_peer_with(&[])
+    }
+
+    /// The same with variables of its environment.
+    pub fn fast_peer_with(&self, variables: &[(&str, &str)]) -> Option<Peer> {
+        let mut command = self.command(fast::program()?);
+        command.envs(variables.iter().copied());
+        Some(Peer::start(command))
     }
 }
 

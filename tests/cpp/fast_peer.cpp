@@ -2,7 +2,7 @@
 //
 // It answers as tests/python/peer.py does, to as much as the tests ask of it: subscribe, take, listen (one topic),
 // publish (Float64), matched, quit. Of a message it decodes, with Fast CDR, the header and, of TwinStatus, the fields behind
-// it. Nothing of the Rust code is used.
+// it. Nothing of the Rust code is used. FAST_KEYS names the folder of an enclave of SROS2 that it is to use.
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
@@ -19,6 +19,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <map>
@@ -103,7 +104,7 @@ Message decode(Payload& bytes, bool is_status) {
 class Peer {
 public:
     explicit Peer(int domain) {
-        participant_ = DomainParticipantFactory::get_instance()->create_participant(domain, PARTICIPANT_QOS_DEFAULT);
+        participant_ = DomainParticipantFactory::get_instance()->create_participant(domain, secured(PARTICIPANT_QOS_DEFAULT));
         if (participant_ == nullptr) throw std::runtime_error("no participant");
         publisher_ = participant_->create_publisher(PUBLISHER_QOS_DEFAULT);
         subscriber_ = participant_->create_subscriber(SUBSCRIBER_QOS_DEFAULT);
@@ -127,6 +128,25 @@ public:
     }
 
 private:
+    // With the keys of an enclave of SROS2, if there are any.
+    static DomainParticipantQos secured(DomainParticipantQos qos) {
+        const char* folder = std::getenv("FAST_KEYS");
+        if (folder == nullptr) return qos;
+        auto& properties = qos.properties().properties();
+        const std::string at = std::string("file://") + folder + "/", auth = "dds.sec.auth.builtin.PKI-DH.",
+                          access = "dds.sec.access.builtin.Access-Permissions.";
+        properties.emplace_back("dds.sec.auth.plugin", "builtin.PKI-DH");
+        properties.emplace_back(auth + "identity_ca", at + "identity_ca.cert.pem");
+        properties.emplace_back(auth + "identity_certificate", at + "cert.pem");
+        properties.emplace_back(auth + "private_key", at + "key.pem");
+        properties.emplace_back("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
+        properties.emplace_back("dds.sec.access.plugin", "builtin.Access-Permissions");
+        properties.emplace_back(access + "permissions_ca", at + "permissions_ca.cert.pem");
+        properties.emplace_back(access + "governance", at + "governance.p7s");
+        properties.emplace_back(access + "permissions", at + "permissions.p7s");
+        return qos;
+    }
+
     // The ROS 2 names on the wire: /a/b is rt/a/b, std_msgs/msg/Float64 is std_msgs::msg::dds_::Float64_.
     Topic* topic_of(const std::string& name, const std::string& type) {
         if (topics_.count(name)) return topics_[name];

@@ -208,6 +208,7 @@ fn frames() {
             domain_id: 3,
             reach: Reach::Subnet,
             interfaces: vec!["10.0.0.1".parse().unwrap(), "::1".parse().unwrap()],
+            keys: None,
         },
         namespace: "/rig_7".into(),
         node: "flexdrill".into(),

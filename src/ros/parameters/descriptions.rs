@@ -1,8 +1,8 @@
-//! What the parameters that are no single number mean, with the words that they take. Numbers are described by their
-//! unit and the reason of their limits.
+//! What the parameters mean that are words, flags, lists or counts, with the words that they take. All other numbers are
+//! described by their unit and the reason of their limits.
 
 /// A key, or the end of several keys that begins with a dot, and what it means.
-const DESCRIPTIONS: [(&str, &str); 19] = [
+const DESCRIPTIONS: &[(&str, &str)] = &[
     ("run.title", "What the configuration is for, in words."),
     (
         "tool.guide.fixed",
@@ -44,6 +44,28 @@ const DESCRIPTIONS: [(&str, &str); 19] = [
         "initial.displacement",
         "With start: as_given, displacement of every node (m): along the axis, v and w across it.",
     ),
+    (
+        "shock.repeats.watch",
+        "How many impulses beyond shock.levels.watch, within shock.span, reach that level.",
+    ),
+    (
+        "shock.repeats.warning",
+        "How many impulses beyond shock.levels.warning, within shock.span, reach that level.",
+    ),
+    (
+        "shock.repeats.critical",
+        "How many impulses beyond shock.levels.critical, within shock.span, reach that level.",
+    ),
+    (
+        "solver.max_halvings",
+        "How often a step is halved where Newton's iteration does not converge, before it fails.",
+    ),
+    (
+        "solver.max_iterations",
+        "Iterations of Newton's method in a step, before it is halved.",
+    ),
+    ("tool.links", "Number of links."),
+    ("tool.elements_per_link", "Number of beam elements of each link."),
     (
         "solver.scheme",
         "Time integration: newmark (the paper's), hht or generalised_alpha.",
