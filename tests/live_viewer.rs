@@ -90,8 +90,9 @@ fn twenty_viewers_and_a_frozen_one_slow_nobody() {
     let (least, most) = (counts.iter().min().unwrap(), counts.iter().max().unwrap());
     // 300 messages a second for 8 s and a little; they began one after another.
     assert!(*least > 1500 && most - least < 600, "{counts:?}");
-    assert_eq!(seen["gaps"], 0, "{seen}");
     let gone = |field: &str| after[field].as_u64().unwrap() - before[field].as_u64().unwrap();
+    // Where the machine made the model skip steps there is nothing to send; else every sample has come.
+    assert!(seen["gaps"] == 0 || gone("steps_skipped") > 0, "{seen}");
     assert_eq!(
         (gone("frames_dropped"), gone("events_lost"), gone("dds_restarts")),
         (0, 0, 0),

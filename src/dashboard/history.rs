@@ -385,7 +385,7 @@ impl History {
         })
         .to_string();
         // The numbers begin where a typed array of any size may.
-        while (4 + head.len()) % 8 != 0 {
+        while !(4 + head.len()).is_multiple_of(8) {
             head.push(' ');
         }
         let mut bytes = Vec::with_capacity(4 + head.len() + count * layout.stride * 4);

@@ -20,6 +20,11 @@ const NO_LENGTH: u64 = 0xffff_0000;
 /// Longest wait for a reply.
 const PATIENCE: Duration = Duration::from_secs(3);
 
+/// Longest wait for the server to be found: who is out there is looked at twice a second.
+const DISCOVERY: Duration = Duration::from_secs(1);
+/// Time between two looks whether it has been found.
+const LOOK: Duration = Duration::from_millis(50);
+
 /// Why a call has no answer.
 #[derive(Debug, thiserror::Error)]
 pub enum CallError {
@@ -84,11 +89,14 @@ impl ServiceClient {
             source,
         };
         let mut calls = self.calls.lock().await;
-        if monitor.readers(&self.requests) == 0 {
-            return Err(CallError::NoServer {
-                service: self.name.clone(),
-            });
-        }
+        let found = tokio::time::timeout(DISCOVERY, async {
+            while monitor.readers(&self.requests) == 0 {
+                tokio::time::sleep(LOOK).await;
+            }
+        });
+        found.await.map_err(|_| CallError::NoServer {
+            service: self.name.clone(),
+        })?;
         *calls += 1;
         let mut identity = [0; IDENTITY];
         identity[..8].copy_from_slice(&self.identity.to_le_bytes());

@@ -158,7 +158,8 @@ async def play(url):
         middle = (start + end) // 2
         paused = await viewer.control(1, 1.0, middle, "pause in the middle")
         await viewer.listen(1.0)
-        status = "/twin/status"
+        named = lambda name: next(topic for topic in viewer.found if topic.endswith(name))
+        status = named("/twin/status")
         at_rest = max(viewer.found[status]["stamps"][-1:] or [0])
         count = sum(topic["count"] for topic in viewer.found.values())
         await viewer.listen(1.0)
@@ -183,7 +184,7 @@ async def play(url):
             "again": again,
             "after": viewer.found[status]["stamps"][-1],
             "times": len(viewer.times),
-            "session": viewer.found.get("/twin/session", {}).get("count", 0),
+            "session": viewer.found[named("/twin/session")]["count"],
         }
 
 
