@@ -81,6 +81,8 @@ export class Store {
   layout: Layout | null = null;
   geometry: Geometry | null = null;
   hour = new Ring(1, 1);
+  /** Time between its rows (s): that of a long recording is thinned. */
+  period = 1;
   /** Per joint: y, z, stop moment. Per station: both peaks. Per station: pipe y, z, guide y, z. */
   joints = new Ring(1, 1);
   contacts = new Ring(1, 1);
@@ -222,6 +224,7 @@ export class Store {
     if (!layout) return;
     const own = this.isBag ? null : this.hour;
     this.hour = merged(history, layout, own, HOUR);
+    this.period = this.isBag ? Math.max(1, history.head.period_s || 1) : 1;
     this.hourRevision++;
   }
 
