@@ -162,6 +162,25 @@ test("a recording that is brought elsewhere shows that time, and forgets the mot
   assert.equal(store.hour.length, 0);
 });
 
+test("what was on its way when a recording was brought elsewhere is not shown", () => {
+  const store = new Store();
+  store.session = { mode: "bag" } as Session;
+  store.takePlayback({ playing: false, ended: false, time: 100_000_000_000n, speed: 1 });
+  // Bytes that are no message: those that are looked at are counted.
+  const none = new DataView(new ArrayBuffer(3));
+  for (const [time, looked] of [
+    [100, 1],
+    [98, 2],
+    [90, 2],
+    [104, 2],
+  ] as const) {
+    store.take("twin/status", "flexdrill/msg/TwinStatus", BigInt(time) * 1_000_000_000n, none);
+    assert.equal(store.unreadable, looked, `${time} s`);
+  }
+  store.take("twin/alarms", "flexdrill/msg/AlarmList", 1n, none);
+  assert.equal(store.unreadable, 3);
+});
+
 test("another tool is another layout", () => {
   const store = new Store();
   drill(store, 100, 102);
@@ -313,9 +332,10 @@ test("bytes that are no message are counted and change nothing", () => {
   store.take(
     "twin/status",
     "flexdrill/msg/TwinStatus",
+    0n,
     new DataView(new Uint8Array([0, 1, 0, 0, 1, 2, 3, 4, 5, 6]).buffer),
   );
-  store.take("twin/status", "other/msg/Type", new DataView(new ArrayBuffer(8)));
+  store.take("twin/status", "other/msg/Type", 0n, new DataView(new ArrayBuffer(8)));
   assert.equal(store.unreadable, 1);
   assert.equal(store.status, null);
 });
