@@ -320,6 +320,8 @@ try {
     const span = await page.evaluate(() => window.flexdrill.store.span);
     const wanted = span[0] + 0.8 * (span[1] - span[0]);
     await until("it is there", 15, async () => Math.abs((await now()) - wanted) < 2);
+    await page.waitForTimeout(1000);
+    assert.ok(Math.abs((await now()) - wanted) < 2, "it stays there");
     await shot("bag");
     assert.equal(await page.evaluate(() => window.flexdrill.store.unreadable), 0);
   });

@@ -157,7 +157,7 @@ const connect = () => {
       store.connected = connected;
       if (!connected) sessionTaken = historyTaken = journalTaken = false;
     },
-    onMessage: (topic, schema, _time, data) => store.take(topic, schema, data),
+    onMessage: (topic, schema, time, data) => store.take(topic, schema, time, data),
     onPlayback: (playback) => store.takePlayback(playback),
   });
 };

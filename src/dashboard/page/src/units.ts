@@ -26,7 +26,7 @@ const QUANTITIES = {
   },
   torque: {
     si: { unit: "N m", factor: 1, digits: 0 },
-    field: { unit: "ft lbf", factor: 1 / (POUND_FORCE * FOOT), digits: 1 },
+    field: { unit: "ft lbf", factor: 1 / (POUND_FORCE * FOOT), digits: 0 },
   },
   depth: { si: { unit: "m", factor: 1, digits: 2 }, field: { unit: "ft", factor: 1 / FOOT, digits: 2 } },
   gap: { si: { unit: "mm", factor: 1e3, digits: 1 }, field: { unit: "in", factor: 12 / FOOT, digits: 3 } },

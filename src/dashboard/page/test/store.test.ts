@@ -162,6 +162,25 @@ test("a recording that is brought elsewhere shows that time, and forgets the mot
   assert.equal(store.hour.length, 0);
 });
 
+test("what was on its way when a recording was brought elsewhere is not shown", () => {
+  const store = new Store();
+  store.session = { mode: "bag" } as Session;
+  store.takePlayback({ playing: false, ended: false, time: 100_000_000_000n, speed: 1 });
+  // Bytes that are no message: those that are looked at are counted.
+  const none = new DataView(new ArrayBuffer(3));
+  for (const [time, looked] of [
+    [100, 1],
+    [98, 2],
+    [90, 2],
+    [104, 2],
+  ] as const) {
+    store.take("twin/status", "flexdrill/msg/TwinStatus", BigInt(time) * 1_000_000_000n, none);
+    assert.equal(store.unreadable, looked, `${time} s`);
+  }
+  store.take("twin/alarms", "flexdrill/msg/AlarmList", 1n, none);
+  assert.equal(store.unreadable, 3);
+});
+
 test("another tool is another layout", () => {
   const store = new Store();
   drill(store, 100, 102);
@@ -190,7 +209,7 @@ test("the server's hour goes before what was heard here, column by column", () =
     values: Float32Array.from({ length: 60 }, (_, index) => (index % 4 === 0 ? index / 4 : 7)),
   };
   store.takeHistory(history);
-  // 990 to 1000 of the server, as 1001 was heard here, then 1001 to 1005.
+  // 990 to 1000 of the server, and of the page's own seconds 1001 to 1005.
   const times = Array.from({ length: store.hour.length }, (_, index) => store.hour.time(index));
   assert.deepEqual(times, [990, 991, 992, 993, 994, 995, 996, 997, 998, 999, 1000, 1001, 1002, 1003, 1004, 1005]);
   const layout = store.layout;
@@ -198,6 +217,47 @@ test("the server's hour goes before what was heard here, column by column", () =
   assert.equal(layout.scalar(store.hour.row(0), "max_pipe_guide_force"), 7);
   // A column of another length is of another tool.
   assert.ok(Number.isNaN(layout.vector(store.hour.row(0), "pipe_y")[0]));
+});
+
+test("the server's hour fills what the page was away for; what nobody heard stays a gap", () => {
+  const store = new Store();
+  drill(store, 1000, 1003.1);
+  drill(store, 1020, 1023.1);
+  const layout = store.layout;
+  assert.ok(layout);
+  const seconds = [1001, 1002.2, 1003.2, 1004.2, 1005.2, 1012.2, 1013.2, 1021.2];
+  store.takeHistory({
+    head: {
+      base_ns: "1000000000000",
+      period_s: 1,
+      count: seconds.length,
+      stride: 2,
+      columns: [
+        { name: "time", unit: "s", offset: 0, length: 1 },
+        { name: "max_pipe_guide_force", unit: "N", offset: 1, length: 1 },
+      ],
+    },
+    values: Float32Array.from(seconds.flatMap((time) => [time - 1000, 7])),
+  });
+  const rows = Array.from({ length: store.hour.length }, (_, index) => {
+    const value = layout.scalar(store.hour.row(index), "max_pipe_guide_force");
+    return [Math.round(10 * store.hour.time(index)) / 10, Number.isNaN(value) ? "gap" : value === 7 ? "server" : "own"];
+  });
+  assert.deepEqual(rows, [
+    [1001, "own"],
+    [1002, "own"],
+    [1003, "own"],
+    // What was heard of the second that broke off.
+    [1004, "own"],
+    [1005.2, "server"],
+    [1006.2, "gap"],
+    [1012.2, "server"],
+    [1013.2, "server"],
+    [1014.2, "gap"],
+    [1021, "own"],
+    [1022, "own"],
+    [1023, "own"],
+  ]);
 });
 
 test("of alarm lists the highest sequence holds, and the past has those of its time", () => {
@@ -272,9 +332,10 @@ test("bytes that are no message are counted and change nothing", () => {
   store.take(
     "twin/status",
     "flexdrill/msg/TwinStatus",
+    0n,
     new DataView(new Uint8Array([0, 1, 0, 0, 1, 2, 3, 4, 5, 6]).buffer),
   );
-  store.take("twin/status", "other/msg/Type", new DataView(new ArrayBuffer(8)));
+  store.take("twin/status", "other/msg/Type", 0n, new DataView(new ArrayBuffer(8)));
   assert.equal(store.unreadable, 1);
   assert.equal(store.status, null);
 });

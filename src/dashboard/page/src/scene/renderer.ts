@@ -36,6 +36,8 @@ export type Faces = "all" | "back" | "front";
 
 export class Renderer {
   readonly gl: WebGL2RenderingContext;
+  /** The processor draws: every point of the picture costs. */
+  readonly bySoftware = drawnBySoftware();
   private readonly program: WebGLProgram;
   private readonly uniforms: Record<"matrix" | "eye" | "colour" | "rim", WebGLUniformLocation | null>;
   private readonly buffers = new Map<
@@ -52,7 +54,7 @@ export class Renderer {
   /** Throws when the browser has no WebGL2. */
   constructor(canvas: HTMLCanvasElement) {
     const gl = canvas.getContext("webgl2", {
-      antialias: !drawnBySoftware(),
+      antialias: !this.bySoftware,
       alpha: false,
       powerPreference: "low-power",
     });

@@ -44,6 +44,13 @@ const SHAPES = 600;
 /** Most entries of the journal, and of alarm lists to drag back through. */
 const JOURNAL = 2000;
 const LISTS = 500;
+/** Topics of which the newest holds, however old. */
+const LATCHED: readonly string[] = ["twin/session", "twin/alarms"];
+/**
+ * Messages of a recording are of the player's time within this (s) and half a second of playing: it fetches those of up
+ * to two seconds before a time that it is brought to.
+ */
+const FETCHED = 2.5;
 /**
  * Time that goes back further than this (s) is another time: topics of a loaded machine come out of order by some
  * seconds, those of a recording hardly. A recording that leaps ahead is elsewhere too.
@@ -81,6 +88,8 @@ export class Store {
   layout: Layout | null = null;
   geometry: Geometry | null = null;
   hour = new Ring(1, 1);
+  /** Time between its rows (s): that of a long recording is thinned. */
+  period = 1;
   /** Per joint: y, z, stop moment. Per station: both peaks. Per station: pipe y, z, guide y, z. */
   joints = new Ring(1, 1);
   contacts = new Ring(1, 1);
@@ -100,8 +109,9 @@ export class Store {
   private firstWhirl: WhirlState | null = null;
   private firstShape: MarkerArray | null = null;
 
-  /** Takes one message. */
-  take(topic: string, schema: string, data: DataView): void {
+  /** Takes one message of that time (ns), which with a recording is that of the recording. */
+  take(topic: string, schema: string, time: bigint, data: DataView): void {
+    if (!this.isOfNow(topic, time)) return;
     const decode = DECODERS[schema as keyof typeof DECODERS];
     if (!decode) return;
     let message;
@@ -112,6 +122,16 @@ export class Store {
       return;
     }
     this.accept(topic as Topic, message);
+  }
+
+  /**
+   * Whether a message belongs to where the player is: what was on its way when the player was brought elsewhere does not.
+   * Latched topics keep the time at which they were sent.
+   */
+  private isOfNow(topic: string, time: bigint): boolean {
+    if (!this.isBag || !this.playback || LATCHED.includes(topic)) return true;
+    const away = Math.abs(Number(time - this.playback.time)) / 1e9;
+    return away <= FETCHED + this.playback.speed / 2;
   }
 
   /** Takes a message that has been decoded. */
@@ -180,8 +200,9 @@ export class Store {
     if (this.isBag) {
       if (time === null || !this.playback) return;
       const [start, end] = this.span;
-      const at = Math.min(Math.max(time, start), end);
-      this.connection?.play(this.playback.playing, this.playback.speed, BigInt(Math.round(at * 1e6)) * 1000n);
+      const at = BigInt(Math.round(Math.min(Math.max(time, start), end) * 1e6)) * 1000n;
+      this.connection?.play(this.playback.playing, this.playback.speed, at);
+      this.playback = { ...this.playback, time: at };
       return;
     }
     const [start, end] = this.span;
@@ -222,6 +243,7 @@ export class Store {
     if (!layout) return;
     const own = this.isBag ? null : this.hour;
     this.hour = merged(history, layout, own, HOUR);
+    this.period = this.isBag ? Math.max(1, history.head.period_s || 1) : 1;
     this.hourRevision++;
   }
 

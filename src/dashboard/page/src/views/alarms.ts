@@ -40,7 +40,12 @@ export class Alarms implements View {
   private readonly control = h("div", { class: "control" });
   private readonly locked = h("p", { class: "hint" });
   private readonly pace = new Pace(250);
-  private readonly open = new Set<string>();
+  /** Details that somebody has opened or closed, by alarm. */
+  private readonly open = new Map<string, boolean>();
+  /** Texts of the time that an alarm stands, with the begin of it (s). */
+  private readonly ages: { element: HTMLElement; since: number }[] = [];
+  /** A button is held down: the list stays as it is, or the click would go astray. */
+  private pressed = false;
   private key = "";
   private journalKey = "";
 
@@ -63,6 +68,9 @@ export class Alarms implements View {
         "Acknowledge all",
       ),
     );
+    for (const name of ["pointerup", "pointercancel"]) {
+      window.addEventListener(name, () => setTimeout(() => (this.pressed = false), 100));
+    }
     this.element = h(
       "section",
       { class: "alarms", "aria-label": "Alarms" },
@@ -75,6 +83,7 @@ export class Alarms implements View {
       h("div", { class: "row" }, h("h2", {}, "Journal"), h("label", { class: "hint" }, this.every, " suppression too")),
       this.journal,
     );
+    this.element.addEventListener("pointerdown", () => (this.pressed = true));
   }
 
   private async request(what: "acknowledge" | "shelve" | "unshelve", id: string): Promise<void> {
@@ -117,8 +126,9 @@ export class Alarms implements View {
         : "This server takes no requests; it does when started with --allow-control.",
     );
     const list = store.alarmsShown();
-    const key = `${list?.sequence} ${list?.header.stamp.sec} ${allowed} ${context.revision} ${[...this.open].join()}`;
-    if (key !== this.key) {
+    const seen = list?.alarms.map((one) => [one.state, one.priority, one.evidence, one.what_to_do, one.measured_depth]);
+    const key = `${list === null} ${list?.sequence} ${allowed} ${context.revision} ${JSON.stringify(seen)}`;
+    if (key !== this.key && !this.pressed) {
       this.key = key;
       this.fill(list?.alarms ?? null, allowed);
       setText(
@@ -129,6 +139,7 @@ export class Alarms implements View {
           : "",
       );
     }
+    for (const { element, since } of this.ages) setText(element, lapse(Math.max(0, Math.floor(store.shown - since))));
     const journalKey = `${store.journalRevision} ${settings.units} ${Math.floor(store.cursor ?? 0)}`;
     if (journalKey !== this.journalKey) {
       this.journalKey = journalKey;
@@ -140,6 +151,7 @@ export class Alarms implements View {
     const calls = (alarm: Alarm) => alarm.state >= 1 && alarm.state <= 4;
     const loud = (alarms ?? []).filter(calls);
     const quiet = (alarms ?? []).filter((alarm) => !calls(alarm));
+    this.ages.length = 0;
     // The button that has the keyboard keeps it.
     const focused = (document.activeElement as HTMLElement | null)?.dataset.key;
     const unknown =
@@ -165,15 +177,12 @@ export class Alarms implements View {
   }
 
   private entry(alarm: Alarm, allowed: boolean): HTMLElement {
-    const { store, settings } = this.context;
+    const { settings } = this.context;
     const place = alarmPlace(alarm, settings.units);
-    const since = alarm.since.sec > 0 ? store.shown - alarm.since.sec - alarm.since.nanosec * 1e-9 : NaN;
+    const age = h("span", { class: "since" });
+    if (alarm.since.sec > 0) this.ages.push({ element: age, since: alarm.since.sec + alarm.since.nanosec * 1e-9 });
     const unacknowledged = alarm.state === Alarm.ACTIVE_UNACKNOWLEDGED || alarm.state === Alarm.RETURNED_UNACKNOWLEDGED;
-    const details = h("details", { open: this.open.has(alarm.id) || unacknowledged });
-    details.addEventListener("toggle", () => {
-      if (details.open) this.open.add(alarm.id);
-      else this.open.delete(alarm.id);
-    });
+    const details = h("details", { open: this.open.get(alarm.id) ?? unacknowledged });
     const rows = [
       ["Do", alarm.what_to_do],
       ["Seen", alarm.evidence],
@@ -181,7 +190,11 @@ export class Alarms implements View {
       ["Else", alarm.consequence],
     ].filter(([, text]) => text !== "");
     details.append(
-      h("summary", {}, "what to do, why"),
+      h(
+        "summary",
+        { "data-key": `why ${alarm.id}`, onclick: () => this.open.set(alarm.id, !details.open) },
+        "what to do, why",
+      ),
       h("dl", {}, ...rows.flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)])),
     );
     const where = place
@@ -206,7 +219,7 @@ export class Alarms implements View {
         { class: "alarm-head" },
         h("span", { class: "badge" }, `${PRIORITY_SHAPE[alarm.priority] || "○"} ${word(PRIORITY, alarm.priority)}`),
         h("strong", {}, alarm.name),
-        h("span", { class: "since" }, Number.isFinite(since) ? lapse(Math.max(0, Math.floor(since))) : ""),
+        age,
         h("span", { class: "alarm-state" }, `${word(ALARM_STATE, alarm.state)}${shelved}`),
       ),
       where,

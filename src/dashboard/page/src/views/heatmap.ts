@@ -70,7 +70,7 @@ export class HeatMap implements View {
     const { store, palette } = this.context;
     const { layout, geometry, hour } = store;
     if (!layout || !geometry) return;
-    const columns = Math.max(1, Math.min(1200, Math.round(to - from)));
+    const columns = Math.max(1, Math.min(1200, Math.round((to - from) / store.period)));
     const stations = layout.counts.stations;
     const offset = layout.offset(this.vector);
     const rowOf = new Int32Array(ROWS);

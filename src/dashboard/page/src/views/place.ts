@@ -3,6 +3,7 @@
 import { configured } from "../configuration";
 import { h, setText, show } from "../dom";
 import { fullSpectrum } from "../spectrum";
+import type { Vector } from "../store/layout";
 import type { Ring } from "../store/ring";
 import { convert, digits, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type Place, type View } from "../view";
@@ -124,7 +125,7 @@ export class PlaceView implements View {
     const pipe = this.pipe(place);
     const guide = this.guideNow(place.station);
     const tool = store.session?.tool;
-    drawOrbit(this.orbit, context, pipe, guide, {
+    drawOrbit(this.orbit, context, pipe.times.length > 0 ? pipe : this.pipeThen(place.station), guide, {
       pipe: tool?.pipe_clearance ?? 0.0085,
       guide: tool?.guide_clearance ?? 0.008,
     });
@@ -140,6 +141,15 @@ export class PlaceView implements View {
     const { joints, stations } = layout.counts;
     if (place.joint !== null) return motion(store.joints, place.joint, joints + place.joint, store.shown);
     return motion(store.shapes, place.station, stations + place.station, store.shown);
+  }
+
+  /** The one position that the hour has of a second. */
+  private pipeThen(station: number): Motion {
+    const moment = this.context.store.moment();
+    if (!moment) return { times: [], y: [], z: [] };
+    const { layout, row, time } = moment;
+    const at = (name: Vector) => layout.vector(row, name)[station] || 0;
+    return { times: [time], y: [at("pipe_y")], z: [at("pipe_z")] };
   }
 
   private guideNow(station: number): [number, number] {
@@ -164,7 +174,8 @@ export class PlaceView implements View {
     setText(
       this.source,
       pipe.times.length === 0
-        ? "Motion is kept for a minute; this time is longer ago. A recording has it all."
+        ? "Motion is kept for a minute; this time is longer ago. The dot and the strips are of the hour, with a row a " +
+            "second; a recording has it all."
         : `Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: in ` +
             `the guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ` +
             `${number(rate, 0)} positions a second` +
@@ -172,32 +183,49 @@ export class PlaceView implements View {
     );
     const { stations, joints } = layout.counts;
     const unit = quantity("force", settings.units).unit;
-    this.strip(this.forces, store.contacts, place.station, "force");
-    this.strip(this.outer, store.contacts, stations + place.station, "force");
+    this.strip(this.forces, store.contacts, place.station, ["pipe_guide_normal_peak", place.station], "force");
+    this.strip(
+      this.outer,
+      store.contacts,
+      stations + place.station,
+      ["guide_wall_normal_peak", place.station],
+      "force",
+    );
     setText(this.innerTitle, `Pipe on guide (${unit}), largest per interval`);
     setText(this.outerTitle, `Guide on wall (${unit}), largest per interval`);
     show(this.momentTitle, place.joint !== null);
     show(this.moments.element, place.joint !== null);
     if (place.joint !== null) {
-      this.strip(this.moments, store.joints, 2 * joints + place.joint, "torque");
+      this.strip(this.moments, store.joints, 2 * joints + place.joint, ["joint_stop_moment", place.joint], "torque");
       setText(this.momentTitle, `Moment of the stop (${quantity("torque", settings.units).unit}), dashed: rated`);
     }
     this.list(place);
   }
 
-  private strip(strip: Strip, ring: Ring, column: number, kind: "force" | "torque"): void {
+  /** A column of a ring over the last seconds; where those are no longer kept, that of the hour, a value a second. */
+  private strip(
+    strip: Strip,
+    quick: Ring,
+    column: number,
+    [vector, index]: [Vector, number],
+    kind: "force" | "torque",
+  ): void {
     const { store, settings } = this.context;
     const to = store.shown;
+    const factor = convert(1, kind, settings.units);
+    const kept = quick.length > 0 && quick.before(to) >= 0 && quick.time(0) <= to - 1;
+    const [ring, at] = kept || !store.layout ? [quick, column] : [store.hour, store.layout.offset(vector) + index];
+    const from = kept ? to - SPAN : to - 10 * SPAN;
     const times: number[] = [];
     const values: (number | null)[] = [];
-    const factor = convert(1, kind, settings.units);
-    for (let index = Math.max(0, ring.before(to - SPAN)); index < ring.length; index++) {
-      const time = ring.time(index);
+    for (let row = Math.max(0, ring.before(from)); row < ring.length; row++) {
+      const time = ring.time(row);
       if (time > to) break;
+      const value = ring.value(row, at);
       times.push(time);
-      values.push(ring.value(index, column) * factor);
+      values.push(Number.isNaN(value) ? null : value * factor);
     }
-    strip.set([times, values], to - SPAN, to);
+    strip.set([times, values], from, to);
   }
 
   private list(place: Place): void {

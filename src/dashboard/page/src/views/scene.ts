@@ -9,6 +9,11 @@ import { clock, lapse, number, withUnit } from "../units";
 import { PRIORITY_SHAPE } from "../words";
 import type { Context, View } from "../view";
 
+/** Points of the picture per point of the screen: at most, and while the processor has to turn the tool. */
+const FINE = 1.5;
+const COARSE = 0.66;
+/** After this long without a hand on it the tool is drawn finely again (ms). */
+const STILL = 200;
 /** How near a click must be to a station (pixels). */
 const REACH = 30;
 
@@ -33,6 +38,7 @@ export class Scene implements View {
   private drawnKey = "";
   private framed = "";
   private moved = true;
+  private movedAt = -Infinity;
   private matrix: Float32Array<ArrayBufferLike> = new Float32Array(16);
   private readonly pointers = new Map<number, { x: number; y: number }>();
   private travelled = 0;
@@ -143,6 +149,12 @@ export class Scene implements View {
     });
   }
 
+  /** Turns the tool about the vertical (rad). */
+  turn(angle: number): void {
+    this.camera.turn(angle, 0);
+    this.moved = true;
+  }
+
   private frame(): void {
     const { geometry } = this.context.store;
     if (geometry) this.camera.frame(geometry.stationPosition, this.canvas.clientWidth / this.canvas.clientHeight);
@@ -179,7 +191,7 @@ export class Scene implements View {
     this.context.choose({ station: best, joint: joint < 0 ? null : joint });
   }
 
-  draw(): void {
+  draw(now: number): void {
     const { context, canvas, renderer } = this;
     const { store, settings, place } = context;
     const moment = store.moment();
@@ -192,10 +204,12 @@ export class Scene implements View {
     show(this.canvas, known);
     show(this.legend, known);
     if (!known || !renderer || canvas.clientWidth === 0) return;
-    const { width, height } = fit(canvas, 1.5);
+    if (this.moved) this.movedAt = now;
+    const turned = renderer.bySoftware && now - this.movedAt < STILL;
+    const { width, height, ratio } = fit(canvas, turned ? COARSE : renderer.bySoftware ? 1 : FINE);
     // The picture changes with the shape, ten times a second; what else it shows comes along.
     const past = store.cursor === null ? "" : moment.time;
-    const key = `${store.shapeRevision} ${past} ${context.revision} ${width}x${height}`;
+    const key = `${store.shapeRevision} ${past} ${context.revision} ${width}x${height} ${ratio}`;
     if (key === this.drawnKey && !this.moved) return;
     const framing = `${geometry.stationDepth.length} ${geometry.stationDepth.at(-1)} ${width}x${height}`;
     if (framing !== this.framed) {

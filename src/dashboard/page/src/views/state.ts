@@ -86,7 +86,7 @@ export function alarmPlace(alarm: Alarm, system: System): string {
 export class StateLine implements View {
   readonly element: HTMLElement;
   private readonly shape = h("span", { class: "shape", "aria-hidden": "true" });
-  private readonly word = h("strong", { id: "state-word" });
+  private readonly word = h("strong", { id: "state-word", role: "status" });
   private readonly sentence = h("span", { class: "sentence", id: "state-sentence" });
   private readonly line: HTMLElement;
   private readonly clock = h("b", { id: "clock" });
@@ -95,13 +95,7 @@ export class StateLine implements View {
   private readonly pace = new Pace(200);
 
   constructor(private readonly context: Context) {
-    this.line = h(
-      "div",
-      { class: "state", role: "status", "aria-live": "polite" },
-      this.shape,
-      this.word,
-      this.sentence,
-    );
+    this.line = h("div", { class: "state" }, this.shape, this.word, this.sentence);
     const fact = (label: string, value: HTMLElement) => h("div", { class: "fact" }, h("span", {}, label), value);
     const units = h("button", { type: "button", id: "units", onclick: () => this.switchUnits() });
     const theme = h("button", { type: "button", id: "theme", onclick: () => this.switchTheme() });

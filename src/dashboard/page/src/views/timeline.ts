@@ -210,7 +210,7 @@ export class TimeLine implements View {
     let most = 1;
     for (let index = 0; index < hour.length; index++) most = Math.max(most, hour.value(index, speed) || 0);
     pencil.fillStyle = `${palette.trace}59`;
-    const wide = Math.max(1, width / (to - from) + 0.5);
+    const wide = Math.max(1, (width * store.period) / (to - from) + 0.5);
     for (let index = 0; index < hour.length; index++) {
       const tall = ((hour.value(index, speed) || 0) / most) * (height - 22);
       pencil.fillRect(x(hour.time(index)) - wide, height - 14 - tall, wide, tall);
