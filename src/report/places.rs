@@ -25,6 +25,9 @@ impl Worst {
     pub(super) const ALL: [Self; 3] = [Self::PipeGuide, Self::GuideWall, Self::Whirl];
 }
 
+/// Time, and of each joint its place across the hole (m) and the spin of the link below (rad/s).
+type Sample = (f64, Vec<[f64; 2]>, Vec<f64>);
+
 /// Motion of a joint about its worst moment: horizontal and towards the low side, from the bore's axis (m).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Orbit {
@@ -97,7 +100,7 @@ pub(super) struct Places {
     /// Messages of another mesh than the first, which were left out.
     pub other_mesh: u64,
 
-    recent: VecDeque<(f64, Vec<[f64; 2]>, Vec<f64>)>,
+    recent: VecDeque<Sample>,
     moments: [Vec<Moment>; 3],
     /// Joint nearest to each station.
     nearest: Vec<usize>,
@@ -331,7 +334,7 @@ impl Places {
 }
 
 impl Moment {
-    fn keep(&mut self, recent: &VecDeque<(f64, Vec<[f64; 2]>, Vec<f64>)>, joint: usize) {
+    fn keep(&mut self, recent: &VecDeque<Sample>, joint: usize) {
         self.wait = None;
         let samples = || {
             recent
@@ -340,7 +343,7 @@ impl Moment {
         };
         let points: Vec<[f64; 2]> = samples().map(|(_, at, _)| at).collect();
         let spin = samples().map(|(_, _, spin)| spin).sum::<f64>() / points.len().max(1) as f64;
-        let (first, last) = (samples().next(), samples().last());
+        let (first, last) = (samples().next(), samples().next_back());
         self.orbit = Orbit {
             points,
             span: [first.map_or(0.0, |s| s.0), last.map_or(0.0, |s| s.0)],

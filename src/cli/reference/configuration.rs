@@ -153,7 +153,7 @@ fn kind(root: &Value, value: &Value) -> String {
         let words: Vec<String> = several
             .iter()
             .map(
-                |one| match one.get("const").or_else(|| Some(one.get("enum")?.as_array()?.first()?)) {
+                |one| match one.get("const").or_else(|| one.get("enum")?.as_array()?.first()) {
                     Some(Value::String(word)) => format!("`{word}`"),
                     _ => match properties(one) {
                         Some(keys) => format!("`{{{}: ...}}`", keys.keys().cloned().collect::<Vec<_>>().join(", ")),
