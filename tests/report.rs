@@ -15,7 +15,7 @@ use flexdrill::bag::{self, Recorder, Topic};
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::std_msgs::{Float64, Header};
 use flexdrill::messages::topics::{self, TopicInfo};
-use flexdrill::messages::{AlarmEvent, BitState, ContactForces, SessionInfo, TwinStatus, to_cdr};
+use flexdrill::messages::{AlarmEvent, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus, to_cdr};
 
 /// An instant of the rig's clock (ns): 2023-11-14 22:13:20 UTC.
 const START: i64 = 1_700_000_000_000_000_000;
@@ -280,6 +280,86 @@ fn of_several_twins_one_is_asked_for_and_of_none_the_next_step_is_said() {
         "{said}"
     );
     assert!(!out.exists());
+}
+
+/// A message can hold any number; the page shows those that are quantities, and never ends the program.
+#[test]
+fn numbers_that_no_tool_can_have_do_not_end_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.mcap");
+    let known = [
+        &topics::BIT_STATE,
+        &topics::JOINT_DEFLECTIONS,
+        &topics::CONTACT_FORCES,
+        &topics::STATUS,
+    ];
+    let mut bag = Bag::new(&path, &known.map(|topic| ("/", topic)));
+    let strange = [f64::NAN, f64::INFINITY, -f64::MAX, f64::MAX, 5e-324, -0.0, 1e300, 7.0];
+    for (index, value) in strange.into_iter().cycle().take(400).enumerate() {
+        // Some of the stamps are of another century, and some run backward.
+        let time = if index % 97 == 0 {
+            1e9
+        } else {
+            0.02 * (index ^ 5) as f64
+        };
+        let row = || vec![value; 3];
+        let depth = vec![0.0, 0.5, 1.0];
+        let bit = BitState {
+            header: header(time),
+            torque: value,
+            rotary_speed: value,
+            stick_slip_index: value,
+            ..BitState::default()
+        };
+        bag.put("/twin/bit_state", 0.02 * index as f64, &to_cdr(&bit).unwrap());
+        let joints = JointDeflections {
+            header: header(time),
+            measured_depth: depth.clone(),
+            inclination: row(),
+            bend_angle: row(),
+            bend_direction: row(),
+            limit_angle: row(),
+            stop_moment: row(),
+            lateral_y: row(),
+            lateral_z: row(),
+            spin_rate: row(),
+            axial_force: row(),
+            shear_force: row(),
+            torque: row(),
+            ..JointDeflections::default()
+        };
+        bag.put(
+            "/twin/joint_deflections",
+            0.02 * index as f64,
+            &to_cdr(&joints).unwrap(),
+        );
+        let contacts = ContactForces {
+            header: header(time),
+            measured_depth: depth,
+            inclination: row(),
+            state: vec![255; 3],
+            pipe_guide_normal_peak: row(),
+            pipe_guide_normal_rms: row(),
+            guide_wall_normal_peak: row(),
+            guide_wall_normal_rms: row(),
+            // Longer than the places.
+            pipe_guide_shock: vec![value; 9],
+            ..ContactForces::default()
+        };
+        bag.put("/twin/contact_forces", 0.02 * index as f64, &to_cdr(&contacts).unwrap());
+        let status = TwinStatus {
+            header: header(time),
+            real_time_factor: value,
+            step_time_p99: value,
+            energy_error_ratio: value,
+            model_quality: 255,
+            ..TwinStatus::default()
+        };
+        bag.put("/twin/status", 0.02 * index as f64, &to_cdr(&status).unwrap());
+    }
+    bag.recorder.finish().unwrap();
+    let (page, _) = report(&path, &[]);
+    assert!(page.contains("<figure id=\"torque\">") && page.contains("<td class=\"n\">7</td>"));
 }
 
 /// The example of the manual, on a bag of ours, with the packages that it names.

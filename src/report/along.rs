@@ -1,5 +1,7 @@
 //! Quantities along the tool: what they came to at each place over the whole recording.
 
+use super::is_quantity;
+
 /// One quantity at each place.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Envelope {
@@ -29,7 +31,7 @@ const NOTHING: Statistics = Statistics {
 
 impl Statistics {
     fn push(&mut self, time: f64, value: f64) {
-        if !value.is_finite() {
+        if !is_quantity(value) {
             return;
         }
         if self.count == 0 || value.abs() > self.size() {
@@ -78,7 +80,7 @@ impl Envelope {
         x.iter()
             .enumerate()
             .filter_map(|(place, x)| Some((*x, factor * of(self.at(place)?))))
-            .filter(|(x, y)| x.is_finite() && y.is_finite())
+            .filter(|(x, y)| is_quantity(*x) && is_quantity(*y))
             .collect()
     }
 

@@ -28,6 +28,14 @@ pub use reading::{Summary, read};
 /// The page's file in the folder that it is written to.
 pub const FILE: &str = "report.html";
 
+/// Beyond this size a number is no quantity of a tool, in any unit that is used here, and no axis can show it.
+const MOST: f64 = 1e12;
+
+/// Whether a number of a message can be shown: finite, and of a size that something can have.
+fn is_quantity(value: f64) -> bool {
+    value.abs() < MOST
+}
+
 /// Writes the page into `folder`, which is made if it is not there; an older page there is replaced.
 ///
 /// # Errors

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use super::along::Envelope;
+use super::is_quantity;
 use crate::messages::{ContactForces, JointDeflections, WhirlState};
 
 /// Samples of an orbit: four seconds at the usual 50 Hz.
@@ -23,6 +24,9 @@ pub(super) enum Worst {
 impl Worst {
     pub(super) const ALL: [Self; 3] = [Self::PipeGuide, Self::GuideWall, Self::Whirl];
 }
+
+/// Time, and of each joint its place across the hole (m) and the spin of the link below (rad/s).
+type Sample = (f64, Vec<[f64; 2]>, Vec<f64>);
 
 /// Motion of a joint about its worst moment: horizontal and towards the low side, from the bore's axis (m).
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -96,15 +100,15 @@ pub(super) struct Places {
     /// Messages of another mesh than the first, which were left out.
     pub other_mesh: u64,
 
-    recent: VecDeque<(f64, Vec<[f64; 2]>, Vec<f64>)>,
+    recent: VecDeque<Sample>,
     moments: [Vec<Moment>; 3],
     /// Joint nearest to each station.
     nearest: Vec<usize>,
 }
 
-/// Whether all arrays have one entry per place.
-fn complete<const N: usize>(places: usize, arrays: [&Vec<f64>; N]) -> bool {
-    arrays.iter().all(|array| array.len() == places)
+/// Whether places are where something can be, and all arrays have one entry for each.
+fn complete<const N: usize>(places: &[f64], arrays: [&Vec<f64>; N]) -> bool {
+    places.iter().all(|place| is_quantity(*place)) && arrays.iter().all(|array| array.len() == places.len())
 }
 
 /// The entry nearest to a place.
@@ -114,7 +118,7 @@ fn nearest(depths: &[f64], depth: f64) -> Option<usize> {
 
 impl Places {
     pub(super) fn joints(&mut self, time: f64, m: JointDeflections) {
-        if self.joint_depth.is_empty() {
+        if self.joint_depth.is_empty() && complete(&m.measured_depth, []) {
             self.joint_depth.clone_from(&m.measured_depth);
             self.joint_inclination.clone_from(&m.inclination);
             self.limit.clone_from(&m.limit_angle);
@@ -134,7 +138,7 @@ impl Places {
             &m.shear_force,
             &m.torque,
         ];
-        if m.measured_depth != self.joint_depth || !complete(self.joint_depth.len(), arrays) {
+        if m.measured_depth != self.joint_depth || !complete(&self.joint_depth, arrays) {
             self.other_mesh += 1;
             return;
         }
@@ -160,7 +164,7 @@ impl Places {
     }
 
     pub(super) fn contacts(&mut self, time: f64, m: ContactForces) {
-        if self.station_depth.is_empty() {
+        if self.station_depth.is_empty() && complete(&m.measured_depth, []) {
             self.station_depth.clone_from(&m.measured_depth);
             self.station_inclination.clone_from(&m.inclination);
         }
@@ -172,7 +176,8 @@ impl Places {
             &m.guide_wall_normal_rms,
         ];
         let stations = self.station_depth.len();
-        if m.measured_depth != self.station_depth || !complete(stations, arrays) || m.state.len() != stations {
+        if m.measured_depth != self.station_depth || !complete(&self.station_depth, arrays) || m.state.len() != stations
+        {
             self.other_mesh += 1;
             return;
         }
@@ -225,7 +230,10 @@ impl Places {
             self.whirl.resize(places, WhirlPlace::default());
         }
         let codes = [&m.body, &m.kind, &m.severity];
-        if self.whirl.len() != places || !complete(places, arrays) || codes.iter().any(|codes| codes.len() != places) {
+        if self.whirl.len() != places
+            || !complete(&m.measured_depth, arrays)
+            || codes.iter().any(|codes| codes.len() != places)
+        {
             self.other_mesh += 1;
             return;
         }
@@ -326,7 +334,7 @@ impl Places {
 }
 
 impl Moment {
-    fn keep(&mut self, recent: &VecDeque<(f64, Vec<[f64; 2]>, Vec<f64>)>, joint: usize) {
+    fn keep(&mut self, recent: &VecDeque<Sample>, joint: usize) {
         self.wait = None;
         let samples = || {
             recent
@@ -335,7 +343,7 @@ impl Moment {
         };
         let points: Vec<[f64; 2]> = samples().map(|(_, at, _)| at).collect();
         let spin = samples().map(|(_, _, spin)| spin).sum::<f64>() / points.len().max(1) as f64;
-        let (first, last) = (samples().next(), samples().last());
+        let (first, last) = (samples().next(), samples().next_back());
         self.orbit = Orbit {
             points,
             span: [first.map_or(0.0, |s| s.0), last.map_or(0.0, |s| s.0)],

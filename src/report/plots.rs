@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::history::{History, Stretch};
+use super::is_quantity;
 use super::places::{Orbit, Worst};
 use super::reading::Summary;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
@@ -152,6 +153,7 @@ pub(super) fn envelopes(summary: &Summary) -> Option<Figure> {
         .iter()
         .copied()
         .zip(places.limit.iter().map(|limit| rad_to_deg(*limit)))
+        .filter(|(x, y)| is_quantity(*x) && is_quantity(*y))
         .collect();
     panels.push(
         Panel::new("Bend of the joints", along, "deg")
@@ -233,7 +235,13 @@ pub(super) fn orbits(summary: &Summary) -> Option<Figure> {
     let panels: Vec<Panel> = worst_orbits(summary)
         .iter()
         .map(|of| {
-            let points: Vec<(f64, f64)> = of.orbit.points.iter().map(|[y, z]| (mm * y, mm * z)).collect();
+            let points: Vec<(f64, f64)> = of
+                .orbit
+                .points
+                .iter()
+                .map(|[y, z]| (mm * y, mm * z))
+                .filter(|(y, z)| is_quantity(*y) && is_quantity(*z))
+                .collect();
             let path = Line::new("", points);
             let path = if of.samples_per_turn() < LINE_FROM {
                 path.dots()

@@ -34,6 +34,15 @@ fn properties(schema: &Value) -> Option<&Map<String, Value>> {
     schema.get("properties").and_then(Value::as_object)
 }
 
+/// A key's dotted path.
+fn joined(path: &str, key: &str) -> String {
+    if path.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{path}.{key}")
+    }
+}
+
 /// A table of an object's keys, then a section for each that holds keys itself.
 fn section(out: &mut String, root: &Value, schema: &Value, path: &str, above: &mut Vec<*const Value>) {
     let Some(keys) = properties(schema) else { return };
@@ -56,12 +65,33 @@ fn section(out: &mut String, root: &Value, schema: &Value, path: &str, above: &m
     let default = schema.get("default");
     out.push_str("| key | type | default | meaning |\n|---|---|---|---|\n");
     for (key, value) in keys {
-        let full = if path.is_empty() {
-            key.clone()
-        } else {
-            format!("{path}.{key}")
+        let full = joined(path, key);
+        let target = resolved(root, value);
+        let shown = match value.get("default").or_else(|| default?.get(key)) {
+            _ if required.contains(&key.as_str()) => "required".to_owned(),
+            Some(Value::Object(_)) if properties(target).is_some() => "see below".to_owned(),
+            Some(Value::Null) | None => String::new(),
+            Some(value) => format!("`{}`", plain_value(value)),
         };
-        below(out, root, value, &full, above);
+        let description = value
+            .get("description")
+            .or_else(|| target.get("description"))
+            .and_then(Value::as_str);
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} |",
+            if properties(target).is_some() {
+                format!("[`{key}`](#{})", anchor(&full))
+            } else {
+                format!("`{key}`")
+            },
+            kind(root, value),
+            cell(&shown),
+            cell(description.unwrap_or_default())
+        );
+    }
+    for (key, value) in keys {
+        below(out, root, value, &joined(path, key), above);
     }
     above.pop();
 }
@@ -123,7 +153,7 @@ fn kind(root: &Value, value: &Value) -> String {
         let words: Vec<String> = several
             .iter()
             .map(
-                |one| match one.get("const").or_else(|| Some(one.get("enum")?.as_array()?.first()?)) {
+                |one| match one.get("const").or_else(|| one.get("enum")?.as_array()?.first()) {
                     Some(Value::String(word)) => format!("`{word}`"),
                     _ => match properties(one) {
                         Some(keys) => format!("`{{{}: ...}}`", keys.keys().cloned().collect::<Vec<_>>().join(", ")),

@@ -73,7 +73,11 @@ pub(super) fn place(body: u8, measured_depth: f64, inclination: f64) -> String {
         Alarm::GUIDE => "guide, ",
         _ => "",
     };
-    format!("{body}{measured_depth:.2} m, {:.0}°", rad_to_deg(inclination))
+    if inclination.is_finite() {
+        format!("{body}{measured_depth:.2} m, {:.0}°", rad_to_deg(inclination))
+    } else {
+        format!("{body}{measured_depth:.2} m")
+    }
 }
 
 #[cfg(test)]
