@@ -519,7 +519,7 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         paused: false,
         sequence: 0,
         next_status: BEGIN,
-        witness: (seed % 50 == 0).then(Witness::new),
+        witness: seed.is_multiple_of(50).then(Witness::new),
         digest: DefaultHasher::new(),
     };
     let world = Arc::new(Mutex::new(world));
@@ -568,7 +568,7 @@ fn whatever_happens_the_promises_hold() {
                         panic!("seed {seed} fails; FLEXDRILL_SEED={seed} runs it alone");
                     };
                     // A seed is one world.
-                    if seed % 100 == 0 {
+                    if seed.is_multiple_of(100) {
                         assert_eq!(run(*seed, config, fresh), digest, "seed {seed} twice");
                     }
                 }

@@ -2548,7 +2548,7 @@ pub mod type_description_interfaces {
     }
 
     /// `type_description_interfaces/msg/FieldType`.
-    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct FieldType {
         /// REP-2016's number of the type: 1 is another message, 2 to 22 are built in; 48 more for an array of fixed length, 96 for
         /// one with a bound, 144 for one without.
@@ -2561,17 +2561,6 @@ pub mod type_description_interfaces {
         pub nested_type_name: std::string::String,
     }
 
-    impl Default for FieldType {
-        fn default() -> Self {
-            Self {
-                type_id: 0,
-                capacity: Default::default(),
-                string_capacity: Default::default(),
-                nested_type_name: Default::default(),
-            }
-        }
-    }
-
     impl Message for FieldType {
         const PACKAGE: &'static str = "type_description_interfaces";
         const NAME: &'static str = "FieldType";
@@ -2579,7 +2568,7 @@ pub mod type_description_interfaces {
         const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::FieldType_";
         const RIHS01: &'static str = "RIHS01_a70b6dd919645a03a3586f7f821defbc886ea3e531a1d95cc0f380a3973ccaa6";
         const SCHEMA: &'static str = include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg");
-        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/FieldType", "fields": [{"name": "type_id", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}, "default_value": "0"}, {"name": "capacity", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_capacity", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nested_type_name", "type": {"type_id": 21, "capacity": 0, "string_capacity": 255, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/FieldType", "fields": [{"name": "type_id", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "capacity", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_capacity", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nested_type_name", "type": {"type_id": 21, "capacity": 0, "string_capacity": 255, "nested_type_name": ""}}]}"#;
     }
 
     /// A type alone.
