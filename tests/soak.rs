@@ -48,12 +48,12 @@ fn log() -> PathBuf {
     found.unwrap_or_else(|| common::root().join("config/field_logs/demo.csv"))
 }
 
-/// Resident memory (bytes) and open handles of a process.
-fn look(id: u32) -> (i64, usize) {
-    let text = std::fs::read_to_string(format!("/proc/{id}/statm")).unwrap();
+/// Resident memory (bytes) and open handles of a process; none when it has gone.
+fn look(id: u32) -> Option<(i64, usize)> {
+    let text = std::fs::read_to_string(format!("/proc/{id}/statm")).ok()?;
     let pages: i64 = text.split_whitespace().nth(1).unwrap().parse().unwrap();
-    let handles = std::fs::read_dir(format!("/proc/{id}/fd")).unwrap().count();
-    (pages * 4096, handles)
+    let handles = std::fs::read_dir(format!("/proc/{id}/fd")).ok()?.count();
+    Some((pages * 4096, handles))
 }
 
 /// Least-squares slope of values at equal distances, per value.
@@ -100,7 +100,13 @@ fn it_can_be_left_running() {
         latencies.extend(heard.iter().map(|times| times[2] - times[0]));
         // The other one looks now and then.
         second.take(JOINTS.0, 1, 0.0);
-        let (of_node, of_dds) = (look(node), look(dds));
+        let (Some(of_node), Some(of_dds)) = (look(node), look(dds)) else {
+            panic!(
+                "after {:.0} s the node or its DDS process has gone, which said:\n{}",
+                began.elapsed().as_secs_f64(),
+                twin.said()
+            );
+        };
         memory[0].push(of_node.0);
         memory[1].push(of_dds.0);
         handles.push(of_node.1 + of_dds.1);
