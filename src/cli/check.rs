@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::output::say_text;
+use crate::cli::output::{say, say_text};
 use flexdrill_config::Config;
 use flexdrill_core::tool::JointKind;
 use flexdrill_core::units::kn_to_n;
@@ -28,7 +28,7 @@ pub(super) struct CheckArgs {
 /// When the configuration is refused; the error lists every problem.
 pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
     let Some(path) = &args.config else {
-        println!("{}", serde_json::to_string_pretty(&flexdrill_config::json_schema())?);
+        say!("{}", serde_json::to_string_pretty(&flexdrill_config::json_schema())?);
         return Ok(());
     };
     let config = Config::load(path)?;

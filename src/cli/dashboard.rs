@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 use clap::Args;
 
 use super::{WrongUse, signals};
+use crate::cli::output::{say, tell};
 use crate::dashboard::{Dashboard, Source, Token};
 use crate::dds::network::Network;
 use crate::ros::args::{NodeIdentity, RosArgs};
@@ -75,8 +76,8 @@ pub(super) fn run(args: &DashboardArgs) -> anyhow::Result<()> {
         source,
     };
     let ready = |url: &str| {
-        println!("dashboard at {url}");
-        println!("live data for Foxglove at ws://{}/live; Ctrl-C ends it", host_of(url));
+        say!("dashboard at {url}");
+        say!("live data for Foxglove at ws://{}/live; Ctrl-C ends it", host_of(url));
         if args.open {
             open(url);
         }
@@ -103,6 +104,6 @@ fn open(url: &str) {
         .stderr(Stdio::null())
         .spawn();
     if let Err(error) = opened {
-        eprintln!("no browser could be opened ({program}: {error}); open the address yourself");
+        tell!("no browser could be opened ({program}: {error}); open the address yourself");
     }
 }

@@ -11,7 +11,8 @@ motion, and alarms for whirl, stick-slip and shock.
 Begin with one of these:
 
   flexdrill run                           the twin of the paper's tool, live, on this machine's ROS 2 network
-  flexdrill watch                         see it, in a second terminal
+  flexdrill dashboard                     see it in a browser: the tool in its well, limits, alarms, the last hour
+  flexdrill watch                         see it in a second terminal
   flexdrill rig LOG.csv                   send a field log's speed and weight to it, in a third
   flexdrill replay LOG.csv --out RUN      run a field log or a bag through the model without waiting, into a bag
   flexdrill report RUN --out DIR          make one page of a bag to send on
@@ -23,12 +24,13 @@ flexdrill --help lists all commands, flexdrill COMMAND --help says more of one.
 ";
 
 /// Words that people type for a command that has another name here.
-const MEANT: [(&str, &[&str]); 10] = [
+const MEANT: [(&str, &[&str]); 11] = [
     ("run", &["start", "node", "launch", "twin", "serve", "simulate"]),
     ("run --record FILE.mcap", &["record", "rec", "log"]),
     ("rig LOG", &["play", "publish", "send", "feed"]),
     ("replay IN --out OUT", &["convert", "process", "import"]),
     ("report BAG --out DIR", &["html", "export", "summary", "info"]),
+    ("dashboard", &["web", "page", "browser", "gui", "ui", "foxglove"]),
     ("watch", &["monitor", "top", "tui", "echo", "view", "show", "status"]),
     ("check CONFIG", &["validate", "lint", "config", "configuration"]),
     ("check --schema", &["schema"]),

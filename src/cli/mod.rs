@@ -26,7 +26,7 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::cli::output::tell;
+use crate::cli::output::{tell, tell_text};
 use crate::dds::side;
 use crate::ros::args;
 use crate::told::{printable, printable_lines};
@@ -83,11 +83,11 @@ fn wrong_use(error: &clap::Error, arguments: &[String]) -> ! {
             .get(1)
             .map(|word| printable(word).to_string())
             .unwrap_or_default();
-        eprintln!(
+        tell!(
             "error: '{word}' is no command of flexdrill\n\n  try: {}\n",
             printable(&command)
         );
-        eprintln!("For more information, try 'flexdrill --help'.");
+        tell!("For more information, try 'flexdrill --help'.");
         std::process::exit(i32::from(WRONG_USE));
     }
     error.exit()
@@ -139,7 +139,7 @@ pub fn main() -> ExitCode {
     }
     let (arguments, ros_args) = args::split(std::env::args());
     if arguments.len() < 2 {
-        eprint!("{}", first_start::WELCOME);
+        tell_text!("{}", first_start::WELCOME);
         return ExitCode::from(WRONG_USE);
     }
     let cli = Cli::try_parse_from(&arguments).unwrap_or_else(|error| wrong_use(&error, &arguments));

@@ -74,7 +74,7 @@ impl Progress {
                 bar.set_position((time * 1e3) as u64);
             } else if self.printed.elapsed() >= LINE_EVERY {
                 self.printed = Instant::now();
-                eprintln!("{:.0} % after {wall:.0} s", 100.0 * time);
+                tell!("{:.0} % after {wall:.0} s", 100.0 * time);
             }
             return;
         }

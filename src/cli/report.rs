@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::progress::Progress;
+use crate::cli::output::{say, tell};
 use crate::report;
 use crate::told::printable;
 
@@ -31,9 +32,9 @@ pub(super) fn run(args: &ReportArgs) -> anyhow::Result<()> {
     let summary = report::read(&args.bag, args.namespace.as_deref(), |share| progress.at(share))?;
     progress.done();
     for missing in summary.missing() {
-        eprintln!("{}", printable(missing));
+        tell!("{}", printable(missing));
     }
     let page = report::write(&summary, &args.out)?;
-    println!("wrote {}", page.display());
+    say!("wrote {}", page.display());
     Ok(())
 }

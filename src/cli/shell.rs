@@ -7,6 +7,7 @@ use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
 use super::Cli;
+use crate::cli::output::say_text;
 
 /// Print the completions of a shell.
 #[derive(Debug, Args)]
@@ -25,7 +26,10 @@ pub(super) struct ManArgs {
 }
 
 pub(super) fn completions(args: &CompletionsArgs) {
-    clap_complete::generate(args.shell, &mut Cli::command(), "flexdrill", &mut std::io::stdout());
+    // By way of memory: the generator does not tell what a full disk does.
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "flexdrill", &mut script);
+    say_text!("{}", String::from_utf8_lossy(&script));
 }
 
 /// # Errors

@@ -2,6 +2,7 @@
 
 use super::cases::CASES;
 use super::document::Table;
+use crate::cli::output::tell;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
@@ -84,7 +85,7 @@ pub(super) fn tables(config: &Config, rpm: f64, duration: f64, runs: u32) -> any
                 .into_iter()
                 .chain(cells)
                 .collect();
-            eprintln!("{}", row.join(" | "));
+            tell!("{}", row.join(" | "));
             table.cells(&row);
             fine.get_or_insert(figures);
         }

@@ -3,6 +3,7 @@
 mod configuration;
 mod topics;
 
+use crate::cli::output::say_text;
 use clap::{Args, ValueEnum};
 
 /// Print a reference page of the manual (Markdown): every topic with its fields, or every key of the configuration.
@@ -21,7 +22,7 @@ enum Page {
 }
 
 pub(super) fn run(args: &ReferenceArgs) {
-    print!(
+    say_text!(
         "{}",
         match args.page {
             Page::Topics => topics::page(),

@@ -4,6 +4,7 @@ use std::net::SocketAddr;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::cli::output::say;
 use crate::cli::signals;
 use crate::live::{self, Hub, Player, States};
 use crate::ros::args::RosArgs;
@@ -25,7 +26,7 @@ pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyh
         let states = Arc::new(States::default());
         read_states(path, Arc::clone(&states))?;
         let playing = Player::start(bag, (start, end), &hub, &protocol, &states)?;
-        println!(
+        say!(
             "playing {} ({:.1} s) at ws://{} for Foxglove and Lichtblick; Ctrl-C ends it",
             printable(&path.display().to_string()),
             (end - start) as f64 * 1e-9,
