@@ -64,6 +64,10 @@ const DESCRIPTIONS: &[(&str, &str)] = &[
         "solver.max_iterations",
         "Iterations of Newton's method in a step, before it is halved.",
     ),
+    (
+        "solver.step",
+        "auto: the step is taken in parts as the motion asks for it and the pace allows it; fixed: whole.",
+    ),
     ("tool.links", "Number of links."),
     ("tool.elements_per_link", "Number of beam elements of each link."),
     (
