@@ -201,8 +201,12 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
             Cases::Scaling => scaling::tables(&config, constant, duration)?,
             Cases::Memory | Cases::All => memory::tables(&config, constant, duration)?,
         };
+        let runs = match case {
+            Cases::Truth => format!(" --runs {}", args.runs),
+            _ => String::new(),
+        };
         let text = format!(
-            "Command: `flexdrill bench --cases {} --duration {duration}`, `{}`. {}\n\n{tables}",
+            "Command: `flexdrill bench --cases {}{runs} --duration {duration}`, `{}`. {}\n\n{tables}",
             case.name(),
             path.display(),
             machine::describe()
