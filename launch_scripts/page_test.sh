@@ -22,6 +22,8 @@ done
 command -v node >/dev/null && command -v npm >/dev/null || need_packages nodejs npm
 [ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ] ||
     fail "Node.js $(node --version) is too old, 18 or newer is needed"
+# A relative path is that of the caller.
+[ -z "${FLEXDRILL_BINARY:-}" ] || FLEXDRILL_BINARY=$(realpath "$FLEXDRILL_BINARY")
 page=$root/src/dashboard/page
 cd "$page"
 say "step 1 of 3: packages of the page, as package-lock.json has them"

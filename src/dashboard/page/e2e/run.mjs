@@ -266,7 +266,7 @@ try {
     await page.mouse.move(box.x + box.width * 0.985, box.y + 20, { steps: 5 });
     await page.mouse.up();
     await until("a past time", 5, async () => / ago$/.test(await page.textContent("#shown-time")));
-    assert.ok(await page.evaluate(() => document.body.classList.contains("past")));
+    await until("marked as past", 5, async () => page.evaluate(() => document.body.classList.contains("past")));
     const before = await page.evaluate(() => window.flexdrill.store.moment().time);
     await page.focus("#timeline");
     for (let second = 0; second < 3; second++) await page.keyboard.press("ArrowLeft");
