@@ -84,7 +84,8 @@ trap 'exit 0' INT TERM
 
 # start_node CONFIG [OPTION...]
 start_node() {
-    "$flexdrill" run --config "$@" >"$work/node.log" 2>&1 &
+    # Alarms of a twin that is left running are not those of a demonstration.
+    "$flexdrill" run --state-dir "$work/state" --config "$@" >"$work/node.log" 2>&1 &
     node_pid=$!
 }
 
