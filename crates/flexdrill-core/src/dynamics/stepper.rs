@@ -13,6 +13,7 @@ use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::station_equations::StationEquations;
 use crate::dynamics::sub_steps::{SubSteps, most_attempts};
+use crate::dynamics::track::Track;
 #[cfg(feature = "reference")]
 use crate::linear::SparseReference;
 use crate::linear::{BlockLu, LinearSolver};
@@ -80,33 +81,6 @@ pub const MOST_REFINEMENT: u32 = 2;
 /// Whole turns after which they are taken off the pipe's spins, so that the rounding of the angles stays below that of
 /// the forces however long the tool runs.
 const UNWIND_TURNS: f64 = 1000.0;
-
-/// Where the motion is, in the numbering in which steps are taken, with the room that a step needs.
-struct Track {
-    state: State,
-    trial: State,
-    before_step: State,
-    energy: EnergyPoint,
-    trial_energy: EnergyPoint,
-    energy_before_step: EnergyPoint,
-    /// Room for the displacements of a step.
-    moved: Vec<f64>,
-}
-
-impl Track {
-    fn new(model: &Model, state: State) -> Self {
-        let energy = EnergyPoint::new(model, state.q.len());
-        Self {
-            trial: state.clone(),
-            before_step: state.clone(),
-            trial_energy: energy.clone(),
-            energy_before_step: energy.clone(),
-            moved: vec![0.0; state.q.len()],
-            state,
-            energy,
-        }
-    }
-}
 
 /// Model, state and solver.
 pub struct Stepper {
@@ -421,7 +395,7 @@ impl Stepper {
         let audit_before = self.audit;
         let mut sub_steps = SubSteps::new(self.max_halvings, self.refinement);
         if self.refinement > 0 {
-            self.keep_before_step();
+            self.track.keep();
         }
         let mut iterations = 0;
         while let Some(part) = sub_steps.part() {
@@ -436,12 +410,10 @@ impl Stepper {
                     self.counters.last_rejection = Some(failure);
                     if sub_steps.is_first() {
                         // Nothing has changed yet. From here on a later part may fail after an earlier one was taken.
-                        self.keep_before_step();
+                        self.track.keep();
                     }
                     if !sub_steps.reject() {
-                        let track = &mut self.track;
-                        track.state.copy_from(&track.before_step);
-                        track.energy.copy_from(&track.energy_before_step);
+                        self.track.retreat();
                         self.audit = audit_before;
                         self.counters.failed_steps += 1;
                         self.counters.iterations += u64::from(iterations);
@@ -463,13 +435,6 @@ impl Stepper {
             iterations,
             halvings: deepest,
         }
-    }
-
-    /// Keeps the present state for a retreat from the step.
-    fn keep_before_step(&mut self) {
-        let track = &mut self.track;
-        track.before_step.copy_from(&track.state);
-        track.energy_before_step.copy_from(&track.energy);
     }
 
     /// The sub-step between two parts (0 to 1) of a step of size `h` that begins at time `start` with the drive at
@@ -525,8 +490,7 @@ impl Stepper {
             &mut track.moved,
         );
         newton.assembler.stopwatch.lap(Phase::Energy);
-        std::mem::swap(&mut track.state, &mut track.trial);
-        std::mem::swap(&mut track.energy, &mut track.trial_energy);
+        track.take();
         Ok(iterations)
     }
 }

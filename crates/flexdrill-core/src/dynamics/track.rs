@@ -1,0 +1,50 @@
+//! Where a motion is: the present state, the one that is tried, the one to go back to, each with its energies.
+
+use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::state::State;
+use crate::model::Model;
+
+/// Where the motion is, in the numbering in which steps are taken, with the room that a step needs.
+pub(crate) struct Track {
+    pub state: State,
+    pub trial: State,
+    before_step: State,
+    pub energy: EnergyPoint,
+    pub trial_energy: EnergyPoint,
+    energy_before_step: EnergyPoint,
+    /// Room for the displacements of a step.
+    pub moved: Vec<f64>,
+}
+
+impl Track {
+    pub fn new(model: &Model, state: State) -> Self {
+        let energy = EnergyPoint::new(model, state.q.len());
+        Self {
+            trial: state.clone(),
+            before_step: state.clone(),
+            trial_energy: energy.clone(),
+            energy_before_step: energy.clone(),
+            moved: vec![0.0; state.q.len()],
+            state,
+            energy,
+        }
+    }
+
+    /// Keeps the present state for a retreat from the step.
+    pub fn keep(&mut self) {
+        self.before_step.copy_from(&self.state);
+        self.energy_before_step.copy_from(&self.energy);
+    }
+
+    /// Goes back to the state kept last.
+    pub fn retreat(&mut self) {
+        self.state.copy_from(&self.before_step);
+        self.energy.copy_from(&self.energy_before_step);
+    }
+
+    /// Takes the state that was tried as the present one.
+    pub fn take(&mut self) {
+        std::mem::swap(&mut self.state, &mut self.trial);
+        std::mem::swap(&mut self.energy, &mut self.trial_energy);
+    }
+}
