@@ -122,7 +122,7 @@ fn every_shorter_or_longer_one_is_refused() {
 fn other_formats_say_so() {
     let mut own = simulation(&tiny(), &SimulationSettings::default());
     let mut bytes = own.checkpoint().unwrap();
-    for format in [0_u32, 1, 77] {
+    for format in [0_u32, 1, 4, 77] {
         bytes[8..12].copy_from_slice(&format.to_le_bytes());
         let error = error_of(&mut own, &bytes);
         assert!(
@@ -132,7 +132,7 @@ fn other_formats_say_so() {
         assert!(
             error
                 .to_string()
-                .contains(&format!("format {format}, this build reads format 4")),
+                .contains(&format!("format {format}, this build reads format 5")),
             "{error}"
         );
     }

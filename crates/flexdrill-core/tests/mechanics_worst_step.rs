@@ -51,7 +51,7 @@ fn drive(max_iterations: u32, max_halvings: u32, steps: u32) -> Seen {
     let mut seen = Seen::default();
     for _ in 0..steps {
         let counters = simulation.solver_counters();
-        let state = bits(simulation.state());
+        let state = bits(&simulation.state());
         let audit = *simulation.energy();
         let outcome = simulation.advance(&inputs);
         let after = simulation.solver_counters();
@@ -68,7 +68,7 @@ fn drive(max_iterations: u32, max_halvings: u32, steps: u32) -> Seen {
             }
             StepOutcome::Failed(failure) => {
                 assert_eq!(failure.cause, FailureCause::NotConverged);
-                assert_eq!(bits(simulation.state()), state);
+                assert_eq!(bits(&simulation.state()), state);
                 assert_eq!(simulation.energy(), &audit);
                 assert_eq!(after.failed_steps, counters.failed_steps + 1);
                 seen.failed += 1;
@@ -117,5 +117,5 @@ fn a_failed_step_goes_on_once_it_can() {
     after.restore(&copy).unwrap();
     assert!(matches!(free.advance(&inputs), StepOutcome::Advanced { .. }));
     assert!(matches!(after.advance(&inputs), StepOutcome::Advanced { .. }));
-    assert_eq!(bits(free.state()), bits(after.state()));
+    assert_eq!(bits(&free.state()), bits(&after.state()));
 }

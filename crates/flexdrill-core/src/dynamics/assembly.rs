@@ -15,19 +15,6 @@ use crate::simd::Instructions;
 
 use super::factors::TangentFactors;
 
-/// A joint at the last residual.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct JointReport {
-    /// Gradients of the rotational rows in (psi_a, phi_ya, phi_za, psi_b, phi_yb, phi_zb).
-    pub rows: [[f64; 6]; 2],
-    /// Stop's moment (N m, >= 0).
-    pub moment: f64,
-    /// Energy in the stop's spring (J).
-    pub energy: f64,
-    /// Power taken by the stop's damping (W).
-    pub dissipation: f64,
-}
-
 /// Residual, tangent and the linearised parts they are made of.
 pub struct Assembler {
     /// Internal less external force per unknown.
@@ -38,9 +25,7 @@ pub struct Assembler {
     pub inner: Vec<Option<Touch>>,
     /// Touching guide-wall gaps, per station.
     pub outer: Vec<Option<Touch>>,
-    /// Rotational rows and stops of the joints, top to bottom.
-    pub joints: Vec<JointReport>,
-    /// The same, eight at a time.
+    /// Rotational rows and stops of the joints, eight at a time from the top.
     pub(super) groups: Vec<JointGroup>,
     /// Torque of the rock on the bit at the last residual.
     pub bit: BitTorque,
@@ -72,7 +57,6 @@ impl Assembler {
             system,
             inner: vec![None; model.stations.len()],
             outer: vec![None; model.stations.len()],
-            joints: vec![JointReport::default(); model.joints.len()],
             groups: model.joints.chunks(8).map(JointGroup::of).collect(),
             bit: BitTorque::default(),
             stopwatch: Stopwatch::default(),

@@ -16,8 +16,21 @@ use crate::dynamics::state::joint_rotations;
 use crate::dynamics::state::{State, motion};
 use crate::elements::element_form::{add, load};
 use crate::model::{Model, Places};
-use crate::simd::Kernel;
+use crate::reduced::span_works;
 use crate::simd::vector::Vector;
+use crate::simd::{Instructions, Kernel};
+
+/// Forces of a span on its ends, pipe and guide: six numbers of the top end, two zeros, six of the bottom end, two zeros.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[repr(C, align(64))]
+pub struct SpanForces {
+    /// N G q with the axial force in use.
+    pub(crate) geometric: [[f64; 16]; 2],
+    /// C v.
+    pub(crate) damping: [[f64; 16]; 2],
+    /// M a.
+    pub(crate) inertia: [[f64; 16]; 2],
+}
 
 /// Forces and energies at one end of a step that the trapezoid rule needs at the other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,6 +43,11 @@ pub struct EnergyPoint {
     pub(crate) damping: Vec<f64>,
     /// Inertia force M a (N, N m).
     pub(crate) inertia: Vec<f64>,
+    /// Force of each span's pipe on its top end (N), along the axes of the link above; of tools over their joints only.
+    pub(crate) on_top: Vec<[f64; 3]>,
+    /// Geometric stiffness, damping and inertia of the spans of tools over their joints; in the vectors above are then
+    /// those of point masses only.
+    pub(crate) spans: Vec<SpanForces>,
     /// Value of each point load (N, N m).
     loads: Vec<f64>,
     /// Kinetic, elastic, geometric, contact and stop energy (J).
@@ -50,13 +68,15 @@ pub struct EnergyPoint {
 }
 
 impl EnergyPoint {
-    /// Room for `model` in a numbering of so many unknowns.
-    pub fn new(model: &Model, unknowns: usize) -> Self {
+    /// Room for `model` in a numbering of so many unknowns; over its joints it has so many `spans`, else none.
+    pub fn new(model: &Model, unknowns: usize, spans: usize) -> Self {
         Self {
             friction: vec![0.0; unknowns],
             geometric: vec![0.0; unknowns],
             damping: vec![0.0; unknowns],
             inertia: vec![0.0; unknowns],
+            on_top: vec![[0.0; 3]; spans],
+            spans: vec![SpanForces::default(); spans],
             loads: vec![0.0; model.loads.len()],
             stored: 0.0,
             kinetic: 0.0,
@@ -75,6 +95,8 @@ impl EnergyPoint {
             && self.geometric.len() == other.geometric.len()
             && self.damping.len() == other.damping.len()
             && self.inertia.len() == other.inertia.len()
+            && self.on_top.len() == other.on_top.len()
+            && self.spans.len() == other.spans.len()
             && self.loads.len() == other.loads.len()
     }
 
@@ -84,6 +106,8 @@ impl EnergyPoint {
         self.geometric.copy_from_slice(&other.geometric);
         self.damping.copy_from_slice(&other.damping);
         self.inertia.copy_from_slice(&other.inertia);
+        self.on_top.copy_from_slice(&other.on_top);
+        self.spans.copy_from_slice(&other.spans);
         self.loads.copy_from_slice(&other.loads);
         let Self {
             stored,
@@ -161,9 +185,9 @@ impl EnergyPoint {
         assembler: &Assembler,
         residual: &[f64],
     ) {
-        for joint in &assembler.joints {
-            stored += joint.energy;
-            self.contact_dissipation += joint.dissipation;
+        for stop in assembler.stops() {
+            stored += stop.energy;
+            self.contact_dissipation += stop.dissipation;
         }
         for (value, load) in self.loads.iter_mut().zip(&model.loads) {
             *value = load.load.history.at(conditions.time);
@@ -255,6 +279,7 @@ fn first<V: Vector>(lanes: V) -> f64 {
 }
 
 /// dq . (f0 + f1) / 2 for the forces of both ends of a step.
+#[inline(always)]
 fn mean_work(moved: &[f64], before: &[f64], after: &[f64]) -> f64 {
     // Eight sums, so that the compiler can use vectors.
     let mut sums = [0.0; 8];
@@ -270,20 +295,63 @@ fn mean_work(moved: &[f64], before: &[f64], after: &[f64]) -> f64 {
     0.5 * sums.iter().sum::<f64>()
 }
 
+/// Work of some kinds of forces by the trapezoid rule (J).
+struct MeanWorks<'a, const N: usize> {
+    /// Becomes the displacements of the step.
+    moved: &'a mut [f64],
+    displacements: [&'a [f64]; 2],
+    forces: [[&'a [f64]; 2]; N],
+}
+
+impl<const N: usize> Kernel for MeanWorks<'_, N> {
+    type Output = [f64; N];
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> [f64; N] {
+        let [before, after] = self.displacements;
+        for (moved, (q1, q0)) in self.moved.iter_mut().zip(after.iter().zip(before)) {
+            *moved = q1 - q0;
+        }
+        let mut out = [0.0; N];
+        for (work, [f0, f1]) in out.iter_mut().zip(self.forces) {
+            *work = mean_work(self.moved, f0, f1);
+        }
+        out
+    }
+}
+
 impl EnergyAudit {
-    /// Adds the step of size `h` from `(s0, e0)` to `(s1, e1)`. `room` holds a value per unknown and is overwritten.
+    /// Adds the step of size `h` from `(s0, e0)` to `(s1, e1)`. `moved` becomes its displacements.
     pub(crate) fn add_step(
         &mut self,
-        (model, places, weight): (&Model, &Places, &[f64]),
+        (model, places, weight, instructions): (&Model, &Places, &[f64], Instructions),
         h: f64,
         (s0, e0): (&State, &EnergyPoint),
         (s1, e1): (&State, &EnergyPoint),
-        room: &mut [f64],
+        moved: &mut [f64],
     ) {
-        for (moved, (q1, q0)) in room.iter_mut().zip(s1.q.iter().zip(&s0.q)) {
-            *moved = q1 - q0;
+        let displacements = [&s0.q[..], &s1.q[..]];
+        let [friction, gravity] = instructions.run(MeanWorks {
+            moved,
+            displacements,
+            forces: [[&e0.friction, &e1.friction], [weight, weight]],
+        });
+        let [mut damping, mut inertia, mut geometric_work] = span_works(instructions, moved, &e0.spans, &e1.spans);
+        // Elements by stations, or point masses.
+        if e0.spans.is_empty() || !model.masses.is_empty() {
+            let nodal = instructions.run(MeanWorks {
+                moved,
+                displacements,
+                forces: [
+                    [&e0.damping, &e1.damping],
+                    [&e0.inertia, &e1.inertia],
+                    [&e0.geometric, &e1.geometric],
+                ],
+            });
+            damping += nodal[0];
+            inertia += nodal[1];
+            geometric_work += nodal[2];
         }
-        let moved = &*room;
         let (error_before, foresight_before) = (self.error, self.axial_foresight);
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         if let Some(driven) = places.driven {
@@ -294,9 +362,9 @@ impl EnergyAudit {
         for (k, &load) in places.loads.iter().enumerate() {
             self.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];
         }
-        self.friction -= mean_work(moved, &e0.friction, &e1.friction);
+        self.friction -= friction;
         self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
-        self.gravity += mean_work(moved, weight, weight);
+        self.gravity += gravity;
         for (point, places) in model.masses.iter().zip(&places.masses) {
             let (before, after) = (motion(s0, places), motion(s1, places));
             let (r0, r1) = (
@@ -306,10 +374,9 @@ impl EnergyAudit {
             let down = (0..3).map(|k| point.gravity[k] * (moved[places[k]] + (r1[k] - r0[k])));
             self.gravity += point.body.mass * down.sum::<f64>();
         }
-        self.rayleigh_damping += mean_work(moved, &e0.damping, &e1.damping);
+        self.rayleigh_damping += damping;
         // The scheme's own loss: what inertia took less what became kinetic energy.
-        self.numerical_damping += mean_work(moved, &e0.inertia, &e1.inertia) - (e1.kinetic - e0.kinetic);
-        let geometric_work = mean_work(moved, &e0.geometric, &e1.geometric);
+        self.numerical_damping += inertia - (e1.kinetic - e0.kinetic);
         self.axial_update += (e1.geometric_energy - e0.geometric_energy) - geometric_work;
         self.axial_foresight += h * mean(e0.foresight, e1.foresight);
         self.stored += e1.stored - e0.stored;

@@ -1,10 +1,9 @@
 //! Joints on the whole tool: Eq. 12 as translational rows, Eq. 13 and the stops as rotational ones.
 
-use crate::dynamics::assembly::{Assembler, JointReport};
+use crate::dynamics::assembly::Assembler;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, translation};
 use crate::elements::joint::group::{JointGroup, Lane};
-use crate::linear::JointIncrement;
 use crate::model::{JointPlaces, Model};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -29,7 +28,6 @@ impl Assembler {
     ) {
         self.instructions.run(RotationalRows {
             residual,
-            reports: &mut self.joints,
             groups: &mut self.groups,
             places,
             scale: model.moment_scale,
@@ -62,21 +60,90 @@ impl Assembler {
         state: &State,
         factors: TangentFactors,
     ) {
-        for (change, report) in self.increment.joints.iter_mut().zip(&self.joints) {
-            for (to, from) in change.rows.iter_mut().zip(&report.rows) {
-                for (to, from) in to.iter_mut().zip(from) {
-                    *to = from * model.moment_scale;
+        let mut joints = std::mem::take(&mut self.increment.joints);
+        self.joint_tangents((places, model, state), factors, |joint, tangent| {
+            let to = &mut joints[joint];
+            for (l, column) in to.rotations.iter_mut().enumerate() {
+                for (k, x) in column.iter_mut().enumerate() {
+                    *x = tangent.rotation(l, k);
                 }
             }
-        }
+            for (r, row) in to.rows.iter_mut().enumerate().take(tangent.group.rows().len()) {
+                for (k, x) in row.iter_mut().enumerate() {
+                    *x = tangent.row(r, k);
+                }
+            }
+        });
+        self.increment.joints = joints;
+    }
+
+    /// Hands the tangent of every joint with its number to `take`.
+    pub(crate) fn joint_tangents(
+        &self,
+        (places, model, state): (&[JointPlaces], &Model, &State),
+        factors: TangentFactors,
+        take: impl FnMut(usize, &JointTangent<'_>),
+    ) {
         self.instructions.run(RotationalTangents {
-            increment: &mut self.increment.joints,
             groups: &self.groups,
             places,
             scale: model.moment_scale,
             state,
             factors,
+            take,
         });
+    }
+
+    /// Moment (N m, >= 0), energy (J) and power of the damping (W) of the stop of each joint at the last residual.
+    pub fn stops(&self) -> impl Iterator<Item = StopReport> + '_ {
+        let joints = self.increment.joints.len();
+        let groups = self.groups.iter().map(JointGroup::stop);
+        let stops = groups.flat_map(|stop| (0..8).map(move |lane| (stop, lane)));
+        stops.take(joints).map(|(stop, lane)| StopReport {
+            moment: stop.moment[lane],
+            energy: stop.energy[lane],
+            dissipation: stop.dissipation[lane],
+        })
+    }
+
+    /// Gradient of rotational row `row` of a joint at the last residual, in (psi_a, phi_ya, phi_za, psi_b, phi_yb,
+    /// phi_zb).
+    pub fn row_gradient(&self, joint: usize, row: usize) -> [f64; 6] {
+        let gradient = &self.groups[joint / 8].rows()[row].gradient;
+        std::array::from_fn(|k| gradient[k][joint % 8])
+    }
+}
+
+/// The stop of a joint at the last residual.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StopReport {
+    /// Its moment (N m, >= 0).
+    pub moment: f64,
+    /// Energy in its spring (J).
+    pub energy: f64,
+    /// Power taken by its damping (W).
+    pub dissipation: f64,
+}
+
+/// What a joint adds to the tangent.
+pub(crate) struct JointTangent<'a> {
+    rotations: &'a [[Lane; 6]; 6],
+    group: &'a JointGroup,
+    scale: f64,
+    lane: usize,
+}
+
+impl JointTangent<'_> {
+    /// Derivative of moment `k` in rotation `l`: the stop, and the curvature of the rotational rows.
+    #[inline(always)]
+    pub fn rotation(&self, l: usize, k: usize) -> f64 {
+        self.rotations[l][k][self.lane]
+    }
+
+    /// Gradient of rotational row `r` in rotation `k`, as it stands in the equations.
+    #[inline(always)]
+    pub fn row(&self, r: usize, k: usize) -> f64 {
+        self.group.rows()[r].gradient[k][self.lane] * self.scale
     }
 }
 
@@ -84,7 +151,7 @@ impl Assembler {
 /// joint have none.
 #[inline(always)]
 fn multipliers(places: &[JointPlaces], scale: f64, state: &State, rows: usize) -> [Lane; 2] {
-    let mut lambda = [[0.0; 8]; 2];
+    let mut lambda = [Lane::default(); 2];
     for (lane, joint) in places.iter().take(8).enumerate() {
         for (row, lambda) in lambda.iter_mut().enumerate().take(rows) {
             lambda[lane] = scale * state.q[joint.row + row];
@@ -96,7 +163,6 @@ fn multipliers(places: &[JointPlaces], scale: f64, state: &State, rows: usize) -
 /// Rotational rows and stops, eight joints at a time.
 struct RotationalRows<'a> {
     residual: &'a mut [f64],
-    reports: &'a mut [JointReport],
     groups: &'a mut [JointGroup],
     places: &'a [JointPlaces],
     scale: f64,
@@ -110,7 +176,6 @@ impl Kernel for RotationalRows<'_> {
     fn run<V: Vector>(self) {
         let Self {
             residual,
-            reports,
             groups,
             places,
             scale,
@@ -120,74 +185,72 @@ impl Kernel for RotationalRows<'_> {
             let first = 8 * g;
             let places = &places[first..];
             let count = places.len().min(8);
-            let (mut q, mut rate) = ([[0.0; 8]; 6], [[0.0; 8]; 6]);
+            let (mut q, mut rate) = ([Lane::default(); 6], [Lane::default(); 6]);
             for lane in 0..8 {
                 let joint = &places[lane.min(count - 1)];
-                for k in 0..3 {
-                    q[k][lane] = state.q[joint.above + k];
-                    q[3 + k][lane] = state.q[joint.below + k];
-                    rate[k][lane] = state.v[joint.above + k];
-                    rate[3 + k][lane] = state.v[joint.below + k];
+                for (from, to) in [(&state.q, &mut q), (&state.v, &mut rate)] {
+                    let above: &[f64] = &from[joint.above..joint.above + 3];
+                    let below: &[f64] = &from[joint.below..joint.below + 3];
+                    for k in 0..3 {
+                        (to[k][lane], to[3 + k][lane]) = (above[k], below[k]);
+                    }
                 }
             }
             let lambda = multipliers(places, scale, state, group.rows().len());
             let moments = group.evaluate::<V>(&q, &rate, &lambda);
-            let stop = group.stop();
-            for lane in 0..count {
-                let joint = &places[lane];
-                for k in 0..3 {
-                    residual[joint.above + k] += moments[k][lane];
-                    residual[joint.below + k] += moments[3 + k][lane];
+            for (lane, joint) in places.iter().enumerate().take(8) {
+                let (above, below) = (joint.above..joint.above + 3, joint.below..joint.below + 3);
+                for (k, r) in residual[above].iter_mut().enumerate() {
+                    *r += moments[k][lane];
                 }
-                let report = &mut reports[first + lane];
+                for (k, r) in residual[below].iter_mut().enumerate() {
+                    *r += moments[3 + k][lane];
+                }
                 for (r, row) in group.rows().iter().enumerate() {
                     residual[joint.row + r] = scale * row.value[lane];
-                    for (to, from) in report.rows[r].iter_mut().zip(&row.gradient) {
-                        *to = from[lane];
-                    }
                 }
-                report.moment = stop.moment[lane];
-                report.energy = stop.energy[lane];
-                report.dissipation = stop.dissipation[lane];
             }
         }
     }
 }
 
 /// Derivatives of the moments of rotational rows and stops, eight joints at a time.
-struct RotationalTangents<'a> {
-    increment: &'a mut [JointIncrement],
+struct RotationalTangents<'a, F> {
     groups: &'a [JointGroup],
     places: &'a [JointPlaces],
     scale: f64,
     state: &'a State,
     factors: TangentFactors,
+    take: F,
 }
 
-impl Kernel for RotationalTangents<'_> {
+impl<F: FnMut(usize, &JointTangent<'_>)> Kernel for RotationalTangents<'_, F> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self {
-            increment,
             groups,
             places,
             scale,
             state,
             factors,
+            mut take,
         } = self;
-        let mut tangent = [[[0.0; 8]; 6]; 6];
+        let mut rotations = [[Lane::default(); 6]; 6];
         for (g, group) in groups.iter().enumerate() {
             let first = 8 * g;
+            let count = (places.len() - first).min(8);
             let lambda = multipliers(&places[first..], scale, state, group.rows().len());
-            group.tangent::<V>(&lambda, factors.stiffness, factors.damping, &mut tangent);
-            for (lane, change) in increment[first..].iter_mut().enumerate().take(8) {
-                for (to, from) in change.rotations.iter_mut().zip(&tangent) {
-                    for (to, from) in to.iter_mut().zip(from) {
-                        *to = from[lane];
-                    }
-                }
+            group.tangent::<V>(&lambda, factors.stiffness, factors.damping, &mut rotations);
+            for lane in 0..count {
+                let tangent = JointTangent {
+                    rotations: &rotations,
+                    group,
+                    scale,
+                    lane,
+                };
+                take(first + lane, &tangent);
             }
         }
     }

@@ -18,12 +18,14 @@ pub(crate) mod stepper;
 pub(crate) mod sub_steps;
 pub(crate) mod tangent;
 pub(crate) mod track;
+pub(crate) mod view;
 
 pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
 pub use scheme::Scheme;
 pub use state::State;
 pub use statics::StartError;
 pub use stepper::{MOST_REFINEMENT, SolverKind};
+pub use view::StateView;
 
 #[cfg(test)]
 mod tests;

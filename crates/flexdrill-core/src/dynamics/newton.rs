@@ -8,6 +8,8 @@ use crate::dynamics::state::State;
 use crate::elements::bit::BitTorque;
 use crate::linear::Singular;
 use crate::model::Model;
+use crate::simd::vector::Vector;
+use crate::simd::{Instructions, Kernel};
 use crate::tool::description::Body;
 
 /// When an iterate is accepted.
@@ -113,6 +115,8 @@ pub(crate) trait Equations {
     fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)>;
     /// Station and pipe of an unknown.
     fn locate(&self, model: &Model, unknown: usize) -> (usize, Body);
+    /// Vector instructions to use.
+    fn instructions(&self) -> Instructions;
 }
 
 /// Solves the step that ends under `conditions`, Eq. 40 to 44. `to` holds the new state on success, the equations its
@@ -121,6 +125,52 @@ pub(crate) trait Equations {
 /// # Errors
 /// Why and where no iterate was accepted; the iterations made are in the first field.
 pub(crate) fn step(
+    equations: &mut impl Equations,
+    model: &Model,
+    stride: (Stride, u32),
+    conditions: &Conditions,
+    from: &State,
+    to: &mut State,
+) -> Result<u32, (u32, StepFailure)> {
+    equations.instructions().run(Step {
+        equations,
+        model,
+        stride,
+        conditions,
+        from,
+        to,
+    })
+}
+
+/// A step, whose loops over all unknowns are compiled for the vector instructions.
+struct Step<'a, E> {
+    equations: &'a mut E,
+    model: &'a Model,
+    stride: (Stride, u32),
+    conditions: &'a Conditions,
+    from: &'a State,
+    to: &'a mut State,
+}
+
+impl<E: Equations> Kernel for Step<'_, E> {
+    type Output = Result<u32, (u32, StepFailure)>;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> Self::Output {
+        let Self {
+            equations,
+            model,
+            stride,
+            conditions,
+            from,
+            to,
+        } = self;
+        take(equations, model, stride, conditions, from, to)
+    }
+}
+
+#[inline(always)]
+fn take(
     equations: &mut impl Equations,
     model: &Model,
     (stride, most_iterations): (Stride, u32),
@@ -195,6 +245,7 @@ pub(crate) fn step(
 }
 
 /// Moves `to` by the last correction, velocities and accelerations with it.
+#[inline(always)]
 pub(crate) fn correct(
     equations: &mut impl Equations,
     to: &mut State,
@@ -215,6 +266,7 @@ pub(crate) fn correct(
 }
 
 /// The largest residual relative to its limit, or NaN.
+#[inline(always)]
 pub(crate) fn worst(residuals: &[f64], weights: &[f64]) -> f64 {
     // Eight running maxima, so that the compiler can use vectors; the place is only looked for when it is asked for.
     const LANES: usize = 8;

@@ -132,6 +132,7 @@ impl Scheme {
 
     /// Predicts `to` a step `h` on, unknown by unknown, with the lagged acceleration fading to zero (Eq. 44 begins at
     /// `from`), by the formulas of Eq. 38.
+    #[inline(always)]
     pub(crate) fn predict(&self, h: f64, from: &State, to: &mut State) {
         let n = from.q.len();
         let (q0, v0, a0, kept) = (&from.q[..n], &from.v[..n], &from.a[..n], &from.lagged[..n]);
@@ -148,6 +149,7 @@ impl Scheme {
     }
 
     /// Sets the lagged accelerations of a converged step `h`.
+    #[inline(always)]
     pub(crate) fn finish(&self, h: f64, from: &State, to: &mut State) {
         to.scheme_step = h;
         if !self.lags() {

@@ -262,6 +262,10 @@ impl Equations for StationEquations {
         out_of_range(model, state)
     }
 
+    fn instructions(&self) -> Instructions {
+        self.assembler.instructions()
+    }
+
     fn locate(&self, model: &Model, unknown: usize) -> (usize, Body) {
         locate(model, unknown)
     }

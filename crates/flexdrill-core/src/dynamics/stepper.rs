@@ -1,5 +1,6 @@
 //! The tool in motion: steps that are halved and retried until they converge, or reported as failed.
 
+use std::cell::{Ref, RefCell};
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
@@ -10,10 +11,11 @@ use crate::dynamics::newton::{self, Accuracy, Stride, Tolerances};
 use crate::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::scheme::Scheme;
-use crate::dynamics::state::State;
+use crate::dynamics::state::{State, translation};
 use crate::dynamics::station_equations::StationEquations;
 use crate::dynamics::sub_steps::{SubSteps, most_attempts};
 use crate::dynamics::track::Track;
+use crate::dynamics::view::{BottomMotion, Shown, StateView};
 #[cfg(feature = "reference")]
 use crate::linear::SparseReference;
 use crate::linear::{BlockLu, LinearSolver};
@@ -93,7 +95,7 @@ pub struct Stepper {
     live: LiveParameters,
     track: Track,
     /// The tool over its joints, if it has that form, and the state as the model numbers it.
-    reduced: Option<(Reduced, State)>,
+    reduced: Option<(Reduced, RefCell<Shown>)>,
     /// Whether steps are taken over the joints.
     over_joints: bool,
     audit: EnergyAudit,
@@ -137,9 +139,9 @@ impl Stepper {
             max_halvings,
             refinement: 0,
             live: LiveParameters::of(description),
-            reduced: reduced.map(|reduced| (reduced, state.clone())),
+            reduced: reduced.map(|reduced| (reduced, RefCell::new(Shown::of(&state)))),
             over_joints: false,
-            track: Track::new(&model, state),
+            track: Track::new(&model, state, 0),
             audit: EnergyAudit::default(),
             counters: Counters::default(),
             turns: 0.0,
@@ -156,10 +158,39 @@ impl Stepper {
     }
 
     /// State at the end of the last step.
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> StateView<'_> {
+        let Some((reduced, shown)) = self.reduced.as_ref().filter(|_| self.over_joints) else {
+            return StateView::Stations(&self.track.state);
+        };
+        let (now, on_top) = (&self.track.state, &self.track.energy.on_top);
+        let outdated = shown.borrow().outdated();
+        if outdated {
+            let mut shown = shown.borrow_mut();
+            shown.bring_up(|full| reduced.show(&self.model, (now, on_top), full));
+        }
+        StateView::Joints(Ref::map(shown.borrow(), Shown::state))
+    }
+
+    /// How the bottom of the pipe moves at the end of the last step.
+    pub(crate) fn bottom_motion(&self) -> BottomMotion {
+        let (state, last) = (&self.track.state, self.model.last());
+        let bottom = &self.model.stations[last];
+        let (spin, axial) = (bottom.pipe_above + Direction::Psi as usize, bottom.pipe_above);
         match &self.reduced {
-            Some((_, shown)) if self.over_joints => shown,
-            _ => &self.track.state,
+            Some((reduced, _)) if self.over_joints => {
+                let mut above = reduced.pipe_translation(&state.a, last - 1);
+                if let Some(joint) = self.model.stations[last - 1].joint {
+                    let at = &self.model.joints[joint];
+                    above = at.lower.tr_mul(&(at.upper * above));
+                }
+                let at_bottom = reduced.pipe_translation(&state.a, last);
+                let spin = reduced.places.bit_spin;
+                BottomMotion::new([state.v[spin], state.a[spin]], at_bottom.x, above)
+            }
+            _ => {
+                let above = translation(&state.a, self.model.stations[last - 1].pipe_below);
+                BottomMotion::new([state.v[spin], state.a[spin]], state.a[axial], above)
+            }
         }
     }
 
@@ -224,7 +255,7 @@ impl Stepper {
         if self.over_joints {
             self.over_joints = false;
             self.condensed_for = 0.0;
-            self.track = Track::new(&self.model, State::at_rest(&self.model));
+            self.track = Track::new(&self.model, State::at_rest(&self.model), 0);
         }
     }
 
@@ -248,7 +279,7 @@ impl Stepper {
         let conditions = self.conditions(state.time, weight_on_bit);
         if let (true, Some((reduced, shown))) = (self.over_joints, &mut self.reduced) {
             let track = &mut self.track;
-            shown.copy_from(state);
+            shown.get_mut().copy_from(state);
             reduced.numbering.gather(state, &mut track.state);
             let mut equations = reduced::equations(reduced, &mut self.newton.assembler);
             let (to, scratch) = (&mut track.state, &mut track.trial);
@@ -293,7 +324,7 @@ impl Stepper {
         if let (true, Some((reduced, shown))) = (self.over_joints, reduced) {
             reduced::equations(reduced, assembler).evaluate(model, &mut track.state, conditions, keep_axial);
             reduced.energy(&mut track.energy, model, &track.state, conditions, assembler);
-            reduced.show(model, &track.state, shown);
+            shown.get_mut().outdate();
         } else {
             assembler.residual(model, &track.state, conditions);
             track.energy.evaluate(model, &track.state, conditions, assembler);
@@ -380,7 +411,7 @@ impl Stepper {
             }
         }
         if let (true, false, Some((reduced, _))) = (over_joints, self.over_joints, &self.reduced) {
-            let track = Track::new(&self.model, reduced.state());
+            let track = Track::new(&self.model, reduced.state(), reduced.spans());
             let before = std::mem::replace(&mut self.track, track).state;
             self.over_joints = true;
             self.start_from(&before, self.weight_on_bit);
@@ -424,8 +455,8 @@ impl Stepper {
         }
         let deepest = sub_steps.deepest();
         self.unwind();
-        if let (true, Some((reduced, shown))) = (self.over_joints, &mut self.reduced) {
-            reduced.show(&self.model, &self.track.state, shown);
+        if let Some((_, shown)) = &mut self.reduced {
+            shown.get_mut().outdate();
         }
         self.weight_on_bit = forcing.weight_on_bit[1];
         self.counters.iterations += u64::from(iterations);
@@ -483,7 +514,7 @@ impl Stepper {
             (&model.places, &model.weight)
         };
         self.audit.add_step(
-            (model, places, weight),
+            (model, places, weight, newton.assembler.instructions()),
             step,
             (&track.state, &track.energy),
             (&track.trial, &track.trial_energy),

@@ -17,8 +17,9 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    pub fn new(model: &Model, state: State) -> Self {
-        let energy = EnergyPoint::new(model, state.q.len());
+    /// At `state`, over so many `spans` where steps are taken over the joints, else none.
+    pub fn new(model: &Model, state: State, spans: usize) -> Self {
+        let energy = EnergyPoint::new(model, state.q.len(), spans);
         Self {
             trial: state.clone(),
             before_step: state.clone(),

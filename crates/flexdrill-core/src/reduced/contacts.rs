@@ -3,14 +3,15 @@
 
 use nalgebra::Vector2;
 
-use super::residual::{load, plus_column, store};
-use super::{Reduced, ends};
+use super::residual::{load, plus_column, product, store};
+use super::{Reduced, at_ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
 use crate::elements::gap::GapVector;
 use crate::model::Model;
 use crate::simd::Kernel;
+use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
 
 impl Reduced {
@@ -37,29 +38,20 @@ impl Reduced {
         });
     }
 
-    /// Span and number in it of a station.
-    #[inline(always)]
-    pub(super) fn span_of(&self, station: usize) -> (usize, usize) {
-        match station.checked_sub(1) {
-            Some(before) => (before / self.per, before % self.per + 1),
-            None => (0, 0),
-        }
-    }
-
     /// Local motions of pipe and guide at station `i` of span `l`, by end unknowns `x`.
     #[inline(always)]
     fn local<V: Vector>(&self, x: &[f64], l: usize, i: usize, body: usize) -> V {
         let columns = &self.kinds[self.links[l].kind].motion[i][body];
-        let [top, bottom] = ends(l, body);
+        let [top, bottom] = at_ends(x.as_chunks().0, l, body);
         let (mut above, mut below) = (V::splat(0.0), V::splat(0.0));
         if i < self.per {
             for j in 0..6 {
-                above = above.plus_product(V::load(&columns[j]), V::splat(x[top + j]));
+                above = above.plus_product(V::load(&columns[j]), V::splat(top[j]));
             }
         }
         if i > 0 {
             for j in 0..6 {
-                below = below.plus_product(V::load(&columns[6 + j]), V::splat(x[bottom + j]));
+                below = below.plus_product(V::load(&columns[6 + j]), V::splat(bottom[j]));
             }
         }
         above.plus(below)
@@ -101,12 +93,12 @@ impl Search<'_> {
         let station = l * by.per + i;
         let at = &model.stations[station];
         let [inner_radius, outer_radius] = model.guide_radii;
-        let mut lanes = [0.0; 8];
+        let mut lanes = Aligned([0.0; 8]);
         by.local::<V>(&state.v, l, i, 1).store(&mut lanes);
         let guide = GapVector::from_column_slice(&lanes[..6]);
         if !by.any[l] {
             by.any[l] = true;
-            by.touched[l] = [[0.0; 16]; 2];
+            by.touched[l] = Aligned([[0.0; 16]; 2]);
         }
         let kind = &by.kinds[by.links[l].kind];
         let mut on_guide = [0.0; 6];
@@ -165,20 +157,12 @@ impl Kernel for Search<'_> {
         if closed[0] | closed[1] {
             self.touch::<V>((0, 0), [inner, guide], closed);
         }
+        let (nodes, _) = self.state.q.as_chunks();
         for l in 0..self.by.links.len() {
             let link = &self.by.links[l];
             let kind = &self.by.kinds[link.kind];
-            let mut at = [[V::splat(0.0); 2]; 2];
-            for (body, at) in at.iter_mut().enumerate() {
-                let [top, bottom] = ends(l, body);
-                let (mut above, mut below) = (*at, *at);
-                for j in 0..6 {
-                    above = plus_column(above, &kind.lateral[body][j], V::splat(self.state.q[top + j]));
-                    below = plus_column(below, &kind.lateral[body][6 + j], V::splat(self.state.q[bottom + j]));
-                }
-                *at = [above[0].plus(below[0]), above[1].plus(below[1])];
-            }
-            let [pipe, guide] = at;
+            let pipe = product::<V>(&kind.lateral[0], &at_ends(nodes, l, 0));
+            let guide = product::<V>(&kind.lateral[1], &at_ends(nodes, l, 1));
             let y = V::load(&link.offset[0]).plus(pipe[0].minus(guide[0]));
             let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
             let square = |y: V, z: V| y.times(y).plus_product(z, z);
@@ -188,7 +172,7 @@ impl Kernel for Search<'_> {
             if any == 0 {
                 continue;
             }
-            let mut lanes = [[0.0; 8]; 4];
+            let mut lanes = Aligned([[0.0; 8]; 4]);
             for (to, from) in lanes.iter_mut().zip([y, z, guide[0], guide[1]]) {
                 from.store(to);
             }

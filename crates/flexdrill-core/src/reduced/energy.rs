@@ -1,16 +1,16 @@
 //! The energy audit's point over the joints: elements and friction; the rest is shared with the whole tool.
 
 use super::contacts::at_radius;
-use super::residual::{load, store};
-use super::tangent::on_ends;
-use super::{EndColumn, Reduced, ends};
+use super::residual::{load, plus_column, product, store};
+use super::slaving::TENSION;
+use super::{EndColumn, Reduced, at_ends, ends, span_of};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::{EnergyPoint, SpanForces};
 use crate::dynamics::state::State;
 use crate::model::Model;
-use crate::simd::Kernel;
 use crate::simd::vector::Vector;
+use crate::simd::{Instructions, Kernel};
 
 impl Reduced {
     /// Evaluates `point` at `state`, at which the residual was evaluated last.
@@ -29,7 +29,11 @@ impl Reduced {
             state,
             conditions,
         });
-        point.add_masses(&self.places, model, state, conditions);
+        if !model.masses.is_empty() {
+            point.damping.fill(0.0);
+            point.inertia.fill(0.0);
+            point.add_masses(&self.places, model, state, conditions);
+        }
         stored += point.kinetic;
         point.friction.fill(0.0);
         point.contact_dissipation = 0.0;
@@ -46,10 +50,32 @@ impl Reduced {
 /// Adds forces on a span's ends.
 #[inline(always)]
 fn add(values: &mut [f64], [top, bottom]: [usize; 2], force: &EndColumn) {
-    for i in 0..6 {
-        values[top + i] += force[i];
-        values[bottom + i] += force[8 + i];
+    for (first, half) in [(top, 0), (bottom, 8)] {
+        for (to, x) in values[first..first + 6].iter_mut().zip(&force[half..half + 6]) {
+            *to += x;
+        }
     }
+}
+
+/// One in the lanes of a top end's forces.
+static FORCES: [f64; 8] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0];
+
+/// Eight values from each end on.
+#[inline(always)]
+fn around<V: Vector>(values: &[f64], ends: [usize; 2]) -> [V; 2] {
+    let mut out = [V::splat(0.0); 2];
+    for (out, first) in out.iter_mut().zip(ends) {
+        *out = match values[first..].first_chunk() {
+            Some(eight) => V::load(eight),
+            None => {
+                // The guide's end at the bottom is the last but one of all.
+                let mut last = [0.0; 8];
+                last[..6].copy_from_slice(&values[first..first + 6]);
+                V::load(&last)
+            }
+        };
+    }
+    out
 }
 
 /// Forces of the spans and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
@@ -71,73 +97,104 @@ impl Kernel for SpanEnergies<'_> {
             state,
             conditions,
         } = self;
-        point.geometric.fill(0.0);
-        point.damping.fill(0.0);
-        point.inertia.fill(0.0);
         let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
         let zero = [V::splat(0.0); 2];
         let (mut elastic, mut geometric, mut kinetic, mut foreseen) = (zero, zero, zero, zero);
+        let ((rates, _), (rates2, _)) = (state.v.as_chunks(), state.a.as_chunks());
         for (l, link) in by.links.iter().enumerate() {
             let kind = &by.kinds[link.kind];
             for body in 0..2 {
-                let at = ends(l, body);
-                let (mut bent, mut stiff, mut moving) = (zero, zero, zero);
-                let (mut inert, mut stretched) = (zero, zero);
-                let (mut q, mut v) = ([0.0; 16], [0.0; 16]);
-                for j in 0..12 {
-                    let (unknown, row) = if j < 6 { (at[0] + j, j) } else { (at[1] + j - 6, j + 2) };
-                    (q[row], v[row]) = (state.q[unknown], state.v[unknown]);
-                    let (by_q, by_v, by_a) = (V::splat(q[row]), V::splat(v[row]), V::splat(state.a[unknown]));
-                    let (k, m): ([V; 2], [V; 2]) = (load(&kind.stiffness[body][j]), load(&kind.mass[body][j]));
-                    let g: [V; 2] = load(&kind.geometric[body][j]);
-                    for half in 0..2 {
-                        bent[half] = bent[half].plus_product(k[half], by_q);
-                        stiff[half] = stiff[half].plus_product(k[half], by_v);
-                        moving[half] = moving[half].plus_product(m[half], by_v);
-                        inert[half] = inert[half].plus_product(m[half], by_a);
-                        stretched[half] = stretched[half].plus_product(g[half], by_q);
-                    }
-                }
+                let at_v = at_ends(rates, l, body);
+                let stiff = product::<V>(&kind.stiffness[body], &at_v);
+                let moving = product::<V>(&kind.mass[body], &at_v);
+                let inert = product::<V>(&kind.mass[body], &at_ends(rates2, l, body));
+                let mut stretched: [V; 2] = load(&by.stretched[l][body]);
+                stretched[0] = stretched[0].times(V::load(&FORCES));
                 let in_use = if body == 0 {
                     state.pipe_axial[l]
                 } else {
                     state.guide_axial[l]
                 };
-                let beyond = V::splat(in_use - by.tension(&state.q, l, body));
-                let in_use = V::splat(in_use);
-                let (q, v): ([V; 2], [V; 2]) = (load(&q), load(&v));
+                let beyond = V::splat(in_use - by.stretched[l][body][TENSION]);
+                let tension_in_use = V::splat(in_use);
+                // Two lanes of each hold other unknowns; forces are zero there.
+                let (q, v) = (
+                    around::<V>(&state.q, ends(l, body)),
+                    around::<V>(&state.v, ends(l, body)),
+                );
+                // The residual's linear forces are elastic ones, damping and inertia together.
+                let linear: [V; 2] = load(&by.linear[l][body]);
                 let mut damped = zero;
                 for half in 0..2 {
                     foreseen[half] = foreseen[half].minus_product(v[half], stretched[half].times(beyond));
-                    stretched[half] = stretched[half].times(in_use);
+                    stretched[half] = stretched[half].times(tension_in_use);
                     damped[half] = moving[half].times(alpha).plus_product(stiff[half], beta);
-                    elastic[half] = elastic[half].plus_product(q[half], bent[half]);
+                    let bent = linear[half].minus(damped[half].plus(inert[half]));
+                    elastic[half] = elastic[half].plus_product(q[half], bent);
                     geometric[half] = geometric[half].plus_product(q[half], stretched[half]);
                     kinetic[half] = kinetic[half].plus_product(v[half], moving[half]);
                 }
-                let mut column = [0.0; 16];
                 if body == 0 {
-                    let force = bent[0].plus(damped[0]).plus(inert[0]).plus(stretched[0]);
-                    store([force, bent[1]], &mut column);
-                    for (i, top) in by.on_top[l].iter_mut().enumerate() {
+                    let (linear, stretched) = (&by.linear[l][0], &by.stretched[l][0]);
+                    for (i, top) in point.on_top[l].iter_mut().enumerate() {
                         let touched = if by.any[l] { by.touched[l][0][i] } else { 0.0 };
-                        *top = column[i] + touched - link.weight_on_top[i];
+                        *top = linear[i] + in_use * stretched[i] + touched - link.weight_on_top[i];
                     }
                 }
-                for (values, force) in [
-                    (&mut point.geometric, stretched),
-                    (&mut point.damping, damped),
-                    (&mut point.inertia, inert),
-                ] {
-                    store(force, &mut column);
-                    add(values, at, &column);
-                }
+                let forces = &mut point.spans[l];
+                store(stretched, &mut forces.geometric[body]);
+                store(damped, &mut forces.damping[body]);
+                store(inert, &mut forces.inertia[body]);
             }
         }
         point.kinetic = 0.5 * sum(kinetic);
         point.geometric_energy = 0.5 * sum(geometric);
         point.foresight = sum(foreseen);
         0.5 * sum(elastic) + point.geometric_energy
+    }
+}
+
+/// Work (J) of the spans' damping, inertia and geometric stiffness by the trapezoid rule over a step of displacements
+/// `moved`.
+pub(crate) fn span_works(
+    instructions: Instructions,
+    moved: &[f64],
+    before: &[SpanForces],
+    after: &[SpanForces],
+) -> [f64; 3] {
+    instructions.run(SpanWorks { moved, before, after })
+}
+
+struct SpanWorks<'a> {
+    moved: &'a [f64],
+    before: &'a [SpanForces],
+    after: &'a [SpanForces],
+}
+
+impl Kernel for SpanWorks<'_> {
+    type Output = [f64; 3];
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> [f64; 3] {
+        let zero = [V::splat(0.0); 2];
+        let mut works = [zero; 3];
+        for (l, (before, after)) in self.before.iter().zip(self.after).enumerate() {
+            for body in 0..2 {
+                let moved = around::<V>(self.moved, ends(l, body));
+                let kinds = [
+                    (&before.damping[body], &after.damping[body]),
+                    (&before.inertia[body], &after.inertia[body]),
+                    (&before.geometric[body], &after.geometric[body]),
+                ];
+                for (work, (before, after)) in works.iter_mut().zip(kinds) {
+                    let (f0, f1): ([V; 2], [V; 2]) = (load(before), load(after));
+                    for half in 0..2 {
+                        work[half] = work[half].plus_product(moved[half], f0[half].plus(f1[half]));
+                    }
+                }
+            }
+        }
+        [0.5 * sum(works[0]), 0.5 * sum(works[1]), 0.5 * sum(works[2])]
     }
 }
 
@@ -162,7 +219,7 @@ impl Kernel for Friction<'_> {
         } = self;
         let mut stored = 0.0;
         for &station in &by.hits {
-            let (l, i) = by.span_of(station);
+            let (l, i) = span_of(station, by.per);
             let rows = &by.kinds[by.links[l].kind].force[i];
             let mut on_guide = [0.0; 6];
             if let Some(touch) = &assembler.inner[station] {
@@ -186,6 +243,19 @@ impl Kernel for Friction<'_> {
         }
         stored
     }
+}
+
+/// What a local force `x` puts on both ends of a span.
+#[inline(always)]
+fn on_ends<V: Vector>(rows: &[EndColumn; 6], x: &[f64; 6]) -> EndColumn {
+    let (mut even, mut odd) = ([V::splat(0.0); 2], [V::splat(0.0); 2]);
+    for k in 0..3 {
+        even = plus_column(even, &rows[2 * k], V::splat(x[2 * k]));
+        odd = plus_column(odd, &rows[2 * k + 1], V::splat(x[2 * k + 1]));
+    }
+    let mut out = [0.0; 16];
+    store([even[0].plus(odd[0]), even[1].plus(odd[1])], &mut out);
+    out
 }
 
 /// Sum of the lanes.

@@ -21,6 +21,7 @@ mod contacts;
 mod energy;
 mod numbering;
 mod operator;
+mod precision;
 mod residual;
 mod single;
 mod slaving;
@@ -36,13 +37,16 @@ use crate::dynamics::newton::Tolerances;
 use crate::elements::joint::Joint;
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
+use crate::simd::aligned::Aligned;
 
 use operator::Operator;
+use residual::NodeForces;
 use single::SingleSweep;
 use slaving::{Link, LinkMatrices};
 use solve::Sweep;
 use tangent::Additions;
 
+pub(crate) use energy::span_works;
 pub(crate) use numbering::Numbering;
 pub(crate) use solve::ReducedEquations;
 
@@ -96,19 +100,22 @@ pub(crate) struct Reduced {
     operators: Vec<Operator>,
     /// Residual with its reactions.
     residual: Vec<f64>,
-    /// Forces of the spans on their ends: linear ones, those of geometric stiffness, those of contacts.
-    linear: Vec<EndForces>,
-    geometric: Vec<EndForces>,
-    touched: Vec<EndForces>,
-    /// Force of each span's pipe on its top end (N), along the axes of the link above, at the last energy.
-    on_top: Vec<[f64; 3]>,
+    /// Forces of the spans on their ends: linear ones, those of geometric stiffness per axial force with
+    /// the axial force of the displacements beside them, those of contacts.
+    linear: Vec<Aligned<EndForces>>,
+    stretched: Vec<Aligned<EndForces>>,
+    touched: Vec<Aligned<EndForces>>,
+    /// What spans put on the node above them, and on that below, by nodes.
+    on_above: Vec<NodeForces>,
+    on_below: Vec<NodeForces>,
     /// Whether `touched` holds anything, per span.
     any: Vec<bool>,
     /// Stations with contact, top to bottom.
     hits: Vec<usize>,
     foreseen: Vec<[f64; 2]>,
     foreseen_part: f64,
-    additions: Additions,
+    additions: Additions<f64>,
+    single_additions: Additions<f32>,
     sweep: Sweep,
     single_sweep: SingleSweep,
     /// Corrections made in this step.
@@ -176,15 +183,17 @@ impl Reduced {
                 .collect(),
             operators: Vec::new(),
             residual: vec![0.0; unknowns],
-            linear: vec![[[0.0; 16]; 2]; spans],
-            geometric: vec![[[0.0; 16]; 2]; spans],
-            touched: vec![[[0.0; 16]; 2]; spans],
-            on_top: vec![[0.0; 3]; spans],
+            linear: vec![Aligned([[0.0; 16]; 2]); spans],
+            stretched: vec![Aligned([[0.0; 16]; 2]); spans],
+            touched: vec![Aligned([[0.0; 16]; 2]); spans],
+            on_above: vec![Aligned([0.0; 24]); nodes],
+            on_below: vec![Aligned([0.0; 24]); nodes],
             any: vec![false; spans],
             hits: Vec::with_capacity(model.stations.len()),
             foreseen: vec![[0.0; 2]; spans],
             foreseen_part: 0.0,
             additions: Additions::new(nodes),
+            single_additions: Additions::new(nodes),
             sweep: Sweep::new(nodes),
             single_sweep: SingleSweep::new(nodes),
             iterations: 0,
@@ -230,6 +239,35 @@ fn ends(span: usize, body: usize) -> [usize; 2] {
         [top + U, bottom]
     } else {
         [top + GUIDE, bottom + GUIDE]
+    }
+}
+
+/// What a span's ends are to a body: the unknowns of its top end and of its bottom end.
+type Ends = [[f64; 6]; 2];
+
+/// The unknowns of the ends of the span below node `l`, of the pipe (0) or the guide (1).
+#[inline(always)]
+fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
+    let (above, below) = (&nodes[l], &nodes[l + 1]);
+    if body == 0 {
+        [
+            [above[3], above[4], above[5], above[6], above[7], above[8]],
+            [below[0], below[1], below[2], below[3], below[4], below[5]],
+        ]
+    } else {
+        [
+            [above[9], above[10], above[11], above[12], above[13], above[14]],
+            [below[9], below[10], below[11], below[12], below[13], below[14]],
+        ]
+    }
+}
+
+/// Span and number in it of a station, of spans of so many stations.
+#[inline(always)]
+fn span_of(station: usize, per: usize) -> (usize, usize) {
+    match station.checked_sub(1) {
+        Some(before) => (before / per, before % per + 1),
+        None => (0, 0),
     }
 }
 

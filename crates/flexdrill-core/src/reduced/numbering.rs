@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{GUIDE, MULTIPLIER, NODE, Reduced, U, ends};
+use super::{GUIDE, MULTIPLIER, NODE, Reduced, U, ends, span_of};
 use crate::dynamics::state::State;
 use crate::model::{Model, Places};
 use crate::simd::Kernel;
@@ -115,15 +115,40 @@ impl Reduced {
         )
     }
 
-    /// Shows the reduced state, whose energy was evaluated last, in the model's numbering: inner stations as they are
-    /// slaved, and the force of each joint as its translational multipliers. Lagged accelerations stay as they are.
-    pub(crate) fn show(&self, model: &Model, reduced: &State, full: &mut State) {
+    /// Shows the reduced state in the model's numbering: inner stations as they are slaved, and the force of each joint,
+    /// from those `on_top` of the spans, as its translational multipliers. Lagged accelerations stay as they are.
+    pub(crate) fn show(&self, model: &Model, (reduced, on_top): (&State, &[[f64; 3]]), full: &mut State) {
         self.instructions.run(Show {
             by: self,
             model,
             reduced,
+            on_top,
             full,
         });
+    }
+}
+
+impl Reduced {
+    /// What `values` in the reduced numbering mean for the translation of the pipe at `station`, in the pipe's own axes;
+    /// at a joint of the end above.
+    pub(crate) fn pipe_translation(&self, values: &[f64], station: usize) -> Vector3<f64> {
+        let (l, i) = span_of(station, self.per);
+        let node = |k: usize| Vector3::new(values[NODE * k + U], values[NODE * k + U + 1], values[NODE * k + U + 2]);
+        if station == 0 {
+            return node(0);
+        }
+        if i == self.per {
+            return node(l + 1);
+        }
+        let columns = &self.kinds[self.links[l].kind].inner[i - 1][0];
+        let [top, bottom] = ends(l, 0);
+        let mut out = Vector3::zeros();
+        for j in 0..6 {
+            for k in 0..3 {
+                out[k] += columns[j][k] * values[top + j] + columns[6 + j][k] * values[bottom + j];
+            }
+        }
+        out
     }
 }
 
@@ -131,6 +156,7 @@ struct Show<'a> {
     by: &'a Reduced,
     model: &'a Model,
     reduced: &'a State,
+    on_top: &'a [[f64; 3]],
     full: &'a mut State,
 }
 
@@ -143,6 +169,7 @@ impl Kernel for Show<'_> {
             by,
             model,
             reduced,
+            on_top,
             full,
         } = self;
         (full.scheme_step, full.time, full.drive_angle) = (reduced.scheme_step, reduced.time, reduced.drive_angle);
@@ -199,7 +226,7 @@ impl Kernel for Show<'_> {
             let (span, first) = (joint + 1, model.multipliers(joint));
             let place = NODE * span + U;
             // What the span below asks for at its top, in the frame of the link above.
-            let force = Vector3::from(by.on_top[span]);
+            let force = Vector3::from(on_top[span]);
             let force = at.upper * force / model.force_scale;
             (0..3).for_each(|i| full.q[first + i] = force[i]);
             full.q[first + 3] = reduced.q[place - U + MULTIPLIER];

@@ -6,6 +6,7 @@ use super::{BOTTOM, EndColumn, MULTIPLIER, NODE, Reduced, TOP, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::model::Model;
+use crate::simd::aligned::Aligned;
 
 /// A node's block by columns.
 pub(super) type Block = [[f64; NODE]; NODE];
@@ -24,7 +25,7 @@ pub(super) struct Operator {
     factors: TangentFactors,
     damping: [f64; 2],
     /// k K + d C + m M of each kind of span, pipe and guide, by columns over its ends.
-    pub spans: Vec<[[EndColumn; 12]; 2]>,
+    pub spans: Vec<Aligned<[[EndColumn; 12]; 2]>>,
     /// Blocks that differ, and which each node has.
     pub blocks: Vec<Block>,
     pub block_of: Vec<usize>,
@@ -39,16 +40,16 @@ impl Operator {
         let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
         let elastic = factors.stiffness + factors.damping * beta;
         let inertial = factors.mass + factors.damping * alpha;
-        let spans: Vec<[[EndColumn; 12]; 2]> = reduced
+        let spans: Vec<Aligned<[[EndColumn; 12]; 2]>> = reduced
             .kinds
             .iter()
             .map(|kind| {
-                std::array::from_fn(|body| {
+                Aligned(std::array::from_fn(|body| {
                     std::array::from_fn(|j| {
                         let (k, m) = (&kind.stiffness[body][j], &kind.mass[body][j]);
                         std::array::from_fn(|i| elastic * k[i] + inertial * m[i])
                     })
-                })
+                }))
             })
             .collect();
         let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; reduced.nodes];

@@ -3,7 +3,8 @@
 //! A step's first residual is evaluated whole. After that only the correction's share is added: what is linear changes by
 //! the step-constant tangent times the correction; geometric stiffness, contacts, stops and joint rows are evaluated anew.
 
-use super::{EndColumn, EndForces, GUIDE, NODE, Reduced, ends};
+use super::slaving::TENSION;
+use super::{EndColumn, Ends, GUIDE, NODE, Reduced, U, at_ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::phases::Phase;
@@ -11,6 +12,7 @@ use crate::dynamics::residual::mass_forces;
 use crate::dynamics::state::State;
 use crate::model::Model;
 use crate::simd::Kernel;
+use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
 
 /// Two vectors of eight: a span's top and bottom end, or a node.
@@ -34,42 +36,22 @@ pub(super) fn plus_column<V: Vector>(sum: [V; 2], column: &[f64; 16], x: V) -> [
     [sum[0].plus_product(column[0], x), sum[1].plus_product(column[1], x)]
 }
 
-impl Reduced {
-    /// Axial forces of all spans by `q` + `h` `v`.
-    #[inline(always)]
-    fn axial(&self, q: &[f64], v: &[f64], h: f64, out: &mut [[f64; 2]]) {
-        for (l, (out, link)) in out.iter_mut().zip(&self.links).enumerate() {
-            for (body, (out, tension)) in out.iter_mut().zip(&self.kinds[link.kind].tension).enumerate() {
-                let [top, bottom] = ends(l, body);
-                let (mut above, mut below) = (0.0, 0.0);
-                for j in 0..6 {
-                    above += tension[j] * (q[top + j] + h * v[top + j]);
-                    below += tension[6 + j] * (q[bottom + j] + h * v[bottom + j]);
-                }
-                *out = above + below;
-            }
-        }
+/// Axial force of a span's body by its ends.
+#[inline(always)]
+fn tension(by: &[f64; 12], [top, bottom]: &Ends) -> f64 {
+    let (mut above, mut below) = (0.0, 0.0);
+    for j in 0..6 {
+        above += by[j] * top[j];
+        below += by[6 + j] * bottom[j];
     }
+    above + below
+}
 
+impl Reduced {
     /// Sets the axial forces that are foreseen from `from` for `h` (s) on, of which `part` counts.
     pub(super) fn foresee(&mut self, from: &State, h: f64, part: f64) {
-        let mut foreseen = std::mem::take(&mut self.foreseen);
-        self.axial(&from.q, &from.v, h, &mut foreseen);
-        self.foreseen = foreseen;
         self.foreseen_part = part;
-    }
-
-    /// Axial forces of the displacements of a state, [pipe, guide] of a span.
-    #[inline(always)]
-    pub(super) fn tension(&self, q: &[f64], l: usize, body: usize) -> f64 {
-        let tension = &self.kinds[self.links[l].kind].tension[body];
-        let [top, bottom] = ends(l, body);
-        let (mut above, mut below) = (0.0, 0.0);
-        for j in 0..6 {
-            above += tension[j] * q[top + j];
-            below += tension[6 + j] * q[bottom + j];
-        }
-        above + below
+        self.instructions.run(Foresee { by: self, from, h });
     }
 
     /// Evaluates the residual at `to`; `operator` is that of the last correction, if there was one since the last whole
@@ -93,7 +75,7 @@ impl Reduced {
         });
         assembler.stopwatch.lap(Phase::Assembly);
         self.contact_forces(assembler, model, to, conditions);
-        self.gather();
+        instructions.run(Gather { by: self, state: to });
         assembler.stopwatch.lap(Phase::Contact);
         let mut residual = std::mem::take(&mut self.residual);
         mass_forces(&mut residual, &self.places, model, to, conditions);
@@ -101,34 +83,96 @@ impl Reduced {
         assembler.end_forces(&mut residual, &self.places, model, to, conditions);
         self.residual = residual;
     }
+}
 
-    /// The residual of gravity and spans.
-    fn gather(&mut self) {
-        let (nodes, _) = self.residual.as_chunks_mut::<NODE>();
-        let (weights, _) = self.weight.as_chunks::<NODE>();
-        for (node, weight) in nodes.iter_mut().zip(weights) {
-            for (r, w) in node.iter_mut().zip(weight) {
-                *r = -w;
-            }
-        }
-        for l in 0..self.links.len() {
-            let sum = |body: usize| -> EndColumn {
-                let (linear, geometric) = (&self.linear[l][body], &self.geometric[l][body]);
-                let mut sum: EndColumn = std::array::from_fn(|i| linear[i] + geometric[i]);
-                if self.any[l] {
-                    let touched = &self.touched[l][body];
-                    (0..16).for_each(|i| sum[i] += touched[i]);
+struct Foresee<'a> {
+    by: &'a mut Reduced,
+    from: &'a State,
+    h: f64,
+}
+
+impl Kernel for Foresee<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { by, from, h } = self;
+        let ((q, _), (v, _)) = (from.q.as_chunks(), from.v.as_chunks());
+        for (l, (out, link)) in by.foreseen.iter_mut().zip(&by.links).enumerate() {
+            for (body, out) in out.iter_mut().enumerate() {
+                let (mut at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
+                for (at, rate) in at.iter_mut().flatten().zip(rate.iter().flatten()) {
+                    *at += h * rate;
                 }
-                sum
-            };
-            let (pipe, guide) = (sum(0), sum(1));
-            for i in 0..6 {
-                nodes[l][super::U + i] += pipe[i];
-                nodes[l][GUIDE + i] += guide[i];
-                nodes[l + 1][i] += pipe[8 + i];
-                nodes[l + 1][GUIDE + i] += guide[8 + i];
+                *out = tension(&by.kinds[link.kind].tension[body], &at);
             }
         }
+    }
+}
+
+/// The residual of gravity, spans and contacts.
+struct Gather<'a> {
+    by: &'a mut Reduced,
+    state: &'a State,
+}
+
+impl Kernel for Gather<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { by, state } = self;
+        let (above, below) = (&mut by.on_above, &mut by.on_below);
+        for l in 0..by.links.len() {
+            for (body, (top, bottom)) in [(U, 0), (GUIDE, GUIDE)].into_iter().enumerate() {
+                let axial = if body == 0 {
+                    state.pipe_axial[l]
+                } else {
+                    state.guide_axial[l]
+                };
+                let mut sum = plus_column(load(&by.linear[l][body]), &by.stretched[l][body], V::splat(axial));
+                if by.any[l] {
+                    let touched: [V; 2] = load(&by.touched[l][body]);
+                    sum = [sum[0].plus(touched[0]), sum[1].plus(touched[1])];
+                }
+                // The pipe first: what its two lanes without a force leave, the guide's overwrite; those of the guide are
+                // beyond the node.
+                put(sum[0], &mut above[l], top);
+                put(sum[1], &mut below[l + 1], bottom);
+            }
+        }
+        let (nodes, _) = by.residual.as_chunks_mut::<NODE>();
+        let (weights, _) = by.weight.as_chunks::<NODE>();
+        let parts = by.on_above.iter().zip(&by.on_below);
+        for ((node, weight), (above, below)) in nodes.iter_mut().zip(weights).zip(parts) {
+            let (weight, above, below): ([V; 2], [V; 2], [V; 2]) =
+                (load(weight), load(first(above)), load(first(below)));
+            store(
+                [
+                    above[0].plus(below[0]).minus(weight[0]),
+                    above[1].plus(below[1]).minus(weight[1]),
+                ],
+                node,
+            );
+        }
+    }
+}
+
+/// Forces on a node, and room that a vector of eight at the guide reaches into.
+pub(super) type NodeForces = Aligned<[f64; 24]>;
+
+/// The node itself.
+#[inline(always)]
+fn first(forces: &NodeForces) -> &[f64; NODE] {
+    // Never empty: 24 are more than 16.
+    forces.first_chunk().unwrap_or(&[0.0; NODE])
+}
+
+/// Writes eight numbers from `place` on.
+#[inline(always)]
+fn put<V: Vector>(x: V, forces: &mut NodeForces, place: usize) {
+    if let Some(to) = forces[place..].first_chunk_mut() {
+        x.store(to);
     }
 }
 
@@ -153,54 +197,55 @@ impl Kernel for Spans<'_> {
             operator,
             keep_axial,
         } = self;
-        for l in 0..if keep_axial { 0 } else { by.links.len() } {
-            for body in 0..2 {
-                let now = by.tension(&to.q, l, body);
-                let force = now + by.foreseen_part * (by.foreseen[l][body] - now);
-                if body == 0 {
-                    to.pipe_axial[l] = force;
-                } else {
-                    to.guide_axial[l] = force;
-                }
-            }
-        }
-        let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
-        let zero = [V::splat(0.0); 2];
+        let part = by.foreseen_part;
+        let rayleigh = [conditions.rayleigh.alpha, conditions.rayleigh.beta];
+        let ((q, _), (v, _), (a, _)) = (to.q.as_chunks(), to.v.as_chunks(), to.a.as_chunks());
+        let (corrections, _) = by.correction.as_chunks();
         for (l, link) in by.links.iter().enumerate() {
             let kind = &by.kinds[link.kind];
-            for body in 0..2 {
-                let [top, bottom] = ends(l, body);
-                let at = |j: usize| if j < 6 { top + j } else { bottom + j - 6 };
-                let (mut even, mut odd, mut stretched) = (zero, zero, zero);
-                match operator {
+            for (body, axial) in [&mut to.pipe_axial, &mut to.guide_axial].into_iter().enumerate() {
+                let at = at_ends(q, l, body);
+                store(product::<V>(&kind.geometric[body], &at), &mut by.stretched[l][body]);
+                if !keep_axial {
+                    let now = by.stretched[l][body][TENSION];
+                    axial[l] = now + part * (by.foreseen[l][body] - now);
+                }
+                let linear = &mut by.linear[l][body];
+                let sum = match operator {
                     None => {
-                        for j in 0..12 {
-                            let u = at(j);
-                            let (q, v, a) = (to.q[u], to.v[u], to.a[u]);
-                            even = plus_column(even, &kind.stiffness[body][j], V::splat(q + beta * v));
-                            odd = plus_column(odd, &kind.mass[body][j], V::splat(a + alpha * v));
-                            stretched = plus_column(stretched, &kind.geometric[body][j], V::splat(q));
+                        let rate = at_ends(v, l, body);
+                        let (mut strained, mut pushed) = (at, at_ends(a, l, body));
+                        for end in 0..2 {
+                            for j in 0..6 {
+                                strained[end][j] += rayleigh[1] * rate[end][j];
+                                pushed[end][j] += rayleigh[0] * rate[end][j];
+                            }
                         }
+                        let stiff = product::<V>(&kind.stiffness[body], &strained);
+                        let inert = product::<V>(&kind.mass[body], &pushed);
+                        [stiff[0].plus(inert[0]), stiff[1].plus(inert[1])]
                     }
                     Some(operator) => {
                         let columns = &by.operators[operator].spans[link.kind][body];
-                        let linear = &by.linear[l][body];
-                        even = load(linear);
-                        for j in 0..6 {
-                            even = plus_column(even, &columns[j], V::splat(by.correction[top + j]));
-                            odd = plus_column(odd, &columns[6 + j], V::splat(by.correction[bottom + j]));
-                        }
-                        for j in 0..12 {
-                            stretched = plus_column(stretched, &kind.geometric[body][j], V::splat(to.q[at(j)]));
-                        }
+                        let added = product::<V>(columns, &at_ends(corrections, l, body));
+                        let before: [V; 2] = load(linear);
+                        [before[0].plus(added[0]), before[1].plus(added[1])]
                     }
-                }
-                let tension = V::splat(if body == 0 { to.pipe_axial[l] } else { to.guide_axial[l] });
-                let linear: &mut EndForces = &mut by.linear[l];
-                store([even[0].plus(odd[0]), even[1].plus(odd[1])], &mut linear[body]);
-                let geometric = &mut by.geometric[l][body];
-                store([stretched[0].times(tension), stretched[1].times(tension)], geometric);
+                };
+                store(sum, linear);
             }
         }
     }
+}
+
+/// A matrix over both ends times what the ends are.
+#[inline(always)]
+pub(super) fn product<V: Vector>(columns: &[EndColumn; 12], [top, bottom]: &Ends) -> [V; 2] {
+    let zero = [V::splat(0.0); 2];
+    let (mut above, mut below) = (zero, zero);
+    for j in 0..6 {
+        above = plus_column(above, &columns[j], V::splat(top[j]));
+        below = plus_column(below, &columns[6 + j], V::splat(bottom[j]));
+    }
+    [above[0].plus(below[0]), above[1].plus(below[1])]
 }

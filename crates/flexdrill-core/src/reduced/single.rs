@@ -7,8 +7,9 @@
 use super::operator::Operator;
 use super::tangent::{Additions, Crossing};
 use super::{Link, MULTIPLIER, NODE};
-use crate::linear::JointIncrement;
+use crate::dynamics::joints::JointTangent;
 use crate::simd::Kernel;
+use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 use crate::simd::vector::Vector;
 
@@ -20,32 +21,56 @@ const LARGEST_SQUARE: f32 = 1e6;
 /// A column of a block.
 type Column = [f32; NODE];
 
-/// Rows in relation to a pair of pivots.
-const BESIDE: [Column; NODE] = table(false);
-const BEYOND: [Column; NODE] = table(true);
+/// Pairs of pivots. The span above a node reaches neither the rotations below nor the multiplier, so that these may go
+/// before what comes from above is known; the rest follows in order.
+const PAIRS: [[usize; 2]; 8] = [[6, 15], [7, 8], [0, 1], [2, 3], [4, 5], [9, 10], [11, 12], [13, 14]];
+/// Place at which the pair of the multiplier goes in the last node, where its row has no pivot before the others are
+/// out.
+const LAST: usize = 8;
+
+/// The other one of a row's pair.
+static MATES: Aligned<[i32; NODE]> = {
+    let mut out = [0; NODE];
+    let mut n = 0;
+    while n < PAIRS.len() {
+        let [k, next] = PAIRS[n];
+        (out[k], out[next]) = (next as i32, k as i32);
+        n += 1;
+    }
+    Aligned(out)
+};
+/// Rows beside a pair, and those still to come after it; the last of them is that of the first pair where it goes last.
+static BESIDE: Aligned<[Column; LAST + 1]> = Aligned(table(false));
+static BEYOND: Aligned<[Column; LAST + 1]> = Aligned(table(true));
 /// One row.
-const ONLY: [Column; NODE] = {
+static ONLY: Aligned<[Column; NODE]> = {
     let mut out = [[0.0; NODE]; NODE];
     let mut k = 0;
     while k < NODE {
         out[k][k] = 1.0;
         k += 1;
     }
-    out
+    Aligned(out)
 };
 
-const fn table(beyond: bool) -> [Column; NODE] {
-    let mut out = [[0.0; NODE]; NODE];
-    let mut k = 0;
-    while k + 1 < NODE {
-        let mut r = 0;
-        while r < NODE {
-            if r > k + 1 || !beyond && r < k {
-                out[k][r] = 1.0;
+const fn table(beyond: bool) -> [Column; LAST + 1] {
+    let mut out = [[0.0; NODE]; LAST + 1];
+    let mut n = 0;
+    while n <= LAST {
+        let mut other = 0;
+        while other < PAIRS.len() {
+            let counts = if beyond {
+                n < LAST && other > n
+            } else {
+                other != n % LAST
+            };
+            if counts {
+                let [k, next] = PAIRS[other];
+                (out[n][k], out[n][next]) = (1.0, 1.0);
             }
-            r += 1;
+            other += 1;
         }
-        k += 1;
+        n += 1;
     }
     out
 }
@@ -53,27 +78,31 @@ const fn table(beyond: bool) -> [Column; NODE] {
 /// The step-constant part, rounded.
 #[derive(Default)]
 pub(super) struct SingleOperator {
-    blocks: Vec<[Column; NODE]>,
+    blocks: Vec<Aligned<[Column; NODE]>>,
     /// Per kind of span: rows of the node above by columns of the bottom end; rows of the node below by columns of the
     /// top end, pipe and guide in one column as they do not share rows, and apart.
-    upper: Vec<[Column; 12]>,
-    lower: Vec<[Column; 12]>,
-    lower_joined: Vec<[Column; 6]>,
+    upper: Vec<Aligned<[Column; 12]>>,
+    lower: Vec<Aligned<[Column; 12]>>,
+    lower_joined: Vec<Aligned<[Column; 6]>>,
 }
 
-fn rounded<const N: usize>(columns: &[[f64; NODE]; N]) -> [Column; N] {
-    columns.map(|column| column.map(|x| x as f32))
+fn rounded<const N: usize>(columns: &[[f64; NODE]; N]) -> Aligned<[Column; N]> {
+    Aligned(columns.map(|column| column.map(|x| x as f32)))
 }
 
 impl SingleOperator {
     pub(super) fn of(operator: &Operator) -> Self {
-        let lower: Vec<[Column; 12]> = operator.couplings.iter().map(|c| rounded(&c.lower)).collect();
+        let lower: Vec<Aligned<[Column; 12]>> = operator.couplings.iter().map(|c| rounded(&c.lower)).collect();
         Self {
             blocks: operator.blocks.iter().map(rounded).collect(),
             upper: operator.couplings.iter().map(|c| rounded(&c.upper)).collect(),
             lower_joined: lower
                 .iter()
-                .map(|lower| std::array::from_fn(|c| std::array::from_fn(|i| lower[c][i] + lower[6 + c][i])))
+                .map(|lower| {
+                    Aligned(std::array::from_fn(|c| {
+                        std::array::from_fn(|i| lower[c][i] + lower[6 + c][i])
+                    }))
+                })
                 .collect(),
             lower,
         }
@@ -82,16 +111,38 @@ impl SingleOperator {
 
 /// Room for an elimination.
 pub(super) struct SingleSweep {
-    columns: Vec<[Column; COLUMNS]>,
+    columns: Vec<Aligned<[Column; COLUMNS]>>,
     /// What each joint adds: columns of the rotations above, of those below, of the multiplier.
-    joints: Vec<[Column; 7]>,
+    joints: Vec<Aligned<[Column; 7]>>,
+    /// Blocks of the present node and the next one.
+    blocks: [Aligned<[Column; NODE]>; 2],
 }
 
 impl SingleSweep {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
-            columns: vec![[[0.0; NODE]; COLUMNS]; nodes],
-            joints: vec![[[0.0; NODE]; 7]; nodes - 2],
+            columns: vec![Aligned([[0.0; NODE]; COLUMNS]); nodes],
+            joints: vec![Aligned([[0.0; NODE]; 7]); nodes - 2],
+            blocks: [Aligned([[0.0; NODE]; NODE]); 2],
+        }
+    }
+
+    /// Sets what a joint adds.
+    #[inline(always)]
+    pub(super) fn join(&mut self, joint: usize, tangent: &JointTangent<'_>) {
+        let to = &mut self.joints[joint];
+        for k in 0..3 {
+            for i in 0..3 {
+                to[k][i] = tangent.rotation(k, i) as f32;
+                to[k][6 + i] = tangent.rotation(k, 3 + i) as f32;
+                to[3 + k][i] = tangent.rotation(3 + k, i) as f32;
+                to[3 + k][6 + i] = tangent.rotation(3 + k, 3 + i) as f32;
+            }
+            let (above, below) = (tangent.row(0, k) as f32, tangent.row(0, 3 + k) as f32);
+            to[k][MULTIPLIER] = above;
+            to[3 + k][MULTIPLIER] = below;
+            to[6][k] = above;
+            to[6][6 + k] = below;
         }
     }
 }
@@ -100,99 +151,148 @@ impl SingleSweep {
 pub(super) struct SingleElimination<'a> {
     pub sweep: &'a mut SingleSweep,
     pub operator: &'a Operator,
-    pub additions: &'a Additions,
-    pub joints: &'a [JointIncrement],
+    pub additions: &'a Additions<f32>,
     pub links: &'a [Link],
     pub rows: &'a [Option<[f64; NODE]>],
     /// The right-hand side, which becomes the solution.
     pub values: &'a mut [f64],
 }
 
-/// A block under elimination.
-struct Pivots<S> {
-    /// Inverse of the pivots: what of each row is its own, and what its neighbour's.
+/// The inverse of the pivots that are out: what of each row is its own, and what its mate's.
+#[derive(Clone, Copy)]
+struct Inverse<S> {
     own: S,
-    partner: S,
-    /// Largest square of the multipliers, by rows.
-    squares: S,
+    mate: S,
 }
 
-/// Takes the pivots `K` and `K + 1` out of the columns after them and out of the first `active` of `b` and its last.
-#[expect(
-    clippy::needless_range_loop,
-    reason = "columns by number, so that they stay in registers"
-)]
+/// Takes pair `N`, `K` and `NEXT`, out of the columns of the pairs from `after` on and out of `columns`. Gives the squares
+/// of the multipliers of rows still to come.
 #[inline(always)]
-fn pair<S: Single, const K: usize, const NEXT: usize>(
-    a: &mut [S; NODE],
-    b: &mut [Column; COLUMNS],
-    active: usize,
-    pivots: &mut Pivots<S>,
-) {
-    let (p, r) = (a[K].spread::<K>(), a[K].spread::<NEXT>());
-    let (q, s) = (a[K + 1].spread::<K>(), a[K + 1].spread::<NEXT>());
+fn pair<S: Single, const N: usize, const K: usize, const NEXT: usize>(
+    a: &mut [Column; NODE],
+    after: &[[usize; 2]],
+    columns: [&mut [Column]; 2],
+    inverse: &mut Inverse<S>,
+) -> S {
+    let (p, r) = (S::splat(a[K][K]), S::splat(a[K][NEXT]));
+    let (q, s) = (S::splat(a[NEXT][K]), S::splat(a[NEXT][NEXT]));
     let reciprocal = S::splat(1.0).over(p.times(s).minus_product(q, r));
-    let beside = S::load(&BESIDE[K]);
-    let (first, second) = (a[K].times(beside), a[K + 1].times(beside));
+    let beside = S::load(&BESIDE[N]);
+    let (first, second) = (S::load(&a[K]).times(beside), S::load(&a[NEXT]).times(beside));
     let by_first = first.times(s).minus_product(second, r).times(reciprocal);
     let by_second = second.times(p).minus_product(first, q).times(reciprocal);
-    let (row, next) = (S::load(&ONLY[K]), S::load(&ONLY[K + 1]));
-    pivots.own = pivots.own.plus_product(row, s.times(reciprocal));
-    pivots.own = pivots.own.plus_product(next, p.times(reciprocal));
-    pivots.partner = pivots.partner.minus_product(row, q.times(reciprocal));
-    pivots.partner = pivots.partner.minus_product(next, r.times(reciprocal));
-    let beyond = S::load(&BEYOND[K]);
+    for &[j, k] in after {
+        take::<S, K, NEXT>(&mut a[j], by_first, by_second);
+        take::<S, K, NEXT>(&mut a[k], by_first, by_second);
+    }
+    for columns in columns {
+        for column in columns {
+            take::<S, K, NEXT>(column, by_first, by_second);
+        }
+    }
+    let (row, next) = (S::load(&ONLY[K]), S::load(&ONLY[NEXT]));
+    inverse.own = inverse.own.plus_product(row, s.times(reciprocal));
+    inverse.own = inverse.own.plus_product(next, p.times(reciprocal));
+    inverse.mate = inverse.mate.minus_product(row, q.times(reciprocal));
+    inverse.mate = inverse.mate.minus_product(next, r.times(reciprocal));
+    let beyond = S::load(&BEYOND[N]);
     let (x, y) = (by_first.times(beyond), by_second.times(beyond));
-    pivots.squares = x.times(x).largest(y.times(y)).largest(pivots.squares);
-    for j in 0..NODE {
-        if j > K + 1 {
-            let (x, y) = (a[j].spread::<K>(), a[j].spread::<NEXT>());
-            a[j] = a[j].minus_product(by_first, x).minus_product(by_second, y);
-        }
-    }
-    for j in 0..COLUMNS {
-        if j < active || j == COLUMNS - 1 {
-            let (x, y) = (S::splat(b[j][K]), S::splat(b[j][K + 1]));
-            S::load(&b[j])
-                .minus_product(by_first, x)
-                .minus_product(by_second, y)
-                .store(&mut b[j]);
-        }
-    }
+    x.times(x).largest(y.times(y))
 }
 
-/// Solves `a x = b`; of the twelve columns `COUPLED` says how many there are, and of these the first six begin at row 3,
-/// the others at row 9 or, `CROSSED`, at row 3 too. Gives the largest squares of the multipliers.
+/// Takes the pivots' rows, times the multipliers, off a column.
 #[inline(always)]
-fn eliminate<S: Single, const CROSSED: bool, const COUPLED: bool>(mut a: [S; NODE], b: &mut [Column; COLUMNS]) -> S {
-    let zero = S::splat(0.0);
-    let mut pivots = Pivots {
-        own: zero,
-        partner: zero,
-        squares: zero,
+fn take<S: Single, const K: usize, const NEXT: usize>(column: &mut Column, by_first: S, by_second: S) {
+    let (x, y) = (S::splat(column[K]), S::splat(column[NEXT]));
+    S::load(column)
+        .minus_product(by_first, x)
+        .minus_product(by_second, y)
+        .store(column);
+}
+
+/// Takes the early pairs out of a block and of its coupling, whose first six columns, or `CROSSED` all, have something in
+/// their rows.
+#[inline(always)]
+fn begin<S: Single, const CROSSED: bool>(
+    a: &mut [Column; NODE],
+    b: &mut [Column; COLUMNS],
+    inverse: &mut Inverse<S>,
+) -> S {
+    let (coupling, right) = b.split_at_mut(12);
+    let coupling = &mut coupling[..if CROSSED { 12 } else { 6 }];
+    let squares = pair::<S, 0, 6, 15>(a, &PAIRS[1..], [coupling, right], inverse);
+    pair::<S, 1, 7, 8>(a, &PAIRS[2..], [coupling, right], inverse).largest(squares)
+}
+
+/// Solves `a x = b`, of which the early pairs are out; the last six columns of the coupling begin at row 9 or, `CROSSED`,
+/// at row 3.
+#[inline(always)]
+fn eliminate<S: Single, const CROSSED: bool>(
+    a: &mut [Column; NODE],
+    b: &mut [Column; COLUMNS],
+    mut inverse: Inverse<S>,
+) -> S {
+    let squares = {
+        let (coupling, right) = b.split_at_mut(12);
+        let early = &mut coupling[..if CROSSED { 12 } else { 6 }];
+        let first = pair::<S, 2, 0, 1>(a, &PAIRS[3..], [early, right], &mut inverse);
+        let second = pair::<S, 3, 2, 3>(a, &PAIRS[4..], [early, right], &mut inverse);
+        let third = pair::<S, 4, 4, 5>(a, &PAIRS[5..], [early, right], &mut inverse);
+        let fourth = pair::<S, 5, 9, 10>(a, &PAIRS[6..], [coupling, right], &mut inverse);
+        let fifth = pair::<S, 6, 11, 12>(a, &PAIRS[7..], [coupling, right], &mut inverse);
+        let sixth = pair::<S, 7, 13, 14>(a, &[], [coupling, right], &mut inverse);
+        first
+            .largest(second)
+            .largest(third.largest(fourth))
+            .largest(fifth.largest(sixth))
     };
-    let [early, late] = match (COUPLED, CROSSED) {
-        (false, _) => [0, 0],
-        (true, false) => [6, 12],
-        (true, true) => [12, 12],
-    };
-    pair::<S, 0, 1>(&mut a, b, 0, &mut pivots);
-    pair::<S, 2, 3>(&mut a, b, early, &mut pivots);
-    pair::<S, 4, 5>(&mut a, b, early, &mut pivots);
-    pair::<S, 6, 7>(&mut a, b, early, &mut pivots);
-    pair::<S, 8, 9>(&mut a, b, late, &mut pivots);
-    pair::<S, 10, 11>(&mut a, b, late, &mut pivots);
-    pair::<S, 12, 13>(&mut a, b, late, &mut pivots);
-    pair::<S, 14, 15>(&mut a, b, late, &mut pivots);
-    for (j, column) in b.iter_mut().enumerate() {
-        if COUPLED || j == COLUMNS - 1 {
-            let x = S::load(column);
-            x.times(pivots.own)
-                .plus_product(x.swapped(), pivots.partner)
-                .store(column);
-        }
+    for column in b {
+        solve(column, inverse);
     }
-    pivots.squares
+    squares
+}
+
+/// Solves for one column of the last node, whose multiplier goes last.
+#[inline(always)]
+fn eliminate_last<S: Single>(a: &mut [Column; NODE], right: &mut Column) -> S {
+    let zero = S::splat(0.0);
+    let mut inverse = Inverse { own: zero, mate: zero };
+    let with_first = |n: usize| {
+        let mut after = [[0; 2]; 8];
+        let count = 8 - n;
+        after[..count - 1].copy_from_slice(&PAIRS[n + 1..]);
+        after[count - 1] = PAIRS[0];
+        (after, count)
+    };
+    let mut squares = zero;
+    macro_rules! take_out {
+        ($n:literal, $k:literal, $next:literal) => {
+            let (after, count) = with_first($n);
+            let right = std::slice::from_mut(right);
+            let largest = pair::<S, $n, $k, $next>(a, &after[..count], [&mut [], right], &mut inverse);
+            squares = squares.largest(largest);
+        };
+    }
+    take_out!(1, 7, 8);
+    take_out!(2, 0, 1);
+    take_out!(3, 2, 3);
+    take_out!(4, 4, 5);
+    take_out!(5, 9, 10);
+    take_out!(6, 11, 12);
+    take_out!(7, 13, 14);
+    let column = std::slice::from_mut(right);
+    squares = squares.largest(pair::<S, LAST, 6, 15>(a, &[], [&mut [], column], &mut inverse));
+    solve(right, inverse);
+    squares
+}
+
+/// The solution of a column that has nothing of other rows left.
+#[inline(always)]
+fn solve<S: Single>(column: &mut Column, inverse: Inverse<S>) {
+    let x = S::load(column);
+    x.times(inverse.own)
+        .plus_product(x.taken(&MATES), inverse.mate)
+        .store(column);
 }
 
 /// L times the columns, where pipe and guide do not cross: both at once.
@@ -225,153 +325,182 @@ fn carry_crossed<S: Single>(b: &[Column; COLUMNS], lower: &[S; 12], carry: &mut 
     }
 }
 
-impl SingleElimination<'_> {
-    /// Sets what the joints add.
-    #[inline(always)]
-    fn join(&mut self) {
-        for (to, from) in self.sweep.joints.iter_mut().zip(self.joints) {
-            for k in 0..3 {
-                for i in 0..3 {
-                    to[k][i] = from.rotations[k][i] as f32;
-                    to[k][6 + i] = from.rotations[k][3 + i] as f32;
-                    to[3 + k][i] = from.rotations[3 + k][i] as f32;
-                    to[3 + k][6 + i] = from.rotations[3 + k][3 + i] as f32;
-                }
-                let (above, below) = (from.rows[0][k] as f32, from.rows[0][3 + k] as f32);
-                to[k][MULTIPLIER] = above;
-                to[3 + k][MULTIPLIER] = below;
-                to[6][k] = above;
-                to[6][6 + k] = below;
-            }
-        }
-    }
-}
-
 impl Kernel for SingleElimination<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn run<V: Vector>(mut self) -> bool {
-        self.join();
+    fn run<V: Vector>(self) -> bool {
         run::<V::Single>(self)
     }
 }
 
-#[expect(
-    clippy::needless_range_loop,
-    reason = "columns by number, so that they stay in registers"
-)]
-#[inline(always)]
-fn run<S: Single>(by: SingleElimination<'_>) -> bool {
-    let SingleElimination {
-        sweep,
-        operator,
-        additions,
-        links,
-        rows,
-        values,
-        ..
-    } = by;
-    let nodes = rows.len();
-    let single = &operator.single;
-    let zero = S::splat(0.0);
-    let mut carry = [[0.0; NODE]; COLUMNS];
-    let mut squares = zero;
-    let (values, _) = values.as_chunks_mut::<NODE>();
-    for k in 0..nodes {
-        let base = &single.blocks[operator.block_of[k]];
-        let mut a = [zero; NODE];
-        for (to, from) in a.iter_mut().zip(base) {
-            *to = S::load(from);
-        }
-        if additions.touched[k] {
-            for (to, from) in a.iter_mut().zip(&additions.blocks[k]) {
-                *to = to.plus(S::round(from));
+impl SingleElimination<'_> {
+    /// Node `k` without what comes from above, its early pairs taken out of all but the last: into `a` and its columns.
+    /// Gives the inverse of their pivots and the squares of the multipliers.
+    #[inline(always)]
+    fn begin<S: Single>(&mut self, k: usize, a: &mut [Column; NODE]) -> (Inverse<S>, S) {
+        let single = &self.operator.single;
+        let zero = S::splat(0.0);
+        let mut inverse = Inverse { own: zero, mate: zero };
+        *a = *single.blocks[self.operator.block_of[k]];
+        if self.additions.touched[k] {
+            for (to, from) in a.iter_mut().zip(self.additions.blocks[k].iter()) {
+                S::load(to).plus(S::load(from)).store(to);
             }
         }
+        if let Some(joint) = k.checked_sub(1).and_then(|joint| self.sweep.joints.get(joint)) {
+            for i in 0..3 {
+                S::load(&a[i]).plus(S::load(&joint[i])).store(&mut a[i]);
+                S::load(&a[6 + i]).plus(S::load(&joint[3 + i])).store(&mut a[6 + i]);
+            }
+            S::load(&a[MULTIPLIER])
+                .plus(S::load(&joint[6]))
+                .store(&mut a[MULTIPLIER]);
+        }
+        let (values, _) = self.values.as_chunks::<NODE>();
         let mut right = S::round(&values[k]);
-        if k > 0 {
-            if let Some(joint) = sweep.joints.get(k - 1) {
-                for i in 0..3 {
-                    a[i] = a[i].plus(S::load(&joint[i]));
-                    a[6 + i] = a[6 + i].plus(S::load(&joint[3 + i]));
-                }
-                a[MULTIPLIER] = a[MULTIPLIER].plus(S::load(&joint[6]));
-            }
-            for i in 0..6 {
-                a[i] = a[i].minus(S::load(&carry[i]));
-                a[9 + i] = a[9 + i].minus(S::load(&carry[6 + i]));
-            }
-            right = right.minus(S::load(&carry[12]));
-        }
-        let held = &rows[k];
+        let held = &self.rows[k];
         if let Some(rows) = held {
-            let keep = S::round(rows);
-            for (i, column) in a.iter_mut().enumerate() {
-                *column = if rows[i] == 0.0 {
-                    S::load(&ONLY[i])
-                } else {
-                    column.times(keep)
-                };
-            }
-            right = right.times(keep);
+            right = right.times(S::round(rows));
+            hold::<S>(a, rows);
         }
-        let b = &mut sweep.columns[k];
+        let b = &mut self.sweep.columns[k];
         right.store(&mut b[12]);
-        if k + 1 == nodes {
-            squares = eliminate::<S, false, false>(a, b).largest(squares);
-            break;
+        if k + 1 == self.rows.len() {
+            return (inverse, zero);
         }
-        let crossing = additions.crossing[k];
-        let kind = links[k].kind;
-        let mut upper = [zero; 12];
-        for (to, from) in upper.iter_mut().zip(&single.upper[kind]) {
-            *to = S::load(from);
-        }
+        let (crossing, upper) = (self.additions.crossing[k], &single.upper[self.links[k].kind]);
+        b[..12].copy_from_slice(&**upper);
         if crossing != Crossing::Nothing {
             let first = if crossing == Crossing::Guide { 6 } else { 0 };
-            let added = &additions.couplings[k].upper;
-            for c in first..12 {
-                upper[c] = upper[c].plus(S::round(&added[c]));
+            let added = &self.additions.couplings[k].upper;
+            for (to, from) in b[first..12].iter_mut().zip(&added[first..]) {
+                S::load(to).plus(S::load(from)).store(to);
             }
         }
         if let Some(rows) = held {
             let keep = S::round(rows);
-            for column in &mut upper {
-                *column = column.times(keep);
+            for column in &mut b[..12] {
+                S::load(column).times(keep).store(column);
             }
         }
-        for (to, from) in b.iter_mut().zip(upper) {
-            from.store(to);
-        }
-        let keep_below = rows[k + 1].as_ref().map(|rows| S::round(rows));
-        if crossing == Crossing::Both {
-            squares = eliminate::<S, true, true>(a, b).largest(squares);
-            let added = &additions.couplings[k].lower;
-            let mut lower = [zero; 12];
-            for c in 0..12 {
-                lower[c] = S::load(&single.lower[kind][c]).plus(S::round(&added[c]));
-                if let Some(keep) = keep_below {
-                    lower[c] = lower[c].times(keep);
-                }
-            }
-            carry_crossed(b, &lower, &mut carry);
+        let squares = if crossing == Crossing::Both {
+            begin::<S, true>(a, b, &mut inverse)
         } else {
-            squares = eliminate::<S, false, true>(a, b).largest(squares);
-            let mut lower = [zero; 6];
-            for c in 0..6 {
-                lower[c] = S::load(&single.lower_joined[kind][c]);
-                if crossing == Crossing::Guide {
-                    lower[c] = lower[c].plus(S::round(&additions.couplings[k].lower[6 + c]));
-                }
-                if let Some(keep) = keep_below {
-                    lower[c] = lower[c].times(keep);
+            begin::<S, false>(a, b, &mut inverse)
+        };
+        (inverse, squares)
+    }
+
+    /// L times the columns of node `k`, for the node below.
+    #[inline(always)]
+    fn carry<S: Single>(&self, k: usize, carry: &mut [Column; COLUMNS]) {
+        let (single, kind) = (&self.operator.single, self.links[k].kind);
+        let crossing = self.additions.crossing[k];
+        let added = &self.additions.couplings[k].lower;
+        let b = &self.sweep.columns[k];
+        let keep = match &self.rows[k + 1] {
+            Some(rows) => Some(S::round(rows)),
+            None => None,
+        };
+        let zero = S::splat(0.0);
+        if crossing == Crossing::Both {
+            let mut lower = [zero; 12];
+            for (c, lower) in lower.iter_mut().enumerate() {
+                *lower = S::load(&single.lower[kind][c]).plus(S::load(&added[c]));
+                if let Some(keep) = keep {
+                    *lower = lower.times(keep);
                 }
             }
-            carry_joined(b, &lower, &mut carry);
+            carry_crossed(b, &lower, carry);
+            return;
+        }
+        let mut lower = [zero; 6];
+        for (c, lower) in lower.iter_mut().enumerate() {
+            *lower = S::load(&single.lower_joined[kind][c]);
+            if crossing == Crossing::Guide {
+                *lower = lower.plus(S::load(&added[6 + c]));
+            }
+            if let Some(keep) = keep {
+                *lower = lower.times(keep);
+            }
+        }
+        carry_joined(b, &lower, carry);
+    }
+}
+
+/// Keeps the rows of a block that are equations; the others say that their unknown is what stands on the right.
+#[inline(always)]
+fn hold<S: Single>(a: &mut [Column; NODE], rows: &[f64; NODE]) {
+    let keep = S::round(rows);
+    for (i, column) in a.iter_mut().enumerate() {
+        if rows[i] == 0.0 {
+            *column = ONLY[i];
+        } else {
+            S::load(column).times(keep).store(column);
         }
     }
-    let mut lanes = [0.0; NODE];
+}
+
+/// Takes what comes from above off a block and its right-hand side.
+#[inline(always)]
+fn take_carry<S: Single>(
+    a: &mut [Column; NODE],
+    right: &mut Column,
+    carry: &[Column; COLUMNS],
+    rows: Option<&[f64; NODE]>,
+) {
+    for i in 0..6 {
+        S::load(&a[i]).minus(S::load(&carry[i])).store(&mut a[i]);
+        S::load(&a[9 + i]).minus(S::load(&carry[6 + i])).store(&mut a[9 + i]);
+    }
+    S::load(right).minus(S::load(&carry[12])).store(right);
+    // Nothing is carried into rows that are held, but into the columns of their unknowns.
+    if let Some(rows) = rows {
+        for i in (0..6).chain(9..15) {
+            if rows[i] == 0.0 {
+                a[i] = ONLY[i];
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn run<S: Single>(mut by: SingleElimination<'_>) -> bool {
+    let nodes = by.rows.len();
+    let zero = S::splat(0.0);
+    let mut carry = Aligned([[0.0; NODE]; COLUMNS]);
+    let mut blocks = by.sweep.blocks;
+    let (mut inverse, mut squares) = by.begin::<S>(0, &mut blocks[0]);
+    for k in 0..nodes {
+        let last = k + 1 == nodes;
+        let rows = by.rows[k].as_ref();
+        let after = if last {
+            (inverse, zero)
+        } else {
+            // The next node's early pairs wait for nothing, and fill the gaps that this node's leave.
+            by.begin::<S>(k + 1, &mut blocks[(k + 1) % 2])
+        };
+        let (a, b) = (&mut blocks[k % 2], &mut by.sweep.columns[k]);
+        if k > 0 {
+            take_carry::<S>(a, &mut b[12], &carry, rows);
+        }
+        let largest = if last {
+            eliminate_last::<S>(a, &mut b[12])
+        } else if by.additions.crossing[k] == Crossing::Both {
+            eliminate::<S, true>(a, b, inverse)
+        } else {
+            eliminate::<S, false>(a, b, inverse)
+        };
+        squares = squares.largest(largest).largest(after.1);
+        inverse = after.0;
+        if !last {
+            by.carry::<S>(k, &mut carry);
+        }
+    }
+    let SingleElimination { sweep, values, .. } = by;
+    let (values, _) = values.as_chunks_mut::<NODE>();
+    let mut lanes = Aligned([0.0; NODE]);
     squares.store(&mut lanes);
     // What is not a number anywhere is carried down to the last node.
     let last = &sweep.columns[nodes - 1][12];
@@ -404,9 +533,9 @@ fn run<S: Single>(by: SingleElimination<'_>) -> bool {
 /// Writes a solution in double.
 #[inline(always)]
 fn put<S: Single>(x: S, to: &mut [f64; NODE]) {
-    let mut lanes = [0.0; NODE];
+    let mut lanes = Aligned([0.0; NODE]);
     x.store(&mut lanes);
-    for (to, from) in to.iter_mut().zip(lanes) {
+    for (to, from) in to.iter_mut().zip(*lanes) {
         *to = f64::from(from);
     }
 }

@@ -2,8 +2,10 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3};
 
+use super::precision::OnNodes;
 use super::{EndColumn, ends};
 use crate::model::Model;
+use crate::simd::aligned::Aligned;
 
 /// Relative difference below which the matrices of two spans count as one: links of a regular tool differ by the rounding
 /// of their geometry only. Sharing keeps them in the first-level cache.
@@ -13,20 +15,23 @@ const SAME: f64 = 1e-11;
 #[derive(Debug, Clone)]
 pub(super) struct LinkMatrices {
     /// Stiffness, mass and geometric stiffness per tension, of pipe and guide.
-    pub stiffness: [[EndColumn; 12]; 2],
-    pub mass: [[EndColumn; 12]; 2],
-    pub geometric: [[EndColumn; 12]; 2],
-    /// Mean axial force (N) by the ends' displacements.
+    pub stiffness: Aligned<[[EndColumn; 12]; 2]>,
+    pub mass: Aligned<[[EndColumn; 12]; 2]>,
+    pub geometric: Aligned<[[EndColumn; 12]; 2]>,
+    /// Mean axial force (N) by the ends' displacements; also in lane [`TENSION`] of the geometric stiffness.
     pub tension: [[f64; 12]; 2],
     /// Lateral position of each station but the first in its station's frame: y in 0..8, z in 8..16.
-    pub lateral: [[EndColumn; 12]; 2],
+    pub lateral: Aligned<[[EndColumn; 12]; 2]>,
     /// Local motion of each station, the top included: the pipe's in the station's frame, rotations times its radius; the
     /// guide's.
-    pub motion: Vec<[[[f64; 8]; 12]; 2]>,
+    pub motion: Vec<Aligned<[[[f64; 8]; 12]; 2]>>,
     /// The same by rows: what a local force puts on the ends.
-    pub force: Vec<[[EndColumn; 6]; 2]>,
+    pub force: Vec<Aligned<[[EndColumn; 6]; 2]>>,
+    /// The same on the unknowns of both nodes, in both precisions.
+    pub on_nodes: Vec<OnNodes<f64>>,
+    pub on_nodes_single: Vec<OnNodes<f32>>,
     /// Displacements of the inner nodes in their own frames, columns of a node one after the other.
-    pub inner: Vec<[[[f64; 8]; 12]; 2]>,
+    pub inner: Vec<Aligned<[[[f64; 8]; 12]; 2]>>,
     /// Slowest frequency of pipe or guide while the ends stand still (rad/s).
     pub slowest: f64,
     slaved: [DMatrix<f64>; 2],
@@ -38,9 +43,9 @@ pub(super) struct Link {
     /// Its matrices.
     pub kind: usize,
     /// Where the undeflected pipe lies at each station but the first: y, z (m).
-    pub offset: [[f64; 8]; 2],
+    pub offset: Aligned<[[f64; 8]; 2]>,
     /// Squares of the inner clearance at those stations; beyond them what is never reached.
-    pub clearance_squared: [f64; 8],
+    pub clearance_squared: Aligned<[f64; 8]>,
     /// What the pipe's weight puts on its top end (N), along the axes of the link above.
     pub weight_on_top: [f64; 3],
 }
@@ -60,8 +65,8 @@ pub(super) fn links(model: &Model) -> Option<(Vec<LinkMatrices>, Vec<Link>)> {
         };
         let mut link = Link {
             kind,
-            offset: [[0.0; 8]; 2],
-            clearance_squared: [f64::MAX; 8],
+            offset: Aligned([[0.0; 8]; 2]),
+            clearance_squared: Aligned([f64::MAX; 8]),
             weight_on_top: [0.0; 3],
         };
         for i in 0..per {
@@ -145,7 +150,7 @@ impl LinkMatrices {
         slaved[0] = &slaved[0] * turned * places;
         let condensed =
             |body: usize, which: usize| columns(&(slaved[body].transpose() * &matrices[body][which] * &slaved[body]));
-        let both = |which: usize| [condensed(0, which), condensed(1, which)];
+        let both = |which: usize| Aligned([condensed(0, which), condensed(1, which)]);
         let tension = std::array::from_fn(|body| {
             std::array::from_fn(|j| {
                 let along = |e: usize| {
@@ -187,27 +192,29 @@ impl LinkMatrices {
                     }
                 }
             }
-            motion.push(by_columns);
-            force.push(by_rows);
+            motion.push(Aligned(by_columns));
+            force.push(Aligned(by_rows));
         }
         let inner = (1..per)
             .map(|i| {
-                std::array::from_fn(|body| {
+                Aligned(std::array::from_fn(|body| {
                     std::array::from_fn(|j| {
                         let mut column = [0.0; 8];
                         (0..6).for_each(|k| column[k] = slaved[body][(6 * i + k, j)]);
                         column
                     })
-                })
+                }))
             })
             .collect();
         Some(Self {
             stiffness: both(0),
             mass: both(1),
-            geometric: both(2),
+            geometric: geometric(&both(2), &tension),
             tension,
-            lateral,
+            lateral: Aligned(lateral),
             motion,
+            on_nodes: force.iter().map(|rows| OnNodes::of(rows)).collect(),
+            on_nodes_single: force.iter().map(|rows| OnNodes::of(rows)).collect(),
             force,
             inner,
             slowest,
@@ -238,6 +245,20 @@ impl LinkMatrices {
             .zip(&other.motion)
             .all(|(a, b)| near(a.as_flattened().as_flattened(), b.as_flattened().as_flattened()))
     }
+}
+
+/// Lane of the geometric stiffness, free of forces, that gives the axial force (N) beside them.
+pub(super) const TENSION: usize = 7;
+
+/// Geometric stiffness with the axial force beside it.
+fn geometric(stiffness: &[[EndColumn; 12]; 2], tension: &[[f64; 12]; 2]) -> Aligned<[[EndColumn; 12]; 2]> {
+    let mut out = Aligned(*stiffness);
+    for (columns, tension) in out.iter_mut().zip(tension) {
+        for (column, tension) in columns.iter_mut().zip(tension) {
+            column[TENSION] = *tension;
+        }
+    }
+    out
 }
 
 /// Row of an [`EndColumn`] of end unknown `k` of twelve.

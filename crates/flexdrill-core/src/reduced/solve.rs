@@ -15,8 +15,8 @@ use crate::elements::bit::BitTorque;
 use crate::elements::joint::rotation::LARGEST_TILT;
 use crate::linear::{JointIncrement, Singular, add_joint, sixteen, take};
 use crate::model::Model;
-use crate::simd::Kernel;
 use crate::simd::vector::Vector;
+use crate::simd::{Instructions, Kernel};
 use crate::tool::description::Body;
 
 /// Columns per node: twelve of the coupling and the right-hand side.
@@ -40,7 +40,7 @@ impl Sweep {
 struct Elimination<'a> {
     sweep: &'a mut Sweep,
     operator: &'a Operator,
-    additions: &'a Additions,
+    additions: &'a Additions<f64>,
     joints: &'a [JointIncrement],
     links: &'a [Link],
     rows: &'a [Option<[f64; NODE]>],
@@ -54,7 +54,7 @@ impl Elimination<'_> {
     fn block<V: Vector>(&self, k: usize) -> Block {
         let mut block = self.operator.blocks[self.operator.block_of[k]];
         if self.additions.touched[k] {
-            for (to, from) in block.iter_mut().zip(&self.additions.blocks[k]) {
+            for (to, from) in block.iter_mut().zip(self.additions.blocks[k].iter()) {
                 let (a, b): ([V; 2], [V; 2]) = (load(to), load(from));
                 store([a[0].plus(b[0]), a[1].plus(b[1])], to);
             }
@@ -179,65 +179,90 @@ impl Kernel for Elimination<'_> {
 }
 
 impl Reduced {
-    /// Solves for the correction, in single precision if that is asked for and its pivots do.
+    /// Solves for the correction in single precision; `false` where its pivots do not do.
+    fn correct_in_single(&mut self, operator: usize) -> bool {
+        self.correction
+            .iter_mut()
+            .zip(&self.residual)
+            .for_each(|(c, r)| *c = -r);
+        self.instructions.run(SingleElimination {
+            sweep: &mut self.single_sweep,
+            operator: &self.operators[operator],
+            additions: &self.single_additions,
+            links: &self.links,
+            rows: &self.rows,
+            values: &mut self.correction,
+        })
+    }
+
+    /// Solves for the correction.
+    ///
+    /// # Errors
+    /// When a block cannot be factorised.
+    fn correct(&mut self, operator: usize, joints: &[JointIncrement]) -> Result<(), Singular> {
+        self.correction
+            .iter_mut()
+            .zip(&self.residual)
+            .for_each(|(c, r)| *c = -r);
+        let per = self.per;
+        self.instructions
+            .run(Elimination {
+                sweep: &mut self.sweep,
+                operator: &self.operators[operator],
+                additions: &self.additions,
+                joints,
+                links: &self.links,
+                rows: &self.rows,
+                values: &mut self.correction,
+            })
+            .map_err(|(node, pivot)| Singular {
+                station: per * node,
+                pivot,
+            })
+    }
+
+    /// What joints, contacts, bit and masses add to the tangent in double, and the solution with it.
     ///
     /// # Errors
     /// When a block cannot be factorised, or no operator was prepared.
-    pub(super) fn correct(
+    pub(super) fn solve(
         &mut self,
-        joints: &[JointIncrement],
-        conditions: &Conditions,
-        factors: TangentFactors,
-        single: bool,
+        assembler: &mut Assembler,
+        model: &Model,
+        state: &State,
+        (conditions, factors): (&Conditions, TangentFactors),
     ) -> Result<(), Singular> {
-        let Self {
-            instructions,
-            sweep,
-            single_sweep,
-            operators,
-            additions,
-            links,
-            rows,
-            correction: values,
-            residual,
-            per,
-            ..
-        } = self;
-        let known = operators.iter().find(|operator| operator.is_for(factors, conditions));
-        let Some(operator) = known else {
+        let Some(operator) = self.operator(factors, conditions) else {
             return Err(Singular { station: 0, pivot: 0.0 });
         };
-        let begin = |values: &mut [f64]| values.iter_mut().zip(&*residual).for_each(|(c, r)| *c = -r);
-        if single {
-            begin(values);
-            let solved = instructions.run(SingleElimination {
-                sweep: single_sweep,
-                operator,
-                additions,
-                joints,
-                links,
-                rows,
-                values,
-            });
-            if solved {
-                return Ok(());
-            }
-        }
-        begin(values);
-        instructions
-            .run(Elimination {
-                sweep,
-                operator,
-                additions,
-                joints,
-                links,
-                rows,
-                values,
-            })
-            .map_err(|(node, pivot)| Singular {
-                station: *per * node,
-                pivot,
-            })
+        let mut additions = std::mem::take(&mut self.additions);
+        additions.linearise(self, assembler, model, state, (conditions, factors));
+        self.additions = additions;
+        assembler.joint_tangent(&self.places.joints, model, state, factors);
+        assembler.stopwatch.lap(Phase::Assembly);
+        self.correct(operator, &assembler.increment.joints)
+    }
+
+    /// The same in single precision; `false` where its pivots do not do.
+    pub(super) fn solve_in_single(
+        &mut self,
+        assembler: &mut Assembler,
+        model: &Model,
+        state: &State,
+        (conditions, factors): (&Conditions, TangentFactors),
+    ) -> bool {
+        let Some(operator) = self.operator(factors, conditions) else {
+            return false;
+        };
+        let mut additions = std::mem::take(&mut self.single_additions);
+        additions.linearise(self, assembler, model, state, (conditions, factors));
+        self.single_additions = additions;
+        let (places, sweep) = (&self.places.joints, &mut self.single_sweep);
+        assembler.joint_tangents((places, model, state), factors, |joint, tangent| {
+            sweep.join(joint, tangent);
+        });
+        assembler.stopwatch.lap(Phase::Assembly);
+        self.correct_in_single(operator)
     }
 }
 
@@ -355,13 +380,15 @@ impl Equations for ReducedEquations<'_> {
         conditions: &Conditions,
         factors: TangentFactors,
     ) -> Result<(), Singular> {
-        self.reduced.linearise(self.assembler, model, to, conditions, factors);
-        self.assembler.stopwatch.lap(Phase::Assembly);
-        let single = self.reduced.iterations < SINGLE_CORRECTIONS;
-        let solved = self
-            .reduced
-            .correct(&self.assembler.increment.joints, conditions, factors, single);
-        self.assembler.stopwatch.lap(Phase::Solve);
+        let (reduced, assembler) = (&mut *self.reduced, &mut *self.assembler);
+        let single = reduced.iterations < SINGLE_CORRECTIONS
+            && reduced.solve_in_single(assembler, model, to, (conditions, factors));
+        let solved = if single {
+            Ok(())
+        } else {
+            reduced.solve(assembler, model, to, (conditions, factors))
+        };
+        assembler.stopwatch.lap(Phase::Solve);
         solved
     }
 
@@ -398,6 +425,10 @@ impl Equations for ReducedEquations<'_> {
             (value.abs() > most).then_some((unknown, value))
         };
         state.q.iter().enumerate().find_map(beyond)
+    }
+
+    fn instructions(&self) -> Instructions {
+        self.reduced.instructions
     }
 
     fn locate(&self, _: &Model, unknown: usize) -> (usize, Body) {

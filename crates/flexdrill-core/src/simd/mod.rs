@@ -1,6 +1,7 @@
 //! Eight numbers at once: kernels written once over [`Vector`](vector::Vector), run with the instructions that the
 //! processor has.
 
+pub(crate) mod aligned;
 mod instructions;
 pub(crate) mod number;
 pub(crate) mod single;

@@ -2,6 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
 
 /// A number to compute with.
@@ -14,6 +15,8 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     fn store(self, to: &mut Self::Memory);
     /// From one number.
     fn of(x: f64) -> Self;
+    /// self + a b, rounded once where the machine does that.
+    fn plus_product(self, a: Self, b: Self) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
     /// `f` of each number.
@@ -37,6 +40,10 @@ impl Number for f64 {
     #[inline(always)]
     fn of(x: f64) -> Self {
         x
+    }
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self + a * b
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -74,18 +81,23 @@ const fn series<const N: usize>(first: u32) -> [f64; N] {
 }
 
 impl<V: Vector> Number for Eight<V> {
-    type Memory = [f64; 8];
+    type Memory = Aligned<[f64; 8]>;
     #[inline(always)]
-    fn load(from: &[f64; 8]) -> Self {
+    fn load(from: &Aligned<[f64; 8]>) -> Self {
         Self(V::load(from))
     }
     #[inline(always)]
-    fn store(self, to: &mut [f64; 8]) {
+    fn store(self, to: &mut Aligned<[f64; 8]>) {
         self.0.store(to);
     }
     #[inline(always)]
     fn of(x: f64) -> Self {
         Self(V::splat(x))
+    }
+
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        Self(self.0.plus_product(a.0, b.0))
     }
 
     /// Sine and cosine, to two units in the last place of 1 for arguments up to 1e6.
@@ -107,10 +119,10 @@ impl<V: Vector> Number for Eight<V> {
         let s = r * r;
         let (mut sine, mut cosine) = (Self::of(SINE[7]), Self::of(COSINE[8]));
         for k in (0..7).rev() {
-            sine = sine * s + Self::of(SINE[k]);
+            sine = Self::of(SINE[k]).plus_product(sine, s);
         }
         for k in (0..8).rev() {
-            cosine = cosine * s + Self::of(COSINE[k]);
+            cosine = Self::of(COSINE[k]).plus_product(cosine, s);
         }
         sine = sine * r;
         // Quadrant n mod 4 as two bits: `odd` exchanges sine and cosine, `upper` turns both round.
@@ -125,9 +137,9 @@ impl<V: Vector> Number for Eight<V> {
 
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut lanes = [0.0; 8];
+        let mut lanes = Aligned([0.0; 8]);
         self.store(&mut lanes);
-        for x in &mut lanes {
+        for x in lanes.iter_mut() {
             *x = f(*x);
         }
         Self::load(&lanes)
@@ -135,10 +147,10 @@ impl<V: Vector> Number for Eight<V> {
 
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let (mut lanes, mut others) = ([0.0; 8], [0.0; 8]);
+        let (mut lanes, mut others) = (Aligned([0.0; 8]), Aligned([0.0; 8]));
         self.store(&mut lanes);
         other.store(&mut others);
-        for (x, y) in lanes.iter_mut().zip(others) {
+        for (x, y) in lanes.iter_mut().zip(*others) {
             *x = f(*x, y);
         }
         Self::load(&lanes)
@@ -146,12 +158,12 @@ impl<V: Vector> Number for Eight<V> {
 
     #[inline(always)]
     fn any_below(self, bound: Self) -> bool {
-        let (mut lanes, mut bounds) = ([0.0; 8], [0.0; 8]);
+        let (mut lanes, mut bounds) = (Aligned([0.0; 8]), Aligned([0.0; 8]));
         self.store(&mut lanes);
         bound.store(&mut bounds);
         lanes
             .iter()
-            .zip(bounds)
+            .zip(*bounds)
             .fold(false, |any, (x, bound)| any | (*x < bound))
     }
 }
@@ -197,9 +209,9 @@ mod tests {
     fn sine_and_cosine() {
         for k in 0..20_000 {
             let x = (k as f64 - 10_000.0) * 0.731_3;
-            let at: [f64; 8] = std::array::from_fn(|lane| x + 0.1 * lane as f64);
+            let at = Aligned(std::array::from_fn(|lane| x + 0.1 * lane as f64));
             let (sin, cos) = Eight::<Portable>::load(&at).sin_cos();
-            let (mut s, mut c) = ([0.0; 8], [0.0; 8]);
+            let (mut s, mut c) = (Aligned([0.0; 8]), Aligned([0.0; 8]));
             sin.store(&mut s);
             cos.store(&mut c);
             for lane in 0..8 {

@@ -24,8 +24,8 @@ pub(crate) trait Single: Copy {
     fn minus_product(self, a: Self, b: Self) -> Self;
     /// The larger, lane by lane; lanes that are not numbers may be passed over.
     fn largest(self, other: Self) -> Self;
-    /// Lanes 1, 0, 3, 2, ...: neighbours exchanged.
-    fn swapped(self) -> Self;
+    /// In each lane that which `from` names.
+    fn taken(self, from: &[i32; 16]) -> Self;
     /// Lane `K` in every lane.
     fn spread<const K: usize>(self) -> Self;
     /// Lane `J` in the first eight lanes, lane `K` in the others.
@@ -97,10 +97,10 @@ impl Single for PortableSingle {
         self.zip(other, |x, y| if x > y { x } else { y })
     }
     #[inline(always)]
-    fn swapped(self) -> Self {
+    fn taken(self, from: &[i32; 16]) -> Self {
         let mut out = self;
-        for pair in out.0.chunks_exact_mut(2) {
-            pair.swap(0, 1);
+        for (to, from) in out.0.iter_mut().zip(from) {
+            *to = self.0[*from as usize % 16];
         }
         out
     }

@@ -212,12 +212,17 @@ impl Single for Avx2Single {
         unsafe { Self(_mm256_max_ps(self.0, other.0), _mm256_max_ps(self.1, other.1)) }
     }
     #[inline(always)]
-    fn swapped(self) -> Self {
+    fn taken(self, from: &[i32; 16]) -> Self {
         unsafe {
-            Self(
-                _mm256_permute_ps::<0b10_11_00_01>(self.0),
-                _mm256_permute_ps::<0b10_11_00_01>(self.1),
-            )
+            let half = |first: usize| {
+                let from = _mm256_loadu_si256(from.as_ptr().add(first).cast());
+                let low = _mm256_permutevar8x32_ps(self.0, from);
+                let high = _mm256_permutevar8x32_ps(self.1, from);
+                // The sign bit chooses: 8 to 15 are in the upper half.
+                let upper = _mm256_castsi256_ps(_mm256_slli_epi32::<28>(from));
+                _mm256_blendv_ps(low, high, upper)
+            };
+            Self(half(0), half(8))
         }
     }
     #[inline(always)]
@@ -288,8 +293,8 @@ impl Single for Avx512Single {
         unsafe { Self(_mm512_max_ps(self.0, other.0)) }
     }
     #[inline(always)]
-    fn swapped(self) -> Self {
-        unsafe { Self(_mm512_permute_ps::<0b10_11_00_01>(self.0)) }
+    fn taken(self, from: &[i32; 16]) -> Self {
+        unsafe { Self(_mm512_permutexvar_ps(_mm512_loadu_si512(from.as_ptr().cast()), self.0)) }
     }
     #[inline(always)]
     fn spread<const K: usize>(self) -> Self {

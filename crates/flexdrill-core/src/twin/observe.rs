@@ -143,7 +143,7 @@ impl Observer {
         if self.quality.push(dt, stepper.audit()) {
             self.pass_on_trust();
         }
-        let (model, state, forces) = (stepper.model(), stepper.state(), &stepper.newton().assembler);
+        let (model, forces) = (stepper.model(), &stepper.newton().assembler);
         for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
             .into_iter()
             .enumerate()
@@ -159,22 +159,19 @@ impl Observer {
         }
         let (time, judged) = (step as f64 * dt, self.whirl.drive() == DriveState::Turning);
         self.shock.advance(time, dt, judged);
-        for (joint, stop) in forces.joints.iter().enumerate() {
+        for (joint, stop) in forces.stops().enumerate() {
             self.joint_load.push(joint, dt, stop.moment);
             self.ageing.stop(joint, dt, stop.moment);
         }
         self.joint_load.advance(time, dt, judged);
 
-        let bottom = &model.stations[model.last()];
-        let spin = bottom.pipe_above + Direction::Psi as usize;
+        let bottom = stepper.bottom_motion();
         let radius = 0.5 * model.description.bit.diameter;
-        self.tangential.push(dt, radius * state.a[spin]);
-        self.axial.push(dt, state.a[bottom.pipe_above]);
-        // The bit itself is held sideways by the hole.
-        let above = translation(&state.a, model.stations[model.last() - 1].pipe_below);
-        self.lateral.push_square(dt, above.y * above.y + above.z * above.z);
+        self.tangential.push(dt, radius * bottom.spin_acceleration);
+        self.axial.push(dt, bottom.axial_acceleration);
+        self.lateral.push_square(dt, bottom.lateral_square);
         self.stick_slip
-            .push(time, dt, state.v[spin], applied.rotary_speed, judged);
+            .push(time, dt, bottom.spin_rate, applied.rotary_speed, judged);
 
         let share = 1.0 / self.decimation as f64;
         for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
@@ -190,6 +187,7 @@ impl Observer {
             }
         }
         if step.is_multiple_of(self.decimation) {
+            let state = &*stepper.state();
             for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
                 let lateral = gap_lateral(model, state, station, body);
                 (sample.y, sample.z) = (lateral.x, lateral.y);
@@ -260,7 +258,7 @@ impl Observer {
 
     /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
     pub(super) fn fill(&self, stepper: &Stepper, applied: &Applied, out: &mut Snapshot) {
-        let (model, state) = (stepper.model(), stepper.state());
+        let (model, state) = (stepper.model(), &*stepper.state());
         let forces = &stepper.newton().assembler;
         fill_joints(stepper, &mut out.joints);
         let contacts = &mut out.contacts;
@@ -415,14 +413,16 @@ fn fill_layer(
 }
 
 fn fill_joints(stepper: &Stepper, out: &mut Joints) {
-    let (model, state) = (stepper.model(), stepper.state());
+    let (model, state) = (stepper.model(), &*stepper.state());
     let forces = &stepper.newton().assembler;
+    for (to, stop) in out.stop_moment.iter_mut().zip(forces.stops()) {
+        *to = stop.moment;
+    }
     for (j, joint) in model.joints.iter().enumerate() {
         let station = &model.stations[model.joint_stations[j]];
         let q = joint_rotations(model, j, &state.q);
         out.bend_angle[j] = joint.bend_angle(&q);
         out.bend_direction[j] = joint.bend_toolface(&q);
-        out.stop_moment[j] = forces.joints[j].moment;
         let displaced = station.pipe_to_station * translation(&state.q, station.pipe_above);
         out.lateral_y[j] = displaced.y + station.offset.x;
         out.lateral_z[j] = displaced.z + station.offset.y;
@@ -432,11 +432,10 @@ fn fill_joints(stepper: &Stepper, out: &mut Joints) {
         let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
         out.axial_force[j] = -force.x;
         out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
-        let rows = &forces.joints[j].rows;
-        let twist = -rows[0][3] * state.q[first + 3] * model.moment_scale;
+        let twist = -forces.row_gradient(j, 0)[3] * state.q[first + 3] * model.moment_scale;
         out.torque[j] = match joint.law.kind {
             JointKind::Universal | JointKind::BallCage => twist,
-            JointKind::Revolute => twist - rows[1][3] * state.q[first + 4] * model.moment_scale,
+            JointKind::Revolute => twist - forces.row_gradient(j, 1)[3] * state.q[first + 4] * model.moment_scale,
         };
     }
 }

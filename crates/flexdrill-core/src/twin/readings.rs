@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use super::quality::ModelQuality;
 use super::simulation::Simulation;
 use super::snapshot::{Applied, Bit, Contacts, Joints, SolverCounters};
-use crate::dynamics::State;
+use crate::dynamics::StateView;
 use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::translation;
 use crate::elements::gap::Touch;
@@ -182,7 +182,7 @@ impl Simulation {
 
     /// Displacements, multipliers, velocities and accelerations of all unknowns, in the numbering of the model: to
     /// compare states with.
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> StateView<'_> {
         self.stepper().state()
     }
 

@@ -27,7 +27,7 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
     let mut stepper = stepper(Tolerances::default(), SolverKind::Stations);
     let weight_on_bit = 10e3;
     stepper.settle(weight_on_bit).unwrap();
-    let (model, state) = (stepper.model(), stepper.state());
+    let (model, state) = (stepper.model(), &*stepper.state());
     let forces = &stepper.newton().assembler;
     // All forces from outside on both pipes in the world: gravity, weight on bit, wall, supports.
     let mut total = Vector3::z() * (model.mass() * model.description.gravity);
@@ -63,7 +63,7 @@ fn nothing_moves_after_the_static_start() {
     for _ in 0..400 {
         simulation.advance(&inputs);
     }
-    let state = simulation.stepper().state();
+    let state = &*simulation.stepper().state();
     let moved = state
         .q
         .iter()
@@ -124,11 +124,11 @@ fn joints_stay_closed_and_both_solvers_agree() {
         // joints too.
         let compared = step < 10 || step % 100 == 99;
         if compared {
-            reference.start_from(fast.state(), 10e3);
+            reference.start_from(&fast.state(), 10e3);
             reference.advance(2.5e-4, &forcing);
         }
         fast.advance(2.5e-4, &forcing);
-        let (open, turned) = joint_violation(fast.model(), fast.state());
+        let (open, turned) = joint_violation(fast.model(), &fast.state());
         assert!(open < 1e-9 && turned < 1e-9, "joint rows {open} m, {turned}");
         if !compared {
             continue;
@@ -141,7 +141,7 @@ fn joints_stay_closed_and_both_solvers_agree() {
                 .flat_map(|s| [s.pipe_above, s.pipe_below, s.guide]);
             nodes.flat_map(|n| state.q[n..n + 6].to_vec()).collect::<Vec<_>>()
         };
-        let (a, b) = (displacement(fast.state()), displacement(reference.state()));
+        let (a, b) = (displacement(&fast.state()), displacement(&reference.state()));
         let largest = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let apart = a.iter().zip(&b).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
         // Relative 1e-9, the promise for a step.

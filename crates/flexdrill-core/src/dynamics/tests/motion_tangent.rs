@@ -64,10 +64,7 @@ fn check(tool: &ToolDescription) {
     assembler.residual(model, &state, &conditions);
     assert!(assembler.inner.iter().flatten().count() > 2, "no inner contact to test");
     assert!(assembler.outer.iter().flatten().count() > 2, "no outer contact to test");
-    assert!(
-        assembler.joints.iter().any(|joint| joint.moment > 0.0),
-        "no shut stop to test"
-    );
+    assert!(assembler.stops().any(|stop| stop.moment > 0.0), "no shut stop to test");
     assembler.linearise(model, &state, &conditions, factors);
 
     let mut seed = 7;

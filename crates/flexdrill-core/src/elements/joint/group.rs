@@ -2,11 +2,12 @@
 
 use super::Joint;
 use super::law::{JointLaw, RotationFunction, Stop, moments, tangent};
+use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Number};
 use crate::simd::vector::Vector;
 
 /// A value per joint of a group.
-pub type Lane = [f64; 8];
+pub type Lane = Aligned<[f64; 8]>;
 
 /// Up to eight joints next to each other, as given and as linearised last. Lanes without a joint repeat the last one.
 #[derive(Debug, Clone)]
@@ -26,7 +27,7 @@ impl JointGroup {
     /// Of up to eight joints of one kind; there is at least one.
     pub fn of(joints: &[Joint]) -> Self {
         let at = |lane: usize| &joints[lane.min(joints.len() - 1)].law;
-        let each = |value: &dyn Fn(&JointLaw<f64>) -> f64| std::array::from_fn(|lane| value(at(lane)));
+        let each = |value: &dyn Fn(&JointLaw<f64>) -> f64| Aligned(std::array::from_fn(|lane| value(at(lane))));
         Self {
             law: JointLaw {
                 kind: at(0).kind,
@@ -35,6 +36,7 @@ impl JointGroup {
                 hinge_cosine: each(&|law| law.hinge_cosine),
                 limit: each(&|law| law.limit),
                 limit_cosine: each(&|law| law.limit_cosine),
+                limit_sine: each(&|law| law.limit_sine),
                 stop_stiffness: at(0).stop_stiffness,
                 stop_damping: at(0).stop_damping,
             },
@@ -42,7 +44,7 @@ impl JointGroup {
             count: Joint::rotational_rows(at(0).kind),
             stop: Stop::default(),
             shut: false,
-            rate: [[0.0; 8]; 6],
+            rate: [Lane::default(); 6],
         }
     }
 
@@ -66,9 +68,9 @@ impl JointGroup {
         let was_shut = self.shut;
         self.shut = self.law.has_stop() && self.law.stop(&q, &rate, &mut self.stop);
         if was_shut && !self.shut {
-            (self.stop.moment, self.stop.energy, self.stop.dissipation) = ([0.0; 8], [0.0; 8], [0.0; 8]);
+            (self.stop.moment, self.stop.energy, self.stop.dissipation) = Default::default();
         }
-        let mut out = [[0.0; 8]; 6];
+        let mut out = [Lane::default(); 6];
         let stop = self.shut.then_some(&self.stop);
         moments(&self.rows[..self.count], &lambda[..self.count], stop, &mut out);
         out
@@ -130,13 +132,14 @@ mod tests {
                 let fast = if lane == 1 { -30.0 } else { 0.3 };
                 [4.0, fast, 0.1, 4.1, -0.2, 0.05][k]
             };
-            let q: [Lane; 6] = std::array::from_fn(|k| std::array::from_fn(|lane| at(k, lane)));
-            let rate: [Lane; 6] = std::array::from_fn(|k| std::array::from_fn(|lane| rates(k, lane)));
-            let lambda: [Lane; 2] =
-                std::array::from_fn(|row| std::array::from_fn(|lane| 50.0 - 10.0 * lane as f64 + 7.0 * row as f64));
+            let q: [Lane; 6] = std::array::from_fn(|k| Aligned(std::array::from_fn(|lane| at(k, lane))));
+            let rate: [Lane; 6] = std::array::from_fn(|k| Aligned(std::array::from_fn(|lane| rates(k, lane))));
+            let lambda: [Lane; 2] = std::array::from_fn(|row| {
+                Aligned(std::array::from_fn(|lane| 50.0 - 10.0 * lane as f64 + 7.0 * row as f64))
+            });
             let mut group = JointGroup::of(&joints);
             let got = group.evaluate::<Portable>(&q, &rate, &lambda);
-            let mut derivative = [[[0.0; 8]; 6]; 6];
+            let mut derivative = [[Lane::default(); 6]; 6];
             group.tangent::<Portable>(&lambda, 1.0, 700.0, &mut derivative);
             let count = group.rows().len();
             for (lane, joint) in joints.iter().enumerate() {

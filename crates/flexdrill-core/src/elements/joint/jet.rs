@@ -29,11 +29,11 @@ impl<T: Number> Jet<T> {
     /// Adds `factor` times `other`.
     #[inline(always)]
     pub fn add(&mut self, factor: T, other: &Self) {
-        self.value = self.value + factor * other.value;
+        self.value = self.value.plus_product(factor, other.value);
         for k in 0..3 {
-            self.gradient[k] = self.gradient[k] + factor * other.gradient[k];
+            self.gradient[k] = self.gradient[k].plus_product(factor, other.gradient[k]);
             for l in k..3 {
-                let sum = self.hessian[k][l] + factor * other.hessian[k][l];
+                let sum = self.hessian[k][l].plus_product(factor, other.hessian[k][l]);
                 self.hessian[k][l] = sum;
                 self.hessian[l][k] = sum;
             }

@@ -9,6 +9,20 @@ use super::rotation::{DirectionJet, shaft_axis, shaft_direction, transverse_axis
 use crate::simd::number::Number;
 use crate::tool::description::JointKind;
 
+/// Coefficients of arcsin(x)/x in powers of x^2: (2n)! / (4^n n!^2 (2n + 1)).
+const ARC_SINE: [f64; 10] = {
+    let mut c = [1.0; 10];
+    let (mut n, mut ratio) = (1, 1.0);
+    while n < c.len() {
+        ratio *= (2 * n - 1) as f64 / (2 * n) as f64;
+        c[n] = ratio / (2 * n + 1) as f64;
+        n += 1;
+    }
+    c
+};
+/// Up to this sine (7 degrees) they give the angle to rounding: the next term is 0.125^20 / 120.
+const LARGEST_SINE: f64 = 0.125;
+
 /// A scalar function of a joint's six rotations with its derivatives.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RotationFunction<M> {
@@ -33,8 +47,9 @@ pub struct JointLaw<M> {
     pub hinge_cosine: M,
     /// Bend angle at which the stop begins (rad).
     pub limit: M,
-    /// Cosine of the limit: the stop is looked for without an angle.
+    /// Cosine and sine of the limit: the stop is looked for without an angle.
     pub limit_cosine: M,
+    pub limit_sine: M,
     /// k of the stop (N m/rad).
     pub stop_stiffness: f64,
     /// c of the stop (s/rad).
@@ -96,16 +111,16 @@ impl<T: Number> Product<T> {
             for (part, &factor) in below.iter().zip(row) {
                 b.add(factor, part);
             }
-            out.value = out.value + a.value * b.value;
+            out.value = out.value.plus_product(a.value, b.value);
             for k in 0..3 {
-                out.gradient[k] = out.gradient[k] + a.gradient[k] * b.value;
-                out.gradient[3 + k] = out.gradient[3 + k] + a.value * b.gradient[k];
+                out.gradient[k] = out.gradient[k].plus_product(a.gradient[k], b.value);
+                out.gradient[3 + k] = out.gradient[3 + k].plus_product(a.value, b.gradient[k]);
                 for l in k..3 {
-                    out.hessian[k][l] = out.hessian[k][l] + a.hessian[k][l] * b.value;
-                    out.hessian[3 + k][3 + l] = out.hessian[3 + k][3 + l] + a.value * b.hessian[k][l];
+                    out.hessian[k][l] = out.hessian[k][l].plus_product(a.hessian[k][l], b.value);
+                    out.hessian[3 + k][3 + l] = out.hessian[3 + k][3 + l].plus_product(a.value, b.hessian[k][l]);
                 }
                 for l in 0..3 {
-                    out.hessian[k][3 + l] = out.hessian[k][3 + l] + a.gradient[k] * b.gradient[l];
+                    out.hessian[k][3 + l] = out.hessian[k][3 + l].plus_product(a.gradient[k], b.gradient[l]);
                 }
             }
         }
@@ -198,6 +213,23 @@ impl<M> JointLaw<M> {
         out
     }
 
+    /// Bend angle less the limit (rad), of the sine and cosine of the bend angle; where it is negative only its sign.
+    #[inline(always)]
+    fn beyond_limit<T: Number<Memory = M>>(&self, sine: T, cosine: T) -> T {
+        let (limit_sine, limit_cosine) = (T::load(&self.limit_sine), T::load(&self.limit_cosine));
+        let of_sine = sine * limit_cosine - cosine * limit_sine;
+        let of_cosine = cosine * limit_cosine + sine * limit_sine;
+        if T::of(LARGEST_SINE).any_below(of_sine) || of_cosine.any_below(T::of(0.0)) {
+            return of_sine.zip(of_cosine, libm::atan2);
+        }
+        let square = of_sine * of_sine;
+        let mut sum = T::of(ARC_SINE[ARC_SINE.len() - 1]);
+        for &c in ARC_SINE[..ARC_SINE.len() - 1].iter().rev() {
+            sum = T::of(c).plus_product(sum, square);
+        }
+        sum * of_sine
+    }
+
     /// Eq. 13, third row read as a limit: the stop at rotations `q` and rates `rate`,
     /// M = k (angle - limit)(1 + c angle') >= 0, which is continuous at onset. Returns whether it is shut (for some
     /// joint of `T`); where not, as nearly always, `stop` is left as it is.
@@ -220,7 +252,7 @@ impl<M> JointLaw<M> {
             upper[0] * lower[1] - upper[1] * lower[0],
         ];
         let sine = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).map(f64::sqrt);
-        let over = sine.zip(cosine, libm::atan2) - T::load(&self.limit);
+        let over = self.beyond_limit(sine, cosine);
         let (k, c) = (self.stop_stiffness, self.stop_damping);
         let spring = over.map(|over| if over > 0.0 { k * over } else { 0.0 });
         let inverse = sine.zip(over, |sine, over| if over > 0.0 { 1.0 / sine } else { 0.0 });
@@ -282,10 +314,10 @@ pub fn moments<T: Number>(
     for (k, out) in out.iter_mut().enumerate() {
         let mut moment = T::load(&rows[0].gradient[k]) * lambda[0];
         for (row, &lambda) in rows.iter().zip(lambda).skip(1) {
-            moment = moment + T::load(&row.gradient[k]) * lambda;
+            moment = moment.plus_product(T::load(&row.gradient[k]), lambda);
         }
         if let Some(stop) = stop {
-            moment = moment + T::load(&stop.gradient[k]) * T::load(&stop.moment);
+            moment = moment.plus_product(T::load(&stop.gradient[k]), T::load(&stop.moment));
         }
         moment.store(out);
     }
@@ -310,7 +342,7 @@ pub fn tangent<T: Number>(
         for (k, entry) in column.iter_mut().enumerate() {
             let mut sum = T::load(&rows[0].hessian[l][k]) * (lambda[0] * stiff);
             for (row, &lambda) in rows.iter().zip(lambda).skip(1) {
-                sum = sum + T::load(&row.hessian[l][k]) * (lambda * stiff);
+                sum = sum.plus_product(T::load(&row.hessian[l][k]), lambda * stiff);
             }
             sum.store(entry);
         }

@@ -47,6 +47,7 @@ impl Joint {
             hinge_cosine: 0.0,
             limit: description.limit,
             limit_cosine: libm::cos(description.limit),
+            limit_sine: libm::sin(description.limit),
             stop_stiffness: description.stop_stiffness,
             stop_damping: description.stop_damping,
         };

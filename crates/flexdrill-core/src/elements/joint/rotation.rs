@@ -38,9 +38,9 @@ const fn coefficients(first: u32) -> [f64; TERMS] {
 fn series<T: Number>(c: &[f64; TERMS], s: T) -> [T; 3] {
     let mut sum = [T::of(c[TERMS - 1]), T::of(0.0), T::of(0.0)];
     for &c in c[..TERMS - 1].iter().rev() {
-        sum[2] = sum[2] * s + sum[1];
-        sum[1] = sum[1] * s + sum[0];
-        sum[0] = sum[0] * s + T::of(c);
+        sum[2] = sum[1].plus_product(sum[2], s);
+        sum[1] = sum[0].plus_product(sum[1], s);
+        sum[0] = T::of(c).plus_product(sum[0], s);
     }
     sum[2] = sum[2] * T::of(2.0);
     sum

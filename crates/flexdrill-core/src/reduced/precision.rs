@@ -1,0 +1,170 @@
+//! The two precisions in which a tangent is made: double, and single for corrections whose residual is taken in double.
+
+use std::ops::AddAssign;
+
+use super::residual::{load, store};
+use super::slaving::LinkMatrices;
+use super::{GUIDE, NODE, U};
+use crate::simd::single::Single;
+use crate::simd::vector::Vector;
+
+/// A number of a tangent.
+pub(super) trait Precision: Copy + AddAssign + 'static {
+    const ZERO: Self;
+    /// Sixteen of them, by vector instructions.
+    type Lanes<V: Vector>: Lanes<Self>;
+    /// Rounded to this precision.
+    fn of(x: f64) -> Self;
+    /// What local forces at the stations of a span put on its nodes.
+    fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>];
+}
+
+/// Sixteen numbers: a column of a node's block.
+pub(super) trait Lanes<S>: Copy {
+    fn load(from: &[S; NODE]) -> Self;
+    fn store(self, to: &mut [S; NODE]);
+    fn splat(x: S) -> Self;
+    fn plus(self, other: Self) -> Self;
+    fn times(self, other: Self) -> Self;
+    /// self + a b, rounded once where the machine does that.
+    fn plus_product(self, a: Self, b: Self) -> Self;
+}
+
+/// What each of six local forces at a station puts on the unknowns of the nodes [above, below] of its span, through the
+/// pipe and through the guide. Slaving is its own transpose here: the same numbers say how the station moves by them.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub(super) struct OnNodes<S> {
+    pub pipe: [[[S; NODE]; 6]; 2],
+    pub guide: [[[S; NODE]; 6]; 2],
+}
+
+impl<S: Precision> OnNodes<S> {
+    /// From the rows of a station over the ends of its span, [pipe, guide].
+    pub(super) fn of(rows: &[[[f64; 16]; 6]; 2]) -> Self {
+        let made = |body: usize| {
+            std::array::from_fn(|end| {
+                let first = match (body, end) {
+                    (0, 0) => U,
+                    (0, _) => 0,
+                    _ => GUIDE,
+                };
+                std::array::from_fn(|k| {
+                    let mut column = [S::ZERO; NODE];
+                    let row: &[f64; 16] = &rows[body][k];
+                    (0..6).for_each(|i| column[first + i] = S::of(row[8 * end + i]));
+                    column
+                })
+            })
+        };
+        Self {
+            pipe: made(0),
+            guide: made(1),
+        }
+    }
+}
+
+impl Precision for f64 {
+    const ZERO: Self = 0.0;
+    type Lanes<V: Vector> = Double<V>;
+
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>] {
+        &kind.on_nodes
+    }
+}
+
+impl Precision for f32 {
+    const ZERO: Self = 0.0;
+    type Lanes<V: Vector> = Rounded<V::Single>;
+
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        x as Self
+    }
+
+    #[inline(always)]
+    fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>] {
+        &kind.on_nodes_single
+    }
+}
+
+/// Sixteen numbers of double precision.
+#[derive(Clone, Copy)]
+pub(super) struct Double<V>([V; 2]);
+
+impl<V: Vector> Lanes<f64> for Double<V> {
+    #[inline(always)]
+    fn load(from: &[f64; NODE]) -> Self {
+        Self(load(from))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f64; NODE]) {
+        store(self.0, to);
+    }
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self([V::splat(x); 2])
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self([self.0[0].plus(other.0[0]), self.0[1].plus(other.0[1])])
+    }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        Self([self.0[0].times(other.0[0]), self.0[1].times(other.0[1])])
+    }
+
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        Self([
+            self.0[0].plus_product(a.0[0], b.0[0]),
+            self.0[1].plus_product(a.0[1], b.0[1]),
+        ])
+    }
+}
+
+/// Sixteen numbers of single precision.
+#[derive(Clone, Copy)]
+pub(super) struct Rounded<S>(S);
+
+impl<S: Single> Lanes<f32> for Rounded<S> {
+    #[inline(always)]
+    fn load(from: &[f32; NODE]) -> Self {
+        Self(S::load(from))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f32; NODE]) {
+        self.0.store(to);
+    }
+
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        Self(S::splat(x))
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self(self.0.plus(other.0))
+    }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        Self(self.0.times(other.0))
+    }
+
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        Self(self.0.plus_product(a.0, b.0))
+    }
+}
