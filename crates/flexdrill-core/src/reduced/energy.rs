@@ -1,7 +1,7 @@
 //! The energy audit's point over the joints: elements and friction; the rest is shared with the whole tool.
 
 use super::contacts::at_radius;
-use super::residual::{load, plus_column, product, store};
+use super::residual::{around, load, plus_column, product, store};
 use super::slaving::TENSION;
 use super::{EndColumn, Reduced, at_ends, ends, span_of};
 use crate::dynamics::assembly::Assembler;
@@ -59,24 +59,6 @@ fn add(values: &mut [f64], [top, bottom]: [usize; 2], force: &EndColumn) {
 
 /// One in the lanes of a top end's forces.
 static FORCES: [f64; 8] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0];
-
-/// Eight values from each end on.
-#[inline(always)]
-fn around<V: Vector>(values: &[f64], ends: [usize; 2]) -> [V; 2] {
-    let mut out = [V::splat(0.0); 2];
-    for (out, first) in out.iter_mut().zip(ends) {
-        *out = match values[first..].first_chunk() {
-            Some(eight) => V::load(eight),
-            None => {
-                // The guide's end at the bottom is the last but one of all.
-                let mut last = [0.0; 8];
-                last[..6].copy_from_slice(&values[first..first + 6]);
-                V::load(&last)
-            }
-        };
-    }
-    out
-}
 
 /// Forces of the spans and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
 struct SpanEnergies<'a> {

@@ -1,10 +1,11 @@
 //! The residual over the joints: spans, point masses, contacts, joints, ends.
 //!
 //! A step's first residual is evaluated whole. After that only the correction's share is added: what is linear changes by
-//! the step-constant tangent times the correction; geometric stiffness, contacts, stops and joint rows are evaluated anew.
+//! the step-constant tangent times the correction, and what geometric stiffness multiplies its axial force by likewise;
+//! contacts, stops and joint rows are evaluated anew.
 
 use super::slaving::TENSION;
-use super::{EndColumn, Ends, GUIDE, NODE, Reduced, U, at_ends};
+use super::{EndColumn, Ends, GUIDE, NODE, Reduced, U, at_ends, ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::phases::Phase;
@@ -34,17 +35,6 @@ pub(super) fn store<V: Vector>(values: [V; 2], column: &mut [f64; 16]) {
 pub(super) fn plus_column<V: Vector>(sum: [V; 2], column: &[f64; 16], x: V) -> [V; 2] {
     let column = load::<V>(column);
     [sum[0].plus_product(column[0], x), sum[1].plus_product(column[1], x)]
-}
-
-/// Axial force of a span's body by its ends.
-#[inline(always)]
-fn tension(by: &[f64; 12], [top, bottom]: &Ends) -> f64 {
-    let (mut above, mut below) = (0.0, 0.0);
-    for j in 0..6 {
-        above += by[j] * top[j];
-        below += by[6 + j] * bottom[j];
-    }
-    above + below
 }
 
 impl Reduced {
@@ -97,17 +87,37 @@ impl Kernel for Foresee<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self { by, from, h } = self;
-        let ((q, _), (v, _)) = (from.q.as_chunks(), from.v.as_chunks());
+        let h = V::splat(h);
         for (l, (out, link)) in by.foreseen.iter_mut().zip(&by.links).enumerate() {
             for (body, out) in out.iter_mut().enumerate() {
-                let (mut at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
-                for (at, rate) in at.iter_mut().flatten().zip(rate.iter().flatten()) {
-                    *at += h * rate;
-                }
-                *out = tension(&by.kinds[link.kind].tension[body], &at);
+                let (q, v) = (around::<V>(&from.q, ends(l, body)), around::<V>(&from.v, ends(l, body)));
+                let tension: [V; 2] = load(&by.kinds[link.kind].tension[body]);
+                let top = q[0].plus_product(v[0], h).times(tension[0]);
+                let bottom = q[1].plus_product(v[1], h);
+                let mut lanes = Aligned([0.0; 8]);
+                top.plus_product(bottom, tension[1]).store(&mut lanes);
+                *out = (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + (lanes[4] + lanes[5]);
             }
         }
     }
+}
+
+/// Eight values from each end on. Two of each belong to other unknowns, and are to be multiplied by zero.
+#[inline(always)]
+pub(super) fn around<V: Vector>(values: &[f64], ends: [usize; 2]) -> [V; 2] {
+    let mut out = [V::splat(0.0); 2];
+    for (out, first) in out.iter_mut().zip(ends) {
+        *out = match values[first..].first_chunk() {
+            Some(eight) => V::load(eight),
+            None => {
+                // The guide's end at the bottom is the last but one of all.
+                let mut last = [0.0; 8];
+                last[..6].copy_from_slice(&values[first..first + 6]);
+                V::load(&last)
+            }
+        };
+    }
+    out
 }
 
 /// The residual of gravity, spans and contacts.
@@ -204,16 +214,9 @@ impl Kernel for Spans<'_> {
         for (l, link) in by.links.iter().enumerate() {
             let kind = &by.kinds[link.kind];
             for (body, axial) in [&mut to.pipe_axial, &mut to.guide_axial].into_iter().enumerate() {
-                let at = at_ends(q, l, body);
-                store(product::<V>(&kind.geometric[body], &at), &mut by.stretched[l][body]);
-                if !keep_axial {
-                    let now = by.stretched[l][body][TENSION];
-                    axial[l] = now + part * (by.foreseen[l][body] - now);
-                }
-                let linear = &mut by.linear[l][body];
-                let sum = match operator {
+                let (sum, stretched) = match operator {
                     None => {
-                        let rate = at_ends(v, l, body);
+                        let (at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
                         let (mut strained, mut pushed) = (at, at_ends(a, l, body));
                         for end in 0..2 {
                             for j in 0..6 {
@@ -223,19 +226,49 @@ impl Kernel for Spans<'_> {
                         }
                         let stiff = product::<V>(&kind.stiffness[body], &strained);
                         let inert = product::<V>(&kind.mass[body], &pushed);
-                        [stiff[0].plus(inert[0]), stiff[1].plus(inert[1])]
+                        let sum = [stiff[0].plus(inert[0]), stiff[1].plus(inert[1])];
+                        (sum, product::<V>(&kind.geometric[body], &at))
                     }
                     Some(operator) => {
                         let columns = &by.operators[operator].spans[link.kind][body];
-                        let added = product::<V>(columns, &at_ends(corrections, l, body));
-                        let before: [V; 2] = load(linear);
-                        [before[0].plus(added[0]), before[1].plus(added[1])]
+                        let dq = at_ends(corrections, l, body);
+                        let sums = [load(&by.linear[l][body]), load(&by.stretched[l][body])];
+                        products([columns, &kind.geometric[body]], &dq, sums)
                     }
                 };
+                store(stretched, &mut by.stretched[l][body]);
+                if !keep_axial {
+                    let now = by.stretched[l][body][TENSION];
+                    axial[l] = now + part * (by.foreseen[l][body] - now);
+                }
+                let linear = &mut by.linear[l][body];
                 store(sum, linear);
             }
         }
     }
+}
+
+/// Two matrices over both ends times what the ends are, added to `sums`.
+#[inline(always)]
+fn products<V: Vector>(
+    [first, second]: [&[EndColumn; 12]; 2],
+    [top, bottom]: &Ends,
+    sums: [[V; 2]; 2],
+) -> ([V; 2], [V; 2]) {
+    let zero = [V::splat(0.0); 2];
+    let [mut above, mut other_above] = sums;
+    let (mut below, mut other_below) = (zero, zero);
+    for j in 0..6 {
+        let (x, y) = (V::splat(top[j]), V::splat(bottom[j]));
+        above = plus_column(above, &first[j], x);
+        other_above = plus_column(other_above, &second[j], x);
+        below = plus_column(below, &first[6 + j], y);
+        other_below = plus_column(other_below, &second[6 + j], y);
+    }
+    (
+        [above[0].plus(below[0]), above[1].plus(below[1])],
+        [other_above[0].plus(other_below[0]), other_above[1].plus(other_below[1])],
+    )
 }
 
 /// A matrix over both ends times what the ends are.

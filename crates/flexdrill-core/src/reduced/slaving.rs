@@ -19,7 +19,7 @@ pub(super) struct LinkMatrices {
     pub mass: Aligned<[[EndColumn; 12]; 2]>,
     pub geometric: Aligned<[[EndColumn; 12]; 2]>,
     /// Mean axial force (N) by the ends' displacements; also in lane [`TENSION`] of the geometric stiffness.
-    pub tension: [[f64; 12]; 2],
+    pub tension: Aligned<[EndColumn; 2]>,
     /// Lateral position of each station but the first in its station's frame: y in 0..8, z in 8..16.
     pub lateral: Aligned<[[EndColumn; 12]; 2]>,
     /// Local motion of each station, the top included: the pipe's in the station's frame, rotations times its radius; the
@@ -151,7 +151,7 @@ impl LinkMatrices {
         let condensed =
             |body: usize, which: usize| columns(&(slaved[body].transpose() * &matrices[body][which] * &slaved[body]));
         let both = |which: usize| Aligned([condensed(0, which), condensed(1, which)]);
-        let tension = std::array::from_fn(|body| {
+        let tension: [[f64; 12]; 2] = std::array::from_fn(|body| {
             std::array::from_fn(|j| {
                 let along = |e: usize| {
                     let column = slaved[body].column(j);
@@ -210,7 +210,7 @@ impl LinkMatrices {
             stiffness: both(0),
             mass: both(1),
             geometric: geometric(&both(2), &tension),
-            tension,
+            tension: Aligned(tension.map(|tension| end_column(|j| tension[j]))),
             lateral: Aligned(lateral),
             motion,
             on_nodes: force.iter().map(|rows| OnNodes::of(rows)).collect(),
@@ -268,11 +268,14 @@ pub(super) const fn row(k: usize) -> usize {
 }
 
 fn columns(matrix: &DMatrix<f64>) -> [EndColumn; 12] {
-    std::array::from_fn(|j| {
-        let mut column = [0.0; 16];
-        (0..12).for_each(|i| column[row(i)] = matrix[(i, j)]);
-        column
-    })
+    std::array::from_fn(|j| end_column(|i| matrix[(i, j)]))
+}
+
+/// A column of the twelve unknowns of both ends.
+fn end_column(of: impl Fn(usize) -> f64) -> EndColumn {
+    let mut column = [0.0; 16];
+    (0..12).for_each(|i| column[row(i)] = of(i));
+    column
 }
 
 /// Displacements of all nodes by those of the two ends, twelve columns, and the slowest inner frequency (rad/s).
