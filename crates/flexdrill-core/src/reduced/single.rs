@@ -196,7 +196,13 @@ fn pair<S: Single, const N: usize, const K: usize, const NEXT: usize>(
     inverse.mate = inverse.mate.minus_product(row, q.times(reciprocal));
     inverse.mate = inverse.mate.minus_product(next, r.times(reciprocal));
     let beyond = S::load(&BEYOND[N]);
-    let (x, y) = (by_first.times(beyond), by_second.times(beyond));
+    let (x, mut y) = (by_first.times(beyond), by_second.times(beyond));
+    if N == 0 {
+        // The multiplier's unit is any; in that which makes its row as large as its mate's the factor is this.
+        let zero = S::splat(0.0);
+        let size = p.largest(zero.minus(p)).largest(r.largest(zero.minus(r)));
+        y = y.times(r.over(size));
+    }
     x.times(x).largest(y.times(y))
 }
 
