@@ -189,3 +189,55 @@ fn parameters_set_before_the_first_tick_act_and_a_standing_clock_ends_a_run() {
     twin.wait_for("model time has stood still for the configured duration of 8 s");
     assert_eq!(twin.end(), Some(0));
 }
+
+/// A twin that is stopped for a moment, as a busy machine stops it, while a publisher floods an input: 256 samples wait,
+/// and the others are counted and told, in the log, the status and the diagnostics.
+#[test]
+fn samples_that_come_faster_than_they_are_taken_are_counted_and_told() {
+    let Some(network) = Network::new() else { return };
+    let (Some(mut flood), Some(mut peer)) = (network.peer(), network.peer()) else {
+        return;
+    };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    peer.subscribe(STATUS.0, STATUS.1, "reliable");
+    peer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "reliable");
+    let before = peer.status_with(STATUS.0, |_| true);
+    assert_eq!(before["input_overrun"], json!([0, 0]));
+    let flooding = std::thread::spawn(move || {
+        flood.command(json!({
+            "do": "flood", "topic": SPEED, "type": "std_msgs/msg/Float64", "value": {"data": 40.0}, "seconds": 12.0,
+        }))
+    });
+    // What goes through the sockets meanwhile depends on the machine, so several times; shorter than its patience with DDS.
+    for _ in 0..8 {
+        std::thread::sleep(Duration::from_millis(400));
+        twin.signal("STOP");
+        std::thread::sleep(Duration::from_millis(800));
+        twin.signal("CONT");
+    }
+    let sent = flooding.join().unwrap()["count"].as_u64().unwrap();
+    let lost = |status: &Value| status["input_overrun"][0].as_u64().unwrap();
+    let status = peer.status_with(STATUS.0, |status| lost(status) > 0);
+    assert!(
+        lost(&status) < sent && status["input_overrun"][1] == json!(0),
+        "{status}"
+    );
+    assert_eq!(received(&status).map(f64::round), Some(40.0), "the newest acts");
+    assert_eq!(status["dds_restarts"], 0, "{}", status["dds_restart_cause"]);
+    let line = twin.wait_for("came faster than they were taken");
+    assert!(line.contains("rig/rotary_speed_rpm: "), "{line}");
+    let deadline = Instant::now() + Duration::from_secs(10);
+    loop {
+        assert!(Instant::now() < deadline, "the diagnostics do not tell");
+        let told = peer.take("/diagnostics", 1, 1.0);
+        if told
+            .iter()
+            .any(|message| message.to_string().contains("came too fast to be taken"))
+        {
+            break;
+        }
+    }
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+}

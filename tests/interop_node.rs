@@ -295,6 +295,19 @@ fn types_are_described_to_both_kinds_of_clients() {
     let status = ask(&mut peer, STATUS.1, "", false);
     let text = std::fs::read_to_string(common::root().join("msg/TwinStatus.msg")).unwrap();
     assert_eq!(status["type_sources"][0]["raw_file_contents"], text);
+    // Services too; the known hash is one that ROS 2 gives.
+    let own = flexdrill::messages::find_service("flexdrill/srv/ShelveAlarm").unwrap();
+    let trigger = "RIHS01_eeff2cd6fa5ad9d27cdf4dec64818317839b62f212a91e6b5304b634b2062c5f";
+    for (name, hash, header) in [
+        ("std_srvs/srv/Trigger", trigger, true),
+        (own.ros_type, own.rihs01, false),
+    ] {
+        let reply = ask(&mut peer, name, hash, header);
+        assert_eq!(reply["successful"], true, "{name}: {reply}");
+        let again = peer.command(json!({"do": "rihs01", "description": reply["type_description"]}));
+        assert_eq!(again["hash"], hash, "{name}");
+        assert_eq!(reply["type_sources"][0]["encoding"], "srv", "{name}");
+    }
     let other = format!("RIHS01_{}", "0".repeat(64));
     for (name, hash, words) in [
         (
@@ -302,11 +315,7 @@ fn types_are_described_to_both_kinds_of_clients() {
             other.as_str(),
             "the definition that is asked for is another one",
         ),
-        (
-            "flexdrill/msg/Nothing",
-            "",
-            "knows no message type 'flexdrill/msg/Nothing'",
-        ),
+        ("flexdrill/msg/Nothing", "", "knows no type 'flexdrill/msg/Nothing'"),
     ] {
         let refused = ask(&mut peer, name, hash, true);
         assert_eq!(refused["successful"], false);

@@ -29,7 +29,7 @@ const DEFAULT_CONFIG_NAME: &str = "config/default.yaml (built in)";
 #[command(
     after_help = "ROS 2 arguments follow --ros-args, up to -- or the end: -r from:=to, -r __ns:=/rig_7, -r __node:=name, \
     -p name:=value, --params-file FILE, --log-level LEVEL.\nEvery key of the configuration is a parameter of the same dotted name; \
-    -p and parameter files win over the configuration file.\nROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE and \
+    -p and parameter files win over the configuration file.\nROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and \
     RMW_IMPLEMENTATION are followed; RUST_LOG sets the log filter."
 )]
 pub(super) struct RunArgs {
@@ -83,7 +83,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .map_err(WrongUse::new)?;
     let started = parameters::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
-    let network = network.configured(&started.config.network);
+    let network = network.configured(&started.config.network).map_err(WrongUse::new)?;
     let state_dir = args
         .state_dir
         .clone()

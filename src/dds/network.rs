@@ -28,6 +28,8 @@ pub struct Network {
     pub reach: Reach,
     /// Addresses of the interfaces to use; all if there are none.
     pub interfaces: Vec<IpAddr>,
+    /// Machines that multicast does not reach, by name or IPv4 address.
+    pub peers: Vec<String>,
     /// Folder with the keys, certificates and permissions of DDS Security; without one anybody may read and write.
     pub keys: Option<PathBuf>,
 }
@@ -46,6 +48,17 @@ pub enum NetworkError {
     /// Not a word that ROS 2 knows.
     #[error("ROS_AUTOMATIC_DISCOVERY_RANGE is '{0}'; use SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT")]
     Range(String),
+    /// No name of a machine.
+    #[error(
+        "ROS_STATIC_PEERS has '{0}'; give names of machines or IPv4 addresses without ports, with semicolons between them"
+    )]
+    Peer(String),
+    /// Other machines are named, and DDS is kept on this one.
+    #[error(
+        "network.peers in the configuration names {0}, and ROS_AUTOMATIC_DISCOVERY_RANGE or ROS_LOCALHOST_ONLY keeps \
+         DDS on this machine; set network.reach: subnet, or leave network.peers out"
+    )]
+    PeersKeptOut(String),
     /// DDS Security is asked for, and it is not said with which keys.
     #[error("ROS_SECURITY_ENABLE is true and ROS_SECURITY_KEYSTORE is not set; set it to the folder of the keystore")]
     NoKeystore,
@@ -102,8 +115,10 @@ impl Network {
         if localhost_only {
             reach = Reach::Localhost;
         }
-        if variable("ROS_STATIC_PEERS").is_some() {
-            notes.push("ROS_STATIC_PEERS is ignored: RustDDS finds other machines by multicast only".into());
+        let mut peers = peers(variable("ROS_STATIC_PEERS").as_deref())?;
+        if reach == Reach::Localhost && !peers.is_empty() {
+            notes.push("ROS_STATIC_PEERS is ignored: the node stays on this machine, and RustDDS cannot open it to some machines only; set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET, with a firewall".into());
+            peers.clear();
         }
         if variable("ROS_DISCOVERY_SERVER").is_some() {
             notes.push("ROS_DISCOVERY_SERVER is ignored: it belongs to Fast DDS".into());
@@ -112,51 +127,58 @@ impl Network {
             domain_id,
             reach,
             interfaces: Vec::new(),
+            peers,
             keys: keys(variable)?,
         };
         Ok((network, notes))
     }
 
     /// As the configuration restricts or widens it.
-    #[must_use]
-    pub fn configured(mut self, network: &flexdrill_config::Network) -> Self {
+    ///
+    /// # Errors
+    /// When it names other machines, and ROS 2's variables keep DDS on this one.
+    pub fn configured(mut self, network: &flexdrill_config::Network) -> Result<Self, NetworkError> {
         match network.reach {
             flexdrill_config::Reach::Environment => {}
             flexdrill_config::Reach::Subnet => self.reach = Reach::Subnet,
             flexdrill_config::Reach::Localhost => self.reach = Reach::Localhost,
         }
         self.interfaces.clone_from(&network.interfaces);
-        self
+        if !network.peers.is_empty() {
+            self.peers.clone_from(&network.peers);
+        }
+        if self.reach == Reach::Localhost {
+            // Those of the environment would have been told of.
+            if !network.peers.is_empty() {
+                return Err(NetworkError::PeersKeptOut(self.peers.join(", ")));
+            }
+            self.peers.clear();
+        }
+        Ok(self)
     }
 
     /// Who can reach the node, and what that means.
     pub fn describe(&self) -> String {
         let domain = self.domain_id;
-        let interfaces = || {
+        if self.reach == Reach::Localhost {
+            return format!("domain {domain}, this machine only{}", self.security());
+        }
+        let mut places = if self.interfaces.is_empty() {
+            "all interfaces".to_owned()
+        } else {
             let shown: Vec<String> = self.interfaces.iter().map(ToString::to_string).collect();
             shown.join(", ")
         };
-        match (self.reach, self.interfaces.is_empty()) {
-            (Reach::Localhost, _) => format!("domain {domain}, this machine only{}", self.security()),
-            (Reach::Subnet, is_all) if self.keys.is_some() => format!(
-                "domain {domain}, {}{}",
-                if is_all {
-                    "all interfaces".to_owned()
-                } else {
-                    interfaces()
-                },
-                self.security()
-            ),
-            (Reach::Subnet, is_all) => format!(
-                "domain {domain}, {}: any machine there can read the outputs, send inputs and set parameters \
-                 (network.reach: localhost keeps it on this machine)",
-                if is_all {
-                    "all interfaces".to_owned()
-                } else {
-                    interfaces()
-                }
-            ),
+        if !self.peers.is_empty() {
+            places += &format!(" and the peers {}", self.peers.join(", "));
         }
+        if self.keys.is_some() {
+            return format!("domain {domain}, {places}{}", self.security());
+        }
+        format!(
+            "domain {domain}, {places}: any machine there can read the outputs, send inputs and set parameters \
+             (network.reach: localhost keeps it on this machine)"
+        )
     }
 
     fn security(&self) -> String {
@@ -190,6 +212,21 @@ impl Network {
         let participant = builder.build().map_err(|error| failed(CreateError::from(error)))?;
         Context::from_domain_participant(participant).map_err(failed)
     }
+}
+
+/// The machines that ROS_STATIC_PEERS lists.
+fn peers(list: Option<&str>) -> Result<Vec<String>, NetworkError> {
+    let names = list.unwrap_or_default().split(';').map(str::trim);
+    names
+        .filter(|name| !name.is_empty())
+        .map(|name| {
+            if flexdrill_config::is_peer(name) {
+                Ok(name.to_owned())
+            } else {
+                Err(NetworkError::Peer(name.to_owned()))
+            }
+        })
+        .collect()
 }
 
 /// The folder of an enclave of SROS2, from ROS 2's own variables.
@@ -248,6 +285,7 @@ mod tests {
                 domain_id: 0,
                 reach: Reach::Subnet,
                 interfaces: Vec::new(),
+                peers: Vec::new(),
                 keys: None,
             }
         );
@@ -278,6 +316,30 @@ mod tests {
         )
         .unwrap();
         assert_eq!((network.reach, notes.len()), (Reach::Localhost, 2));
+    }
+
+    #[test]
+    fn peers_are_those_of_the_environment_or_the_configuration() {
+        let list = ("ROS_STATIC_PEERS", "plot.rig.lan; 10.0.0.7;");
+        let (network, notes) = read(None, &[list]).unwrap();
+        assert_eq!((network.peers.len(), notes.len()), (2, 0), "{notes:?}");
+        assert!(network.describe().contains("plot.rig.lan, 10.0.0.7"));
+        let refused = read(None, &[("ROS_STATIC_PEERS", "10.0.0.7:7400")]).unwrap_err();
+        assert!(refused.to_string().contains("'10.0.0.7:7400'"), "{refused}");
+
+        let mut configured = flexdrill_config::Network::default();
+        assert_eq!(network.clone().configured(&configured).unwrap().peers, network.peers);
+        configured.peers = vec!["10.0.0.8".to_owned()];
+        assert_eq!(network.clone().configured(&configured).unwrap().peers, ["10.0.0.8"]);
+
+        let here = ("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST");
+        let (network, notes) = read(None, &[list, here]).unwrap();
+        assert_eq!((network.peers.len(), notes.len()), (0, 1), "told, and none is called");
+        let refused = network.configured(&configured).unwrap_err().to_string();
+        assert!(
+            refused.contains("10.0.0.8") && refused.contains("network.reach: subnet"),
+            "{refused}"
+        );
     }
 
     /// Whoever asks for security gets it or is refused.

@@ -1,6 +1,6 @@
 //! Generated from `msg/` and `src/messages/external/` by `cargo xtask messages`. Do not edit.
 
-use super::TypeInfo;
+use super::{ServiceInfo, TypeInfo};
 
 /// Messages of the ROS package `builtin_interfaces`.
 pub mod builtin_interfaces {
@@ -2327,6 +2327,47 @@ pub mod sensor_msgs {
     }
 }
 
+/// Messages of the ROS package `service_msgs`.
+pub mod service_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::messages::Message;
+
+    /// What every event of a service carries.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ServiceEventInfo {
+        /// One of the above.
+        pub event_type: u8,
+        /// When it was sent or received.
+        pub stamp: super::builtin_interfaces::Time,
+        /// Of the client that asked, unique within its session.
+        pub client_gid: [u8; 16],
+        /// Of the request, unique for the client.
+        pub sequence_number: i64,
+    }
+
+    impl ServiceEventInfo {
+        pub const REQUEST_SENT: u8 = 0;
+        pub const REQUEST_RECEIVED: u8 = 1;
+        pub const RESPONSE_SENT: u8 = 2;
+        pub const RESPONSE_RECEIVED: u8 = 3;
+    }
+
+    impl Message for ServiceEventInfo {
+        const PACKAGE: &'static str = "service_msgs";
+        const NAME: &'static str = "ServiceEventInfo";
+        const ROS_TYPE: &'static str = "service_msgs/msg/ServiceEventInfo";
+        const DDS_TYPE: &'static str = "service_msgs::msg::dds_::ServiceEventInfo_";
+        const RIHS01: &'static str = "RIHS01_41bcbbe07a75c9b52bc96bfd5c24d7f0fc0a08c0cb7921b3373c5732345a6f45";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../src/messages/external/service_msgs/msg/ServiceEventInfo.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "service_msgs/msg/ServiceEventInfo", "fields": [{"name": "event_type", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "client_gid", "type": {"type_id": 51, "capacity": 16, "string_capacity": 0, "nested_type_name": ""}}, {"name": "sequence_number", "type": {"type_id": 8, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+}
+
 /// Messages of the ROS package `std_msgs`.
 pub mod std_msgs {
     use serde::{Deserialize, Serialize};
@@ -2964,6 +3005,7 @@ pub const TYPES: &[TypeInfo] = &[
     <rosgraph_msgs::Clock as super::Message>::INFO,
     <sensor_msgs::CompressedImage as super::Message>::INFO,
     <sensor_msgs::JointState as super::Message>::INFO,
+    <service_msgs::ServiceEventInfo as super::Message>::INFO,
     <std_msgs::ColorRGBA as super::Message>::INFO,
     <std_msgs::Float64 as super::Message>::INFO,
     <std_msgs::Header as super::Message>::INFO,
@@ -2985,4 +3027,152 @@ pub const TYPES: &[TypeInfo] = &[
     <visualization_msgs::MarkerArray as super::Message>::INFO,
     <visualization_msgs::MeshFile as super::Message>::INFO,
     <visualization_msgs::UVCoordinate as super::Message>::INFO,
+];
+
+/// Every service, sorted by name.
+pub const SERVICES: &[ServiceInfo] = &[
+    ServiceInfo {
+        ros_type: "flexdrill/srv/AcknowledgeAlarm",
+        rihs01: "RIHS01_edcf727feeabd4248a12a54fe946fb8c26e4cadd2265b4e0a1baef3c9966e439",
+        source: include_str!("../../msg/AcknowledgeAlarm.srv"),
+        description: r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Event"}}]}"#,
+        event_type: "flexdrill/srv/AcknowledgeAlarm_Event",
+        event_description: r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "flexdrill/srv/ShelveAlarm",
+        rihs01: "RIHS01_29570b7a8b9ab744361c8012843cb5eee47200bfabcb280f74781652c7ffa248",
+        source: include_str!("../../msg/ShelveAlarm.srv"),
+        description: r#"{"type_name": "flexdrill/srv/ShelveAlarm", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Event"}}]}"#,
+        event_type: "flexdrill/srv/ShelveAlarm_Event",
+        event_description: r#"{"type_name": "flexdrill/srv/ShelveAlarm_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "flexdrill/srv/UnshelveAlarm",
+        rihs01: "RIHS01_85221884fbd006fca85b8a3fe168225a1c01dac67955f57c7be88c275e02fc3b",
+        source: include_str!("../../msg/UnshelveAlarm.srv"),
+        description: r#"{"type_name": "flexdrill/srv/UnshelveAlarm", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Event"}}]}"#,
+        event_type: "flexdrill/srv/UnshelveAlarm_Event",
+        event_description: r#"{"type_name": "flexdrill/srv/UnshelveAlarm_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "lifecycle_msgs/srv/ChangeState",
+        rihs01: "RIHS01_356fe34f0475a43acf54542013af4167b0e729f77ea22ffb045c6ad8e20668e5",
+        source: include_str!("../../src/messages/external/lifecycle_msgs/srv/ChangeState.srv"),
+        description: r#"{"type_name": "lifecycle_msgs/srv/ChangeState", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Event"}}]}"#,
+        event_type: "lifecycle_msgs/srv/ChangeState_Event",
+        event_description: r#"{"type_name": "lifecycle_msgs/srv/ChangeState_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "lifecycle_msgs/srv/GetAvailableStates",
+        rihs01: "RIHS01_00a07d79d2207d71e81a8cbc1880e5d924cc16d4688ea8e8e06e443dc8f8aa1d",
+        source: include_str!("../../src/messages/external/lifecycle_msgs/srv/GetAvailableStates.srv"),
+        description: r#"{"type_name": "lifecycle_msgs/srv/GetAvailableStates", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Event"}}]}"#,
+        event_type: "lifecycle_msgs/srv/GetAvailableStates_Event",
+        event_description: r#"{"type_name": "lifecycle_msgs/srv/GetAvailableStates_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "lifecycle_msgs/srv/GetAvailableTransitions",
+        rihs01: "RIHS01_59b7ecefce0982a8a844b9f2c4f14764c1c4543cc55e72924e2aa4adad83e9bc",
+        source: include_str!("../../src/messages/external/lifecycle_msgs/srv/GetAvailableTransitions.srv"),
+        description: r#"{"type_name": "lifecycle_msgs/srv/GetAvailableTransitions", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Event"}}]}"#,
+        event_type: "lifecycle_msgs/srv/GetAvailableTransitions_Event",
+        event_description: r#"{"type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "lifecycle_msgs/srv/GetState",
+        rihs01: "RIHS01_800a0a5aae599782b02932de0caf563f6dc4e7e94b794eadde075ba2cbef9795",
+        source: include_str!("../../src/messages/external/lifecycle_msgs/srv/GetState.srv"),
+        description: r#"{"type_name": "lifecycle_msgs/srv/GetState", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Event"}}]}"#,
+        event_type: "lifecycle_msgs/srv/GetState_Event",
+        event_description: r#"{"type_name": "lifecycle_msgs/srv/GetState_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "rcl_interfaces/srv/DescribeParameters",
+        rihs01: "RIHS01_845b484d71eb0673dae682f2e3ba3c4851a65a3dcfb97bddd82c5b57e91e4cff",
+        source: include_str!("../../src/messages/external/rcl_interfaces/srv/DescribeParameters.srv"),
+        description: r#"{"type_name": "rcl_interfaces/srv/DescribeParameters", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Event"}}]}"#,
+        event_type: "rcl_interfaces/srv/DescribeParameters_Event",
+        event_description: r#"{"type_name": "rcl_interfaces/srv/DescribeParameters_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "rcl_interfaces/srv/GetLoggerLevels",
+        rihs01: "RIHS01_03bf1bebd0d6514c7ed0ba7c5e08dc9f2f39c759fe99e1e30ea4157d7674f72d",
+        source: include_str!("../../src/messages/external/rcl_interfaces/srv/GetLoggerLevels.srv"),
+        description: r#"{"type_name": "rcl_interfaces/srv/GetLoggerLevels", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Event"}}]}"#,
+        event_type: "rcl_interfaces/srv/GetLoggerLevels_Event",
+        event_description: r#"{"type_name": "rcl_interfaces/srv/GetLoggerLevels_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "rcl_interfaces/srv/GetParameterTypes",
+        rihs01: "RIHS01_da199c878688b3e530bdfe3ca8f74cb9fa0c303101e980a9e8f260e25e1c80ca",
+        source: include_str!("../../src/messages/external/rcl_interfaces/srv/GetParameterTypes.srv"),
+        description: r#"{"type_name": "rcl_interfaces/srv/GetParameterTypes", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Event"}}]}"#,
+        event_type: "rcl_interfaces/srv/GetParameterTypes_Event",
+        event_description: r#"{"type_name": "rcl_interfaces/srv/GetParameterTypes_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "rcl_interfaces/srv/GetParameters",
+        rihs01: "RIHS01_bf9803d5c74cf989a5de3e0c2e99444599a627c7ff75f97b8c05b01003675cbc",
+        source: include_str!("../../src/messages/external/rcl_interfaces/srv/GetParameters.srv"),
+        description: r#"{"type_name": "rcl_interfaces/srv/GetParameters", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Event"}}]}"#,
+        event_type: "rcl_interfaces/srv/GetParameters_Event",
+        event_description: r#"{"type_name": "rcl_interfaces/srv/GetParameters_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "rcl_interfaces/srv/ListParameters",
+        rihs01: "RIHS01_3e6062bfbb27bfb8730d4cef2558221f51a11646d78e7bb30a1e83afac3aad9d",
+        source: include_str!("../../src/messages/external/rcl_interfaces/srv/ListParameters.srv"),
+        description: r#"{"type_name": "rcl_interfaces/srv/ListParameters", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Event"}}]}"#,
+        event_type: "rcl_interfaces/srv/ListParameters_Event",
+        event_description: r#"{"type_name": "rcl_interfaces/srv/ListParameters_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "rcl_interfaces/srv/SetLoggerLevels",
+        rihs01: "RIHS01_3ff86cb4e91fbf9abae15c234ecc874448de6ece8e193401c077cf116e4f6d78",
+        source: include_str!("../../src/messages/external/rcl_interfaces/srv/SetLoggerLevels.srv"),
+        description: r#"{"type_name": "rcl_interfaces/srv/SetLoggerLevels", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Event"}}]}"#,
+        event_type: "rcl_interfaces/srv/SetLoggerLevels_Event",
+        event_description: r#"{"type_name": "rcl_interfaces/srv/SetLoggerLevels_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "rcl_interfaces/srv/SetParameters",
+        rihs01: "RIHS01_56eed9a67e169f9cb6c1f987bc88f868c14a8fc9f743a263bc734c154015d7e0",
+        source: include_str!("../../src/messages/external/rcl_interfaces/srv/SetParameters.srv"),
+        description: r#"{"type_name": "rcl_interfaces/srv/SetParameters", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Event"}}]}"#,
+        event_type: "rcl_interfaces/srv/SetParameters_Event",
+        event_description: r#"{"type_name": "rcl_interfaces/srv/SetParameters_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "rcl_interfaces/srv/SetParametersAtomically",
+        rihs01: "RIHS01_0e192ef259c07fc3c07a13191d27002222e65e00ccec653ca05e856f79285fcd",
+        source: include_str!("../../src/messages/external/rcl_interfaces/srv/SetParametersAtomically.srv"),
+        description: r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Event"}}]}"#,
+        event_type: "rcl_interfaces/srv/SetParametersAtomically_Event",
+        event_description: r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "std_srvs/srv/SetBool",
+        rihs01: "RIHS01_abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a",
+        source: include_str!("../../src/messages/external/std_srvs/srv/SetBool.srv"),
+        description: r#"{"type_name": "std_srvs/srv/SetBool", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Event"}}]}"#,
+        event_type: "std_srvs/srv/SetBool_Event",
+        event_description: r#"{"type_name": "std_srvs/srv/SetBool_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "std_srvs/srv/Trigger",
+        rihs01: "RIHS01_eeff2cd6fa5ad9d27cdf4dec64818317839b62f212a91e6b5304b634b2062c5f",
+        source: include_str!("../../src/messages/external/std_srvs/srv/Trigger.srv"),
+        description: r#"{"type_name": "std_srvs/srv/Trigger", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Event"}}]}"#,
+        event_type: "std_srvs/srv/Trigger_Event",
+        event_description: r#"{"type_name": "std_srvs/srv/Trigger_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "type_description_interfaces/srv/GetTypeDescription",
+        rihs01: "RIHS01_69b9c19c1021405984cc60dbbb1edceb147a6538b411d812ba6afabeed962cd5",
+        source: include_str!("../../src/messages/external/type_description_interfaces/srv/GetTypeDescription.srv"),
+        description: r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Event"}}]}"#,
+        event_type: "type_description_interfaces/srv/GetTypeDescription_Event",
+        event_description: r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Response"}}]}"#,
+    },
 ];

@@ -66,3 +66,25 @@ const SEPARATOR: &str = "=======================================================
 pub fn find_type(ros_type: &str) -> Option<&'static TypeInfo> {
     generated::TYPES.iter().find(|info| info.ros_type == ros_type)
 }
+
+/// What is known about a service type.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ServiceInfo {
+    /// Full name: `std_srvs/srv/Trigger`.
+    pub ros_type: &'static str,
+    /// Type hash of the service as a whole.
+    pub rihs01: &'static str,
+    /// The text that it was defined by.
+    pub source: &'static str,
+    /// As [`TypeInfo::description`]: its fields are request, response and event.
+    pub description: &'static str,
+    /// Full name of its event: `std_srvs/srv/Trigger_Event`.
+    pub event_type: &'static str,
+    /// The event alone, likewise.
+    pub event_description: &'static str,
+}
+
+/// The service type of that full name.
+pub fn find_service(ros_type: &str) -> Option<&'static ServiceInfo> {
+    generated::SERVICES.iter().find(|info| info.ros_type == ros_type)
+}

@@ -23,4 +23,4 @@ pub use generated::{
     builtin_interfaces, diagnostic_msgs, geometry_msgs, lifecycle_msgs, rcl_interfaces, rosgraph_msgs, sensor_msgs,
     std_msgs, std_srvs, tf2_msgs, type_description_interfaces, visualization_msgs,
 };
-pub use message::{Message, TypeInfo, find_type};
+pub use message::{Message, ServiceInfo, TypeInfo, find_service, find_type};

@@ -64,6 +64,7 @@ impl Network {
             "ROS_LOCALHOST_ONLY",
             "ROS_AUTOMATIC_DISCOVERY_RANGE",
             "RUST_LOG",
+            "ROS_STATIC_PEERS",
             "CYCLONEDDS_URI",
         ] {
             command.env_remove(variable);

@@ -208,6 +208,7 @@ fn frames() {
             domain_id: 3,
             reach: Reach::Subnet,
             interfaces: vec!["10.0.0.1".parse().unwrap(), "::1".parse().unwrap()],
+            peers: vec!["plot.lan".to_owned(), "10.0.0.7".to_owned()],
             keys: None,
         },
         namespace: "/rig_7".into(),

@@ -1,7 +1,7 @@
 """A DDS program from another vendor (Cyclone DDS), told what to do by one JSON object per line on standard input.
 
-Answers one JSON object per line. Commands: subscribe, take, listen, publish, call, matched,
-rihs01, quit.
+Answers one JSON object per line. Commands: subscribe, take, listen, publish, flood, call,
+matched, rihs01, quit.
 """
 
 import hashlib
@@ -100,6 +100,16 @@ class Peer:
         value = {field: float(item) if item in ("NaN", "Infinity", "-Infinity") else item for field, item in value.items()}
         writer.write(ros_types.from_plain(made, value))
         return {"matched": len(writer.get_matched_subscriptions())}
+
+    def flood(self, topic, type, value, seconds):
+        """Writes the same again and again, as fast as it can; how often."""
+        self.publish(topic, type, value)
+        writer, message = self.writers[topic], ros_types.from_plain(ros_types.make(type), value)
+        count, end = 0, time.monotonic() + seconds
+        while time.monotonic() < end:
+            writer.write(message)
+            count += 1
+        return {"count": count}
 
     def matched(self, topic):
         return {"matched": len(self.readers[topic].get_matched_publications())}

@@ -71,6 +71,19 @@ pub struct NumberKey {
     pub reason: &'static str,
 }
 
+/// What a number or a count was held against.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// Dotted path.
+    pub key: String,
+    /// Smallest (see `low_is_in`).
+    pub low: f64,
+    /// Largest, allowed itself.
+    pub high: f64,
+    /// Whether the smallest is allowed itself.
+    pub low_is_in: bool,
+}
+
 /// Walks a configuration.
 pub struct Checker<'a> {
     file: &'a str,
@@ -80,6 +93,8 @@ pub struct Checker<'a> {
     problems: Vec<Problem>,
     /// Every number read so far, with its bounds.
     pub numbers: Vec<NumberKey>,
+    /// The same for the JSON Schema, with the counts.
+    pub limits: Vec<Limit>,
 }
 
 impl<'a> Checker<'a> {
@@ -91,6 +106,7 @@ impl<'a> Checker<'a> {
             path: Vec::new(),
             problems: Vec::new(),
             numbers: Vec::new(),
+            limits: Vec::new(),
         }
     }
 
@@ -121,6 +137,12 @@ impl<'a> Checker<'a> {
             self.wrong(key, number(value), unit, bound.words(unit), reason);
         }
         let path = self.path_of(key);
+        self.limits.push(Limit {
+            key: path.clone(),
+            low: bound.low,
+            high: bound.high,
+            low_is_in: bound.low_is_in,
+        });
         self.numbers.push(NumberKey {
             key: path,
             value,
@@ -137,6 +159,12 @@ impl<'a> Checker<'a> {
         if value < low || value > high {
             self.wrong(key, value, "", format!("{low} to {high}"), reason);
         }
+        self.limits.push(Limit {
+            key: self.path_of(key),
+            low: low as f64,
+            high: high as f64,
+            low_is_in: true,
+        });
     }
 
     /// Reports `value` unless `holds`.

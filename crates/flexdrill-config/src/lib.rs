@@ -55,7 +55,7 @@ pub use hard_limits::{HardBounds, HardLimits};
 pub use inputs::{DriverPolicy, DriverRule, InputsConfig, RotarySpeed, StampRule, WeightOnBit};
 pub use json_schema::json_schema;
 pub use loads::{History, Load, Mass};
-pub use network::{Network, Reach};
+pub use network::{Network, Reach, is_peer};
 pub use outputs::{Outputs, Rates};
 pub use pipe::{Guide, Piece, Pipe};
 pub use place::At;
@@ -404,6 +404,7 @@ impl Schema {
         c.below("initial", |c| self.initial.check(c, self.start));
         c.below("solver", |c| self.solver.check(c));
         c.below("inputs", |c| self.inputs.check(c));
+        c.below("network", |c| self.network.check(c));
         c.below("whirl", |c| self.whirl.check(c, &mesh));
         c.below("stick_slip", |c| self.stick_slip.check(c));
         c.below("shock", |c| self.shock.check(c));

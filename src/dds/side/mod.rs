@@ -10,6 +10,7 @@ mod peers;
 mod pulse;
 mod raw;
 mod replies;
+mod static_peers;
 mod topic_writer;
 
 use std::io::{self, BufReader, Write as _};
@@ -31,6 +32,7 @@ use self::peers::PeerBook;
 use self::pulse::Pulse;
 use self::raw::RawCdr;
 use self::replies::{Answer, ServiceServer};
+use self::static_peers::StaticPeers;
 use self::topic_writer::TopicWriter;
 use super::frames::{self, Beat, FromSide, LogLevel, ToSide};
 use super::plan::{Plan, ReaderPlan, dds_topic_name};
@@ -133,7 +135,11 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
     })?;
     let book = Arc::new(Mutex::new(book));
     let pulse = Pulse::new(&participant).map_err(|why| SideError::Sick(format!("the pulse: {why}")))?;
-    outlet.send(FromSide::Up(participant_prefix(&participant)));
+    let own = participant_prefix(&participant);
+    let static_peers = StaticPeers::start(&plan.network, own, outlet)
+        .map_err(|why| SideError::Sick(format!("the peers are not called: {why}")))?;
+    let has_peers = static_peers.is_some();
+    outlet.send(FromSide::Up(own));
 
     let writers = Arc::new(Mutex::new(writers));
     let (answers, answered) = mpsc::channel(REPLIES);
@@ -152,6 +158,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         participant: participant.clone(),
         book: Arc::clone(&book),
         pulse,
+        static_peers,
         outlet: outlet.clone(),
     };
     let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build()?;
@@ -178,6 +185,9 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
     // The subscriptions and servers go before the participant that they belong to.
     drop((subscriptions, servers));
     drop(context);
+    if has_peers {
+        static_peers::let_them_hear();
+    }
     result
 }
 
@@ -291,6 +301,7 @@ struct Minder {
     participant: DomainParticipant,
     book: Arc<Mutex<PeerBook>>,
     pulse: Pulse,
+    static_peers: Option<StaticPeers>,
     outlet: Outlet,
 }
 
@@ -318,6 +329,9 @@ impl Minder {
             }
             if now >= next_look {
                 next_look = now + LOOK;
+                if let Some(peers) = &self.static_peers {
+                    peers.look(&self.participant);
+                }
                 let peers = locked(&self.book).look(&self.participant);
                 if let Some(peers) = peers {
                     self.outlet.send(FromSide::Peers(peers));

@@ -301,7 +301,7 @@ fn prefix(guid: &GUID) -> GuidPrefix {
     prefix
 }
 
-fn sockets(locators: &[impl Clone + Into<SocketAddr>]) -> Vec<SocketAddr> {
+pub(super) fn sockets(locators: &[impl Clone + Into<SocketAddr>]) -> Vec<SocketAddr> {
     let sockets = locators.iter().map(|locator| locator.clone().into());
     // What is no address of UDP comes out as one without a port.
     sockets.filter(|socket: &SocketAddr| socket.port() != 0).collect()

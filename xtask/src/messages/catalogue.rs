@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use super::definition::{Definition, Source, TypeName};
+use super::definition::{Array, Base, Definition, Field, FieldType, Source, TypeName};
 use super::{GenerateError, parser};
 
 /// Folder of our own messages and services, from the repository's root.
@@ -18,6 +18,16 @@ const PACKAGE: &str = "flexdrill";
 #[derive(Debug, Clone, Default)]
 pub struct Catalogue {
     definitions: BTreeMap<TypeName, Definition>,
+    services: BTreeMap<TypeName, Service>,
+}
+
+/// A service as ROS 2 describes it: a type whose fields are what a request, a reply and an event of it carry.
+#[derive(Debug, Clone)]
+pub struct Service {
+    /// `std_srvs/srv/Trigger`.
+    pub whole: Definition,
+    /// `std_srvs/srv/Trigger_Event`.
+    pub event: Definition,
 }
 
 impl Catalogue {
@@ -52,7 +62,7 @@ impl Catalogue {
             let file = format!("{folder}/{}", file_name(&path));
             let (kind, added) = match extension.as_str() {
                 "msg" => ("msg", self.add_message(package, &stem, &text, Source::File(file))),
-                "srv" => ("srv", self.add_service(package, &stem, &text)),
+                "srv" => ("srv", self.add_service(package, &stem, &text, Source::File(file))),
                 _ => continue,
             };
             added.map_err(|source| GenerateError::Parse { path, kind, source })?;
@@ -76,8 +86,17 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Adds both halves of a service.
-    fn add_service(&mut self, package: &str, name: &str, text: &str) -> Result<(), parser::ParseError> {
+    /// Adds a service and both halves of it from its text.
+    ///
+    /// # Errors
+    /// When it cannot be parsed.
+    pub fn add_service(
+        &mut self,
+        package: &str,
+        name: &str,
+        text: &str,
+        source: Source,
+    ) -> Result<(), parser::ParseError> {
         let lines: Vec<&str> = text.lines().collect();
         let Some(cut) = lines.iter().position(|line| line.trim() == "---") else {
             return Err(parser::ParseError {
@@ -95,7 +114,14 @@ impl Catalogue {
             let definition = parser::parse(type_name, &text, Source::Text, first_line)?;
             self.definitions.insert(definition.name.clone(), definition);
         }
+        let service = Service::new(package, name, text, source);
+        self.services.insert(service.whole.name.clone(), service);
         Ok(())
+    }
+
+    /// All services, sorted by name.
+    pub fn services(&self) -> impl Iterator<Item = &Service> {
+        self.services.values()
     }
 
     /// All definitions, sorted by name.
@@ -130,10 +156,20 @@ impl Catalogue {
             if path.contains(name) {
                 return Err(GenerateError::Recursive(name.to_string()));
             }
-            let nested = self.definitions.get(name).ok_or_else(|| GenerateError::UnknownType {
-                name: name.to_string(),
-                used_in: definition.name.to_string(),
-            })?;
+            let event = || {
+                self.services
+                    .values()
+                    .map(|service| &service.event)
+                    .find(|event| event.name == *name)
+            };
+            let nested = self
+                .definitions
+                .get(name)
+                .or_else(event)
+                .ok_or_else(|| GenerateError::UnknownType {
+                    name: name.to_string(),
+                    used_in: definition.name.to_string(),
+                })?;
             if seen.insert(name.clone()) {
                 found.push(nested);
                 path.push(name.clone());
@@ -142,6 +178,52 @@ impl Catalogue {
             }
         }
         Ok(())
+    }
+}
+
+impl Service {
+    fn new(package: &str, name: &str, text: &str, source: Source) -> Self {
+        let type_name = |name: String| TypeName {
+            package: package.to_owned(),
+            kind: "srv",
+            name,
+        };
+        let part = |part: &str| type_name(format!("{name}_{part}"));
+        let field = |name: &str, of: TypeName, array: Array| Field {
+            docs: Vec::new(),
+            name: name.to_owned(),
+            kind: FieldType {
+                base: Base::Nested(of),
+                array,
+            },
+            default: None,
+        };
+        let definition = |name: TypeName, fields: Vec<Field>, text: &str, source: Source| Definition {
+            name,
+            docs: Vec::new(),
+            constants: Vec::new(),
+            fields,
+            text: text.to_owned(),
+            source,
+        };
+        let of_event = vec![
+            field(
+                "info",
+                TypeName::message("service_msgs", "ServiceEventInfo"),
+                Array::Single,
+            ),
+            field("request", part("Request"), Array::Bounded(1)),
+            field("response", part("Response"), Array::Bounded(1)),
+        ];
+        let of_whole = vec![
+            field("request_message", part("Request"), Array::Single),
+            field("response_message", part("Response"), Array::Single),
+            field("event_message", part("Event"), Array::Single),
+        ];
+        Self {
+            whole: definition(type_name(name.to_owned()), of_whole, text, source),
+            event: definition(part("Event"), of_event, "", Source::Text),
+        }
     }
 }
 

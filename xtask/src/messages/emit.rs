@@ -21,7 +21,7 @@ const KEYWORDS: &[&str] = &[
 pub(super) fn source(catalogue: &Catalogue) -> Result<String, GenerateError> {
     let mut out = String::from(concat!(
         "//! Generated from `msg/` and `src/messages/external/` by `cargo xtask messages`. Do not edit.\n\n",
-        "use super::TypeInfo;\n",
+        "use super::{ServiceInfo, TypeInfo};\n",
     ));
     let mut table = String::new();
     let mut package = "";
@@ -48,7 +48,36 @@ pub(super) fn source(catalogue: &Catalogue) -> Result<String, GenerateError> {
         out,
         "}}\n\n/// Every generated type, sorted by name.\npub const TYPES: &[TypeInfo] = &[\n{table}];\n"
     );
+    services(&mut out, catalogue)?;
     Ok(out)
+}
+
+/// The table of all services.
+fn services(out: &mut String, catalogue: &Catalogue) -> Result<(), GenerateError> {
+    out.push_str("\n/// Every service, sorted by name.\npub const SERVICES: &[ServiceInfo] = &[\n");
+    for service in catalogue.services() {
+        let whole = &service.whole;
+        let _ = write!(
+            out,
+            concat!(
+                "    ServiceInfo {{\n",
+                "        ros_type: {:?},\n",
+                "        rihs01: {:?},\n",
+                "        source: {},\n",
+                "        description: {},\n",
+                "        event_type: {:?},\n",
+                "        event_description: {},\n    }},\n",
+            ),
+            whole.name.to_string(),
+            hash::rihs01(whole, catalogue)?,
+            own_text(whole),
+            raw(&hash::alone(whole)),
+            service.event.name.to_string(),
+            raw(&hash::alone(&service.event)),
+        );
+    }
+    out.push_str("];\n");
+    Ok(())
 }
 
 fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> Result<(), GenerateError> {
@@ -141,25 +170,29 @@ fn raw(text: &str) -> String {
 
 /// The schema as an expression; files are included, so that their text stands in one place only.
 fn schema_expression(definition: &Definition, catalogue: &Catalogue) -> Result<String, GenerateError> {
-    let text = |definition: &Definition| match &definition.source {
-        Source::File(path) => format!("include_str!(\"../../{path}\")"),
-        Source::Text => format!("{:?}", definition.text),
-    };
     let dependencies = catalogue.dependencies(definition)?;
     if dependencies.is_empty() {
-        return Ok(text(definition));
+        return Ok(own_text(definition));
     }
-    let mut pieces = format!("concat!(\n            {},\n", text(definition));
+    let mut pieces = format!("concat!(\n            {},\n", own_text(definition));
     for dependency in dependencies {
         let _ = write!(
             pieces,
             "            {:?},\n            {},\n",
             schema::head(dependency),
-            text(dependency)
+            own_text(dependency)
         );
     }
     pieces.push_str("        )");
     Ok(pieces)
+}
+
+/// The text of a definition as an expression.
+fn own_text(definition: &Definition) -> String {
+    match &definition.source {
+        Source::File(path) => format!("include_str!(\"../../{path}\")"),
+        Source::Text => format!("{:?}", definition.text),
+    }
 }
 
 fn default_impl(out: &mut String, definition: &Definition) {

@@ -127,3 +127,34 @@ fn type_id(primitive: Primitive) -> (u32, u64) {
         Primitive::String { bound: Some(most) } => (21, most),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::messages::definition::Source;
+
+    /// Against hashes that ROS 2 itself has given: `example_interfaces/srv/AddTwoInts` in the design of rmw_zenoh, and
+    /// `std_srvs/srv/Trigger` in the key of a service that rmw_zenoh called.
+    #[test]
+    fn services_have_the_hashes_that_ros_2_gives_them() {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let mut catalogue = Catalogue::read(&root).unwrap();
+        let text = "int64 a\nint64 b\n---\nint64 sum\n";
+        catalogue
+            .add_service("example_interfaces", "AddTwoInts", text, Source::Text)
+            .unwrap();
+        let hash = |name: &str| {
+            let mut services = catalogue.services();
+            let service = services.find(|service| service.whole.name.to_string() == name).unwrap();
+            rihs01(&service.whole, &catalogue).unwrap()
+        };
+        assert_eq!(
+            hash("example_interfaces/srv/AddTwoInts"),
+            "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"
+        );
+        assert_eq!(
+            hash("std_srvs/srv/Trigger"),
+            "RIHS01_eeff2cd6fa5ad9d27cdf4dec64818317839b62f212a91e6b5304b634b2062c5f"
+        );
+    }
+}
