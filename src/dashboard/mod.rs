@@ -18,7 +18,6 @@ mod history;
 mod listen;
 mod recorded;
 mod session;
-mod token;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -30,9 +29,9 @@ use self::board::Board;
 use self::control::{Control, ControlParts};
 use self::listen::Ears;
 use self::recorded::Recorded;
-pub use self::token::Token;
 use crate::dds::network::Network;
 use crate::dds::port::{Port, PortBuilder};
+pub use crate::live::Token;
 use crate::live::{self, Hub};
 use crate::ros::args::NodeIdentity;
 
@@ -121,7 +120,7 @@ struct Live {
 impl Live {
     async fn start(network: &Network, twin: &NodeIdentity, token: Option<Token>) -> anyhow::Result<Self> {
         let mut random = [0; 8];
-        token::fill_random(&mut random)?;
+        live::fill_random(&mut random)?;
         // Several dashboards are several nodes: the twin tells them apart by their names.
         let own = NodeIdentity::new(&twin.namespace, &format!("flexdrill_dashboard_{}", std::process::id()))?;
         let mut port = PortBuilder::new(network, &own.namespace, &own.name);

@@ -42,11 +42,18 @@ class Viewer:
         """Server info and all channels, with an id that is not theirs for each."""
         self.info = json.loads(await self.socket.recv())
         assert self.info["op"] == "serverInfo", self.info
-        said = json.loads(await self.socket.recv())
-        assert said["op"] == "advertise", said
+        said = await self.word("advertise")
         self.channels = {1000 + index: channel for index, channel in enumerate(said["channels"])}
         subscriptions = [{"id": id, "channelId": channel["id"]} for id, channel in self.channels.items()]
         await self.socket.send(json.dumps({"op": "subscribe", "subscriptions": subscriptions}))
+
+    async def word(self, op):
+        """The next text, which is that one; a bag's player tells the time and its state meanwhile."""
+        while not isinstance(frame := await self.socket.recv(), str):
+            self.take(frame)
+        said = json.loads(frame)
+        assert said["op"] == op, said
+        return said
 
     def decode(self, id, data):
         channel = self.channels[id]
@@ -156,12 +163,18 @@ async def play(url):
         await viewer.greet()
         start, end = (viewer.info[key]["sec"] * 10**9 + viewer.info[key]["nsec"] for key in ("dataStartTime", "dataEndTime"))
         middle = (start + end) // 2
+        await viewer.listen(2.0, until=lambda: viewer.states)
+        greeted = viewer.states[:1]
         paused = await viewer.control(1, 1.0, middle, "pause in the middle")
         await viewer.listen(1.0)
         named = lambda name: next(topic for topic in viewer.found if topic.endswith(name))
         status = named("/twin/status")
         at_rest = max(viewer.found[status]["stamps"][-1:] or [0])
         count = sum(topic["count"] for topic in viewer.found.values())
+        async with opened(url) as another:
+            late = Viewer(another)
+            await late.greet()
+            await late.listen(2.0, until=lambda: late.states)
         await viewer.listen(1.0)
         still = sum(topic["count"] for topic in viewer.found.values()) - count
         began = time.monotonic()
@@ -175,6 +188,8 @@ async def play(url):
             "start": start,
             "end": end,
             "middle": middle,
+            "greeted": greeted,
+            "late": late.states[:1],
             "paused": paused,
             "at_rest": at_rest,
             "still": still,
