@@ -16,6 +16,7 @@ mod board;
 mod control;
 mod history;
 mod listen;
+mod orbits;
 mod recorded;
 mod session;
 
@@ -133,7 +134,7 @@ impl Live {
             None => None,
         };
         let hub = Hub::new(ears.topics())?;
-        let board = Arc::new(Board::new(1));
+        let board = Arc::new(Board::live());
         let port = tokio::task::spawn_blocking(move || port.start()).await??;
         ears.listen(&hub, &board);
         let control = control.map(|(token, parts)| Arc::new(Control::new(token, port.monitor(), parts)));

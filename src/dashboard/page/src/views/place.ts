@@ -1,11 +1,13 @@
 // One place of the tool: orbit, full spectrum, forces, stop moment, what the alarms say of it.
 
+import * as api from "../api";
 import { configured } from "../configuration";
 import { h, setText, show } from "../dom";
 import { fullSpectrum } from "../spectrum";
+import { PastOrbit } from "../store/orbit";
 import type { Vector } from "../store/layout";
 import type { Ring } from "../store/ring";
-import { convert, digits, number, quantity, withUnit } from "../units";
+import { clock, convert, digits, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type Place, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, SEVERITY, WHIRL_KIND, word } from "../words";
 import { drawOrbit, drawSpectrum, type Motion } from "./orbit";
@@ -38,6 +40,7 @@ export class PlaceView implements View {
   private readonly outerTitle = h("h3");
   private readonly fast = new Pace(50);
   private readonly slow = new Pace(500);
+  private readonly past = new PastOrbit(api.orbit);
   private factsKey = "";
 
   constructor(private readonly context: Context) {
@@ -122,7 +125,9 @@ export class PlaceView implements View {
     const inclination = number((geometry.stationInclination[place.station] * 180) / Math.PI, 0);
     const depth = withUnit(geometry.stationDepth[place.station], "depth", settings.units);
     setText(this.title, `${name} · ${depth} · ${inclination}°`);
-    const pipe = this.pipe(place);
+    const heard = this.pipe(place);
+    const kept = heard.times.length === 0 && place.joint !== null ? this.past.at(place.joint, store.shown) : null;
+    const pipe = kept ?? heard;
     const guide = this.guideNow(place.station);
     const tool = store.session?.tool;
     drawOrbit(this.orbit, context, pipe.times.length > 0 ? pipe : this.pipeThen(place.station), guide, {
@@ -130,7 +135,7 @@ export class PlaceView implements View {
       guide: tool?.guide_clearance ?? 0.008,
     });
     if (!this.slow.due(now, context.revision)) return;
-    this.drawSlow(place, pipe);
+    this.drawSlow(place, pipe, kept);
   }
 
   /** The pipe's axis about the bore's: of joints at their own rate, of other stations as often as the shape comes. */
@@ -160,7 +165,7 @@ export class PlaceView implements View {
     return [layout.vector(row, "guide_y")[station] || 0, layout.vector(row, "guide_z")[station] || 0];
   }
 
-  private drawSlow(place: Place, pipe: Motion): void {
+  private drawSlow(place: Place, pipe: Motion, kept: Motion | null | undefined): void {
     const { context } = this;
     const { store, settings } = context;
     const moment = store.moment();
@@ -171,16 +176,7 @@ export class PlaceView implements View {
       pipe.times.length > 1 ? (pipe.times.length - 1) / (pipe.times[pipe.times.length - 1] - pipe.times[0]) : 0;
     const turns = layout.scalar(row, "rotary_speed_applied") / (2 * Math.PI);
     drawSpectrum(this.spectrum, context, fullSpectrum(pipe.y, pipe.z, rate), turns);
-    setText(
-      this.source,
-      pipe.times.length === 0
-        ? "Motion is kept for a minute; this time is longer ago. The dot and the strips are of the hour, with a row a " +
-            "second; a recording has it all."
-        : `Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: in ` +
-            `the guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ` +
-            `${number(rate, 0)} positions a second` +
-            (place.joint === null ? "; a joint has more." : "."),
-    );
+    setText(this.source, this.words(place, pipe, kept, rate));
     const { stations, joints } = layout.counts;
     const unit = quantity("force", settings.units).unit;
     this.strip(this.forces, store.contacts, place.station, ["pipe_guide_normal_peak", place.station], "force");
@@ -200,6 +196,28 @@ export class PlaceView implements View {
       setText(this.momentTitle, `Moment of the stop (${quantity("torque", settings.units).unit}), dashed: rated`);
     }
     this.list(place);
+  }
+
+  /** What the motion is of, or why there is none. */
+  private words(place: Place, pipe: Motion, kept: Motion | null | undefined, rate: number): string {
+    if (pipe.times.length === 0) {
+      const hour = "The dot and the strips are of the hour, with a row a second; a recording has it all.";
+      if (place.joint === null) {
+        return `No motion: between joints it is kept for a minute, and this is longer ago; a joint has more. ${hour}`;
+      }
+      return kept === undefined
+        ? "Motion of this time is asked for."
+        : `No motion: the server has kept none of this joint from within 10 s of this time. ${hour}`;
+    }
+    const what = kept
+      ? `Motion of the ${number(pipe.times[pipe.times.length - 1] - pipe.times[0], 1)} s until ` +
+        `${clock(pipe.times[pipe.times.length - 1])}: further back than a minute, three seconds of every ten are kept. `
+      : "";
+    return (
+      `${what}Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: ` +
+      `in the guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ` +
+      `${number(rate, 0)} positions a second${place.joint === null ? "; a joint has more." : "."}`
+    );
   }
 
   /** A column of a ring over the last seconds; where those are no longer kept, that of the hour, a value a second. */
