@@ -204,7 +204,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     if let Some(live) = &setup.live {
         row("live", format!("ws://{}", live.address));
         if let Some(token) = &live.token {
-            row("control", format!("ws://{}/?token={}", live.address, token.text()));
+            row("steering", format!("ws://{}/?token={}", live.address, token.text()));
         }
     }
     if let Some(path) = &setup.record {

@@ -1,6 +1,6 @@
 //! The joints' motion beyond the last minute: every ten seconds the last three, at 25 positions a second, for an hour.
 //!
-//! A position has two bytes for each direction: of the default tool's joints the hour has 11 MB.
+//! A position has two bytes for each direction: an hour of one joint has 108 kB, of the default tool's 33 joints 3.6 MB.
 
 use std::collections::VecDeque;
 

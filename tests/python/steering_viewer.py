@@ -96,7 +96,8 @@ class Steering(Viewer):
         """What the newest status says of the inputs."""
         status = self.statuses[-1]
         fields = ("driver", "publishers", "received", "rejected", "source", "not_driving", "several_drivers", "unreadable")
-        return {field: list(getattr(status, "input_" + field)) for field in fields}
+        plain = lambda value: None if value != value else value
+        return {field: [plain(value) for value in getattr(status, "input_" + field)] for field in fields}
 
 
 def number(value):
@@ -205,11 +206,7 @@ async def drive(url, speed, seconds):
 def main():
     command, *arguments = sys.argv[1:]
     answer = asyncio.run({"steer": steer, "drive": drive}[command](*arguments))
-
-    def plain(value):
-        return value if value == value and abs(value) != float("inf") else None
-
-    print(json.dumps(answer, default=plain))
+    print(json.dumps(answer))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,14 @@
 // Whether the page's memory stays what it is: hours beside a rig, a place open, the twin at its full rates.
 //
-// `node e2e/heap.mjs --flexdrill FILE [--minutes N]`, in a network of its own (launch_scripts/page_test.sh --heap makes
-// one). A small window: what the page keeps does not depend on its pixels. The last line sums up.
+// `node e2e/heap.mjs --flexdrill FILE [--minutes N] [--dist FOLDER]`, in a network of its own (launch_scripts/page_test.sh --heap makes
+// one). With --dist the page comes from that folder instead of out of the program. A small window: what the page keeps
+// does not depend on its pixels. The last line sums up.
 import assert from "node:assert/strict";
+import { join } from "node:path";
 import { chromium } from "playwright-core";
 import { clean, lastWords, node, option, PORT, rig, server, stopAll, until } from "./programs.mjs";
 
+const dist = option("dist", "");
 const minutes = Number(option("minutes", "60"));
 /** Minutes until the rings of a minute and the browser's own tables are full. */
 const WARM = 10;
@@ -17,9 +20,21 @@ const MOST = 3;
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"],
+  args: [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--enable-unsafe-swiftshader",
+    ...(dist === "" ? [] : ["--disable-features=LocalNetworkAccessChecks"]),
+  ],
 });
 const page = await browser.newPage({ viewport: { width: 640, height: 400 } });
+if (dist !== "") {
+  const pieces = { "/": "index.html", "/page.js": "page.js", "/page.css": "page.css" };
+  await page.route("**/*", (route) => {
+    const piece = pieces[new URL(route.request().url()).pathname];
+    return piece ? route.fulfill({ path: join(dist, piece) }) : route.continue();
+  });
+}
 const troubles = [];
 page.on("pageerror", (error) => troubles.push(String(error)));
 
