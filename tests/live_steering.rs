@@ -66,16 +66,23 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
     // Parameters, through the node's own checks.
     assert!(seen["all"].as_u64().unwrap() > 100, "{seen}");
     let before = &seen["before"];
-    assert!(before["contact.inner.friction_axial"].is_f64() && before.as_object().unwrap().len() == 2, "{before}");
+    assert!(
+        before["contact.inner.friction_axial"].is_f64() && before.as_object().unwrap().len() == 2,
+        "{before}"
+    );
     let set = &seen["set"];
     assert_eq!(set["contact.inner.friction_axial"], json!(0.31));
-    assert_eq!(set["inputs.rotary_speed.max_rpm"], before["inputs.rotary_speed.max_rpm"], "refused: as it was");
+    assert_eq!(
+        set["inputs.rotary_speed.max_rpm"], before["inputs.rotary_speed.max_rpm"],
+        "refused: as it was"
+    );
     assert_eq!(seen["whole"]["contact.inner.friction_axial"], json!(1.0));
     let followed = seen["followed"].as_array().unwrap();
     assert_eq!(followed[0][0]["value"], json!(0.31), "{followed:?}");
     let refused = seen["refused"].to_string();
     assert!(
-        refused.contains("inputs.hard_limits.max_rpm") && refused.contains("'tool.links' cannot change while the twin runs"),
+        refused.contains("inputs.hard_limits.max_rpm")
+            && refused.contains("'tool.links' cannot change while the twin runs"),
         "{refused}"
     );
 
@@ -104,21 +111,34 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
     assert_eq!(seen["alarm"]["success"], false);
     assert!(seen["alarm"]["message"].as_str().unwrap().contains("no_such"), "{seen}");
     assert!(seen["broken"].as_str().unwrap().contains("was not answered"), "{seen}");
-    assert!(seen["json"].as_str().unwrap().contains("not little-endian CDR"), "{seen}");
+    assert!(
+        seen["json"].as_str().unwrap().contains("not little-endian CDR"),
+        "{seen}"
+    );
 
     // Inputs, judged as those of DDS.
     let driven = &seen["driven"];
     assert!((speed(driven) - 60.0).abs() < 1e-6, "{driven}");
-    assert!((driven["received"][1].as_f64().unwrap() - 12e3).abs() < 1e-6, "{driven}");
+    assert!(
+        (driven["received"][1].as_f64().unwrap() - 12e3).abs() < 1e-6,
+        "{driven}"
+    );
     for driver in driven["driver"].as_array().unwrap() {
-        assert!(driver.as_str().unwrap().starts_with("foxglove client @ 127.0.0.1:"), "{driver}");
+        assert!(
+            driver.as_str().unwrap().starts_with("foxglove client @ 127.0.0.1:"),
+            "{driver}"
+        );
     }
     assert_eq!(seen["too_fast"]["rejected"], json!([1, 0]));
     assert_eq!(seen["unreadable"]["unreadable"], json!([1, 0]));
     let stamped = &seen["stamped"];
     assert!((speed(stamped) - 50.0).abs() < 1e-6, "{stamped}");
     assert_eq!(stamped["source"], json!(["a hand", "a hand"]));
-    assert_eq!(stamped["several_drivers"], json!([false, false]), "one viewer is one, by both ways");
+    assert_eq!(
+        stamped["several_drivers"],
+        json!([false, false]),
+        "one viewer is one, by both ways"
+    );
     assert_eq!(seen["quiet"], json!([]));
     let said = seen["no_input"].to_string();
     for part in [
@@ -128,7 +148,10 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }
-    assert!(seen["name"].as_str().unwrap().contains("already advertising channel"), "{seen}");
+    assert!(
+        seen["name"].as_str().unwrap().contains("already advertising channel"),
+        "{seen}"
+    );
 
     // What was asked for is recorded with who asked.
     let changes = peer.take("/twin/applied_inputs", 100_000, 1.0);
@@ -137,7 +160,10 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
         .flat_map(|change| change["parameter_asked_by"].as_array().unwrap())
         .map(|by| by.as_str().unwrap().to_owned())
         .collect();
-    assert!(asked.iter().any(|by| by.starts_with("foxglove client at 127.0.0.1:")), "{asked:?}");
+    assert!(
+        asked.iter().any(|by| by.starts_with("foxglove client at 127.0.0.1:")),
+        "{asked:?}"
+    );
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
     let said = twin.said();
@@ -153,8 +179,18 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
     // The recording is replayed with what the viewer did.
     let out = bag.path().join("again");
     let mut replay = network.command(env!("CARGO_BIN_EXE_flexdrill"));
-    let replayed = replay.arg("replay").arg(&recorded).arg("--out").arg(&out).output().unwrap();
-    assert!(replayed.status.success(), "{}", String::from_utf8_lossy(&replayed.stderr));
+    let replayed = replay
+        .arg("replay")
+        .arg(&recorded)
+        .arg("--out")
+        .arg(&out)
+        .output()
+        .unwrap();
+    assert!(
+        replayed.status.success(),
+        "{}",
+        String::from_utf8_lossy(&replayed.stderr)
+    );
 }
 
 /// Without the option, and without the token, all three are refused in words, and nothing is offered.
@@ -209,7 +245,10 @@ fn a_viewer_is_one_driver_among_others() {
     });
     let Some(both) = both else { return };
     assert!((speed(&both) - 70.0).abs() < 1e-6, "{both}");
-    assert!(both["not_driving"][0].as_u64().unwrap() > 10, "the rig is not named: {both}");
+    assert!(
+        both["not_driving"][0].as_u64().unwrap() > 10,
+        "the rig is not named: {both}"
+    );
     assert_eq!(both["several_drivers"][0], true, "{both}");
     twin.wait_for("alarm two_drivers");
     twin.signal("INT");

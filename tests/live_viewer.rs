@@ -118,9 +118,15 @@ fn twenty_viewers_and_a_frozen_one_slow_nobody() {
 /// The one that takes nothing is named by its address, with what it lost; the others have lost nothing.
 fn told_of_the_frozen_one(said: &str) {
     assert!(said.contains("does not take its data: "), "{said}");
-    let gone: Vec<&str> = said.lines().filter(|line| line.contains("had been given up for it")).collect();
+    let gone: Vec<&str> = said
+        .lines()
+        .filter(|line| line.contains("had been given up for it"))
+        .collect();
     assert_eq!(gone.len(), 1, "{said}");
-    let lost = gone[0].split("has gone; ").nth(1).and_then(|rest| rest.split(' ').next());
+    let lost = gone[0]
+        .split("has gone; ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next());
     // Some hundreds a second, less the 256 that wait and what lies in the sockets.
     assert!(lost.unwrap().parse::<u64>().unwrap() > 300, "{gone:?}");
 }
@@ -129,7 +135,13 @@ fn told_of_the_frozen_one(said: &str) {
 /// looks at. The viewers only empty their sockets, so that they do not take the solver's processor.
 #[test]
 fn twenty_viewers_of_the_default_tool_leave_its_deadlines_alone() {
-    const FIELDS: [&str; 5] = ["deadline_misses", "steps_skipped", "frames_dropped", "events_lost", "step_count"];
+    const FIELDS: [&str; 5] = [
+        "deadline_misses",
+        "steps_skipped",
+        "frames_dropped",
+        "events_lost",
+        "step_count",
+    ];
     let Some(network) = Network::new() else { return };
     let Some(mut peer) = network.peer() else { return };
     let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
@@ -162,7 +174,10 @@ fn twenty_viewers_of_the_default_tool_leave_its_deadlines_alone() {
     // twice as many may be, and one in two hundred, which is what a look at the status costs here.
     let [late, skipped, .., steps] = watched;
     assert!(late <= 2 * alone[0] + steps / 200, "{watched:?}, alone {alone:?}");
-    assert!(skipped <= 2 * alone[1] + if alone[0] == 0 { 0 } else { steps / 200 }, "{watched:?}, alone {alone:?}");
+    assert!(
+        skipped <= 2 * alone[1] + if alone[0] == 0 { 0 } else { steps / 200 },
+        "{watched:?}, alone {alone:?}"
+    );
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
     told_of_the_frozen_one(&twin.said());

@@ -366,7 +366,9 @@ fn numbers_that_no_tool_can_have_do_not_end_it() {
 fn contents(page: &str) -> Vec<String> {
     let all = |before: &str, after: &str| -> Vec<String> {
         let pieces = page.split(before).skip(1);
-        pieces.filter_map(|piece| piece.split(after).next().map(str::to_owned)).collect()
+        pieces
+            .filter_map(|piece| piece.split(after).next().map(str::to_owned))
+            .collect()
     };
     [all("<h2>", "</h2>"), all("<figure id=\"", "\"")].concat()
 }
@@ -405,7 +407,10 @@ fn interop_a_foreign_recording_of_a_run_has_the_same_sections() {
         let tile = foreign.split("largest force, pipe on guide").next().unwrap();
         tiles.push(tile.rsplit("<b>").next().unwrap().to_owned());
     }
-    assert!(tiles.iter().all(|tile| *tile == tiles[0]), "both hold the same: {tiles:?}");
+    assert!(
+        tiles.iter().all(|tile| *tile == tiles[0]),
+        "both hold the same: {tiles:?}"
+    );
 }
 
 /// The example of the manual, on a bag of ours, with the packages that it names.

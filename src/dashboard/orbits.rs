@@ -1,6 +1,6 @@
 //! The joints' motion beyond the last minute: every ten seconds the last three, at 25 positions a second, for an hour.
 //!
-//! A position has two bytes for each direction: an hour of one joint has 108 kB, of the default tool's 33 joints 3.6 MB.
+//! A position has two bytes for each direction: an hour of one joint has 108 kB, of the default tool's 32 joints 3.5 MB.
 
 use std::collections::VecDeque;
 
@@ -151,7 +151,12 @@ mod tests {
     }
 
     fn numbers(value: &Value) -> Vec<f64> {
-        value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+        value
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|number| number.as_f64().unwrap())
+            .collect()
     }
 
     #[test]
@@ -160,12 +165,19 @@ mod tests {
         hear(&mut orbits, 3, 100, 131);
         let motion = orbits.at(1, 118 * SECOND).unwrap();
         assert_eq!(motion["from_ns"], (117 * SECOND).to_string());
-        let (times, y, z) = (numbers(&motion["times_s"]), numbers(&motion["y_m"]), numbers(&motion["z_m"]));
+        let (times, y, z) = (
+            numbers(&motion["times_s"]),
+            numbers(&motion["y_m"]),
+            numbers(&motion["z_m"]),
+        );
         assert_eq!((times.len(), y.len(), z.len()), (75, 75, 75));
         for ((time, y), z) in times.iter().zip(y).zip(z) {
             let turn = std::f64::consts::TAU * time;
             // One part in 32767 of the widest joint's 3 mm.
-            assert!((y - 2e-3 * turn.cos()).abs() < 2e-7 && (z - 2e-3 * turn.sin()).abs() < 2e-7, "{time}: {y}, {z}");
+            assert!(
+                (y - 2e-3 * turn.cos()).abs() < 2e-7 && (z - 2e-3 * turn.sin()).abs() < 2e-7,
+                "{time}: {y}, {z}"
+            );
         }
         assert!(orbits.at(3, 118 * SECOND).is_none(), "there is no such joint");
         assert!(orbits.at(1, 200 * SECOND).is_none(), "longer than ten seconds away");

@@ -23,10 +23,10 @@ pub use hub::Hub;
 pub(crate) use player::range;
 pub use player::{Player, Playing, States};
 pub use server::LiveServer;
+pub(crate) use server::{door_to, listen, only_door, serve, start_protocol};
 pub use steering::{InputTopic, OfferedService, Setting, Steered, Steering, Viewer};
 pub use token::Token;
 pub(crate) use token::fill_random;
-pub(crate) use server::{door_to, listen, only_door, serve, start_protocol};
 
 /// Why nothing can be shown live.
 #[derive(Debug, thiserror::Error)]

@@ -36,9 +36,7 @@ pub(crate) async fn start_protocol(
 ) -> Result<WebSocketServerHandle, LiveError> {
     let mut server = protocol_of(hub).listener(Arc::clone(hub) as _);
     if let Some((start, end)) = range {
-        server = server
-            .capabilities([Capability::Time])
-            .playback_time_range(start, end);
+        server = server.capabilities([Capability::Time]).playback_time_range(start, end);
     }
     Ok(server.start().await?)
 }

@@ -158,7 +158,10 @@ impl Steering {
         let service = |(number, offered): (usize, OfferedService)| {
             let [request, response] = ["Request", "Response"].map(|part| format!("{}_{part}", offered.ros_type));
             let schema = |name: String, text: &'static str| Schema::new(name, SCHEMA_ENCODING, text.as_bytes());
-            let [request, response] = [schema(request, offered.schemas[0]), schema(response, offered.schemas[1])];
+            let [request, response] = [
+                schema(request, offered.schemas[0]),
+                schema(response, offered.schemas[1]),
+            ];
             let kind = ServiceSchema::new(offered.ros_type)
                 .with_request(ENCODING, request)
                 .with_response(ENCODING, response);
@@ -256,19 +259,13 @@ impl ParameterHandler for Steering {
         responder.respond(values.into_iter().map(parameter).collect());
     }
 
-    fn set(
-        &self,
-        client: AnyClient,
-        parameters: Vec<Parameter>,
-        _: Option<String>,
-        responder: SetParametersResponder,
-    ) {
+    fn set(&self, client: AnyClient, parameters: Vec<Parameter>, _: Option<String>, responder: SetParametersResponder) {
         let names: Vec<String> = parameters.iter().map(|parameter| parameter.name.clone()).collect();
         for Parameter { name, value, .. } in parameters {
             let done = self.viewer(client.id()).and_then(|viewer| {
-                let value = value
-                    .and_then(setting)
-                    .ok_or_else(|| format!("'{name}' is not set: a parameter is a flag, a number, a text or a list of them"))?;
+                let value = value.and_then(setting).ok_or_else(|| {
+                    format!("'{name}' is not set: a parameter is a flag, a number, a text or a list of them")
+                })?;
                 self.node.set_parameter(viewer, &name, value)
             });
             if let Err(why) = done {
@@ -351,7 +348,6 @@ fn setting(value: ParameterValue) -> Option<Setting> {
         ParameterValue::Dict(_) => return None,
     })
 }
-
 
 #[cfg(test)]
 mod tests {

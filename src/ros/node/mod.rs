@@ -215,7 +215,9 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         tasks.spawn(rig::follow_clock(rig_inputs.clone(), ticks, Arc::clone(&simulated)));
     }
     let live = match &setup.live {
-        Some(at) => Some(start_live(&setup, at, || Viewers::new(&port, &parameters, &rig_inputs, inputs))?),
+        Some(at) => Some(start_live(&setup, at, || {
+            Viewers::new(&port, &parameters, &rig_inputs, inputs)
+        })?),
         None => None,
     };
     let port = tokio::task::spawn_blocking(move || port.start())

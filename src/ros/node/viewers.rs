@@ -101,7 +101,9 @@ impl Steered for Viewers {
     }
 
     fn sample(&self, viewer: Viewer, input: usize, body: Vec<u8>) {
-        let Some((_, inbox)) = self.inputs.get(input) else { return };
+        let Some((_, inbox)) = self.inputs.get(input) else {
+            return;
+        };
         let Peer { id, node, address } = peer(viewer);
         self.rig.describe(Driver {
             id: DriverId(id),
@@ -240,8 +242,14 @@ mod tests {
             host: one.address.clone(),
         };
         let id = "000076696577657200000001";
-        assert_eq!(driver.to_string(), format!("foxglove client @ 127.0.0.1:4000 ({id}.00000000)"));
-        assert_eq!(one.to_string(), format!("foxglove client at 127.0.0.1:4000 (id {id}00000000)"));
+        assert_eq!(
+            driver.to_string(),
+            format!("foxglove client @ 127.0.0.1:4000 ({id}.00000000)")
+        );
+        assert_eq!(
+            one.to_string(),
+            format!("foxglove client at 127.0.0.1:4000 (id {id}00000000)")
+        );
     }
 
     #[test]
@@ -264,7 +272,12 @@ mod tests {
         );
         let mixed = Setting::List(vec![Setting::Whole(1), Setting::Text("x".into())]);
         assert_eq!(value_of(mixed, Some(&texts)), ParameterValue::NotSet);
-        for value in [double, texts, ParameterValue::Boolean(true), ParameterValue::DoubleArray(vec![1.0, 2.0])] {
+        for value in [
+            double,
+            texts,
+            ParameterValue::Boolean(true),
+            ParameterValue::DoubleArray(vec![1.0, 2.0]),
+        ] {
             assert_eq!(value_of(setting(&value).unwrap(), Some(&value)), value);
         }
     }

@@ -4,13 +4,13 @@ import * as api from "../api";
 import { configured } from "../configuration";
 import { h, setText, show } from "../dom";
 import { fullSpectrum } from "../spectrum";
-import { PastOrbit } from "../store/orbit";
 import type { Vector } from "../store/layout";
+import { heard, type Motion, PastMotion } from "../store/motion";
 import type { Ring } from "../store/ring";
 import { clock, convert, digits, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type Place, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, SEVERITY, WHIRL_KIND, word } from "../words";
-import { drawOrbit, drawSpectrum, type Motion } from "./orbit";
+import { drawOrbit, drawSpectrum } from "./orbit";
 import { Strip } from "./strip";
 
 /** Length of the strips and of the motion that the spectrum is of (s). */
@@ -40,7 +40,7 @@ export class PlaceView implements View {
   private readonly outerTitle = h("h3");
   private readonly fast = new Pace(50);
   private readonly slow = new Pace(500);
-  private readonly past = new PastOrbit(api.orbit);
+  private readonly past = new PastMotion(api.orbit);
   private factsKey = "";
 
   constructor(private readonly context: Context) {
@@ -125,9 +125,9 @@ export class PlaceView implements View {
     const inclination = number((geometry.stationInclination[place.station] * 180) / Math.PI, 0);
     const depth = withUnit(geometry.stationDepth[place.station], "depth", settings.units);
     setText(this.title, `${name} · ${depth} · ${inclination}°`);
-    const heard = this.pipe(place);
-    const kept = heard.times.length === 0 && place.joint !== null ? this.past.at(place.joint, store.shown) : null;
-    const pipe = kept ?? heard;
+    const recent = this.pipe(place);
+    const kept = recent.times.length === 0 && place.joint !== null ? this.past.at(place.joint, store.shown) : null;
+    const pipe = kept ?? recent;
     const guide = this.guideNow(place.station);
     const tool = store.session?.tool;
     drawOrbit(this.orbit, context, pipe.times.length > 0 ? pipe : this.pipeThen(place.station), guide, {
@@ -144,8 +144,8 @@ export class PlaceView implements View {
     const { layout } = store;
     if (!layout) return { times: [], y: [], z: [] };
     const { joints, stations } = layout.counts;
-    if (place.joint !== null) return motion(store.joints, place.joint, joints + place.joint, store.shown);
-    return motion(store.shapes, place.station, stations + place.station, store.shown);
+    if (place.joint !== null) return heard(store.joints, place.joint, joints + place.joint, store.shown, SPAN);
+    return heard(store.shapes, place.station, stations + place.station, store.shown, SPAN);
   }
 
   /** The one position that the hour has of a second. */
@@ -305,18 +305,4 @@ export class PlaceView implements View {
         : [h("li", { class: "none" }, "none")]),
     );
   }
-}
-
-/** Two columns of a ring over the last `SPAN` before a time. */
-function motion(ring: Ring, y: number, z: number, to: number): Motion {
-  const out: Motion = { times: [], y: [], z: [] };
-  for (let index = Math.max(0, ring.before(to - SPAN)); index < ring.length; index++) {
-    const time = ring.time(index);
-    if (time > to) break;
-    if (time < to - SPAN) continue;
-    out.times.push(time);
-    out.y.push(ring.value(index, y));
-    out.z.push(ring.value(index, z));
-  }
-  return out;
 }

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Orbit } from "../src/api";
-import { PastOrbit } from "../src/store/orbit";
+import { PastMotion } from "../src/store/motion";
 
 const orbit = (from: number): Orbit => ({
   from_ns: `${from}000000000`,
@@ -14,7 +14,7 @@ const orbit = (from: number): Orbit => ({
 
 test("motion is asked for once a window, and has the rig's time", async () => {
   const asked: [number, number][] = [];
-  const past = new PastOrbit(async (joint, time) => {
+  const past = new PastMotion(async (joint, time) => {
     asked.push([joint, time]);
     return orbit(107);
   });
@@ -28,7 +28,7 @@ test("motion is asked for once a window, and has the rig's time", async () => {
 
 test("who drags fast asks one question at a time, and hears of the last one", async () => {
   const waiting: ((orbit: Orbit | null) => void)[] = [];
-  const past = new PastOrbit(() => new Promise((answer) => waiting.push(answer)));
+  const past = new PastMotion(() => new Promise((answer) => waiting.push(answer)));
   for (const time of [100, 200, 300]) assert.equal(past.at(0, time), undefined);
   assert.equal(waiting.length, 1);
   waiting[0](orbit(107));
