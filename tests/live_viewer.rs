@@ -110,77 +110,7 @@ fn twenty_viewers_and_a_frozen_one_slow_nobody() {
     assert!(late * 20 < steps, "{late} of {steps} steps were late");
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
-    let said = twin.said();
-    assert!(!said.contains("not shown live"), "{said}");
-    told_of_the_frozen_one(&said);
-}
-
-/// The one that takes nothing is named by its address, with what it lost; the others have lost nothing.
-fn told_of_the_frozen_one(said: &str) {
-    assert!(said.contains("does not take its data: "), "{said}");
-    let gone: Vec<&str> = said
-        .lines()
-        .filter(|line| line.contains("had been given up for it"))
-        .collect();
-    assert_eq!(gone.len(), 1, "{said}");
-    let lost = gone[0]
-        .split("has gone; ")
-        .nth(1)
-        .and_then(|rest| rest.split(' ').next());
-    // Some hundreds a second, less the 256 that wait and what lies in the sockets.
-    assert!(lost.unwrap().parse::<u64>().unwrap() > 300, "{gone:?}");
-}
-
-/// With the default tool too, whose messages are the largest: deadlines, steps and frames are those of a run that nobody
-/// looks at. The viewers only empty their sockets, so that they do not take the solver's processor.
-#[test]
-fn twenty_viewers_of_the_default_tool_leave_its_deadlines_alone() {
-    const FIELDS: [&str; 5] = [
-        "deadline_misses",
-        "steps_skipped",
-        "frames_dropped",
-        "events_lost",
-        "step_count",
-    ];
-    let Some(network) = Network::new() else { return };
-    let Some(mut peer) = network.peer() else { return };
-    let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
-    command.args(["run", "--foxglove", LIVE]);
-    let mut twin = Program::start(command);
-    twin.wait_for("model time runs");
-    peer.subscribe("/twin/status", "flexdrill/msg/TwinStatus", "reliable");
-    let mut counts = || {
-        peer.take("/twin/status", 10_000, 0.0);
-        let status = peer.status_with("/twin/status", |status| status["state"] == 1);
-        FIELDS.map(|field| status[field].as_u64().unwrap())
-    };
-    let since = |then: [u64; 5], now: [u64; 5]| std::array::from_fn::<u64, 5, _>(|field| now[field] - then[field]);
-    // The first seconds are those of the start.
-    std::thread::sleep(std::time::Duration::from_secs(2));
-    let begin = counts();
-    std::thread::sleep(std::time::Duration::from_secs(10));
-    let alone = since(begin, counts());
-    let begin = counts();
-    let Some(seen) = network.viewer(&["light", URL, "20", "10"]) else {
-        return;
-    };
-    let watched = since(begin, counts());
-    println!("{FIELDS:?}: alone {alone:?}, with twenty viewers {watched:?}");
-    let bytes: Vec<u64> = serde_json::from_value(seen["bytes"].clone()).unwrap();
-    // About 1.2 MB a second each.
-    assert!(bytes.iter().all(|bytes| *bytes > 6_000_000), "{bytes:?}");
-    assert_eq!(watched[2..4], [0, 0], "frames dropped, events lost");
-    // Where nobody else uses the machine both are 0. Where others do, they make some steps late without viewers too: then
-    // twice as many may be, and one in two hundred, which is what a look at the status costs here.
-    let [late, skipped, .., steps] = watched;
-    assert!(late <= 2 * alone[0] + steps / 200, "{watched:?}, alone {alone:?}");
-    assert!(
-        skipped <= 2 * alone[1] + if alone[0] == 0 { 0 } else { steps / 200 },
-        "{watched:?}, alone {alone:?}"
-    );
-    twin.signal("INT");
-    assert_eq!(twin.end(), Some(0));
-    told_of_the_frozen_one(&twin.said());
+    assert!(!twin.said().contains("not shown live"), "{}", twin.said());
 }
 
 #[test]
