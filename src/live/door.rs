@@ -357,7 +357,7 @@ mod tests {
         }
         let door = Door::new(([127, 0, 0, 1], 1).into(), &[]);
         let way = |address: &str| door.way(&address.parse().unwrap()).map(|way| way.is_some());
-        assert_eq!(way("/").unwrap(), false);
+        assert!(!way("/").unwrap());
         let (status, why) = way("/?token=abc").unwrap_err();
         assert_eq!(status, StatusCode::FORBIDDEN);
         assert!(why.contains("--allow-control"), "{why}");
