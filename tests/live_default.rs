@@ -98,7 +98,7 @@ fn twenty_viewers_leave_the_deadlines_alone_and_the_frozen_one_is_named() {
         assert!(*least > 0 && 10 * least > 8 * most, "{bytes:?}");
         flooded += usize::from(*least > FULL);
         assert_eq!((watched.frames_dropped, watched.events_lost), (0, 0));
-        // A fourth of a core for 20 viewers of 24 MB/s in all; 7 % were measured.
+        // A fourth of a core for 20 viewers of 24 MB/s in all; a tenth was measured.
         assert!(used < 0.25 * TIME as f64, "{used} s");
         rounds += 1;
         quiet += usize::from(alone.late == 0);
