@@ -4,16 +4,18 @@
 # checks that dist/ is what the sources give, runs the unit tests and the browser's. The last line sums up.
 #   --shots FOLDER   keep screenshots
 #   --no-browser     only the build's check and the unit tests
+#   --heap MINUTES   only the page's memory, measured so long beside a twin and a rig; fails where it grows
 # FLEXDRILL_BINARY names the program if it is built already.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 # Longest time of the browser's tests (s).
 limit=${FLEXDRILL_PAGE_TEST_LIMIT:-900}
-shots="" browser=yes
+shots="" browser=yes heap=""
 while [ $# -gt 0 ]; do
     case $1 in
     --shots) shots=$(realpath -m "${2:?--shots needs a folder}") && shift ;;
     --no-browser) browser="" ;;
+    --heap) heap=${2:?--heap needs minutes} && shift ;;
     *) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
     esac
     shift
@@ -29,19 +31,27 @@ cd "$page"
 say "step 1 of 3: packages of the page, as package-lock.json has them"
 timeout 600 npm ci --no-fund --no-audit --loglevel=error ||
     fail "npm could not install what package-lock.json names; is there a network?"
+own_network=(unshare --net)
+[ "$(id -u)" -eq 0 ] || own_network=(unshare --user --map-root-user --net)
+# Runs a script of e2e/ for at most so long (s), in a network of its own, against the program.
+in_browser() {
+    local seconds=$1 script=$2
+    shift 2
+    need_packages util-linux iproute2
+    [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || need_packages chromium
+    flexdrill=${FLEXDRILL_BINARY:-}
+    [ -n "$flexdrill" ] || build
+    exec timeout -k 30 "$seconds" "${own_network[@]}" \
+        sh -c 'ip link set lo up && exec node "$@"' page "e2e/$script" --flexdrill "$(realpath "$flexdrill")" "$@"
+}
+if [ -n "$heap" ]; then
+    say "the page's memory over $heap minutes"
+    in_browser $((60 * heap + 300)) heap.mjs --minutes "$heap"
+fi
 say "step 2 of 3: dist/ is what the sources give; unit tests"
 npm run --silent check || fail "dist/ is not what the sources give"
 timeout 300 npm test --silent || fail "unit tests of the page"
 [ -n "$browser" ] || exit 0
 
 say "step 3 of 3: the page in Chromium (at most $((limit / 60)) minutes)"
-need_packages util-linux iproute2
-[ -x "${CHROMIUM:-/usr/bin/chromium}" ] || need_packages chromium
-flexdrill=${FLEXDRILL_BINARY:-}
-[ -n "$flexdrill" ] || build
-options=(--flexdrill "$(realpath "$flexdrill")")
-[ -z "$shots" ] || options+=(--shots "$shots")
-own_network=(unshare --net)
-[ "$(id -u)" -eq 0 ] || own_network=(unshare --user --map-root-user --net)
-exec timeout -k 30 "$limit" "${own_network[@]}" \
-    sh -c 'ip link set lo up && exec node e2e/run.mjs "$@"' page "${options[@]}"
+in_browser "$limit" run.mjs ${shots:+--shots "$shots"}

@@ -3,7 +3,7 @@
 mod common;
 
 use std::io::Write as _;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use common::{Network, Program};
 use serde_json::{Value, json};
@@ -302,6 +302,67 @@ fn a_twin_that_went_comes_back_by_itself_and_the_hour_has_a_gap() {
     let gaps = times.windows(2).filter(|pair| pair[1] - pair[0] > 1.5).count();
     assert_eq!(gaps, 1, "{times:?}");
     assert!(times.len() as u64 > frames);
+    server.end();
+}
+
+/// A reader that a new twin finds at once, and that finds the twin some seconds later, is not one that does not take.
+#[test]
+fn a_twin_that_starts_again_has_no_word_against_the_dashboard() {
+    let Some(network) = Network::new() else { return };
+    let server = Server::start(&network, &[]);
+    for _ in 0..3 {
+        let mut twin = network.twin(&["--duration", "7"]);
+        assert_eq!(twin.end(), Some(0));
+        let said = twin.said();
+        assert!(!said.contains("does not take them"), "{said}");
+    }
+    // All of them were heard to the end: the last one's alarms are those of a run.
+    if let Some(journal) = server.get("/api/journal") {
+        assert!(!journal["body"]["events"].as_array().unwrap().is_empty(), "{journal}");
+    }
+    server.end();
+}
+
+/// Longer ago than the page keeps motion, the server has three seconds of every ten.
+#[test]
+fn a_joints_motion_of_before_is_there_and_where_it_is_not_is_said() {
+    let Some(network) = Network::new() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    let server = Server::start(&network, &[]);
+    let now = || SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_nanos();
+    let path = |joint: usize, time: u128| format!("/api/orbit/{joint}/{time}");
+    let Some(before) = server.get(&path(2, now() - 3_600_000_000_000)) else {
+        return;
+    };
+    assert_eq!(before["code"], 404);
+    assert!(
+        text(&before["body"]).contains("no motion of that joint is kept"),
+        "{before}"
+    );
+    let deadline = Instant::now() + Duration::from_secs(40);
+    let motion = loop {
+        let answer = server.get(&path(2, now())).unwrap();
+        if answer["code"] == 200 {
+            break answer["body"].clone();
+        }
+        assert!(Instant::now() < deadline, "{answer}");
+        std::thread::sleep(Duration::from_millis(300));
+    };
+    let numbers = |name: &str| -> Vec<f64> { serde_json::from_value(motion[name].clone()).unwrap() };
+    let (times, y, z) = (numbers("times_s"), numbers("y_m"), numbers("z_m"));
+    // 25 a second of model time; a busy machine skips some, and the first window may be a part.
+    assert!(
+        (10..=76).contains(&times.len()) && *times.last().unwrap() < 3.0,
+        "{times:?}"
+    );
+    // The pipe leans off the bore's axis, by no more than both clearances.
+    let away = y.iter().zip(&z).map(|(y, z)| y.hypot(*z)).fold(0.0, f64::max);
+    assert!(y.len() == times.len() && (1e-5..0.0165).contains(&away), "{away} m");
+    assert_eq!(server.get(&path(6, now())).unwrap()["code"], 404, "six joints");
+    assert_eq!(server.get("/api/orbit/2/yesterday").unwrap()["code"], 400);
+    twin.signal("INT");
+    assert_eq!(twin.end(), Some(0));
     server.end();
 }
 

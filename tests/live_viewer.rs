@@ -163,6 +163,10 @@ fn a_recording_is_played_paused_and_sought() {
     );
     let (start, end, middle) = (time(&seen["start"]), time(&seen["end"]), time(&seen["middle"]));
     assert!((7_500_000_000..10_000_000_000).contains(&(end - start)), "{seen}");
+    // Who comes is told at once how it plays, without asking.
+    assert_eq!(seen["greeted"][0]["status"], 0, "{seen}");
+    let late = &seen["late"][0];
+    assert_eq!((&late["status"], time(&late["time"])), (&json!(1), middle), "{seen}");
     assert_eq!(
         (
             &seen["paused"]["status"],

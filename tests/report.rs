@@ -362,6 +362,57 @@ fn numbers_that_no_tool_can_have_do_not_end_it() {
     assert!(page.contains("<figure id=\"torque\">") && page.contains("<td class=\"n\">7</td>"));
 }
 
+/// Sections, figures and tiles of a page, in their order.
+fn contents(page: &str) -> Vec<String> {
+    let all = |before: &str, after: &str| -> Vec<String> {
+        let pieces = page.split(before).skip(1);
+        pieces
+            .filter_map(|piece| piece.split(after).next().map(str::to_owned))
+            .collect()
+    };
+    [all("<h2>", "</h2>"), all("<figure id=\"", "\"")].concat()
+}
+
+/// Bags of the twin's topics that a recorder from other hands made, MCAP and SQLite, give the page that ours gives.
+#[test]
+fn interop_a_foreign_recording_of_a_run_has_the_same_sections() {
+    let Some(network) = common::Network::new() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let own = folder.path().join("run");
+    let mut twin = network.twin(&["--record", text(&own), "--duration", "16"]);
+    assert_eq!(twin.end(), Some(0));
+    let Some(said) = common::python::run("bags.py", &["record", text(&own)], "") else {
+        return;
+    };
+    assert!(said.contains("/twin/session"), "{said}");
+    let (page, _) = report(&own, &[]);
+    let sections = contents(&page);
+    assert!(sections.len() > 10, "{sections:?}");
+    let mut tiles = Vec::new();
+    // Folders, and their files alone; of ROS 2 Humble a file without definitions.
+    for name in [
+        "run_mcap",
+        "run_mcap/run_mcap.mcap",
+        "run_sqlite",
+        "run_sqlite/run_sqlite.db3",
+        "run_humble.db3",
+    ] {
+        let (foreign, said) = report(&folder.path().join(name), &[]);
+        let has = contents(&foreign);
+        for section in &sections {
+            assert!(has.contains(section), "{name}: {section} is not in {has:?}: {said}");
+        }
+        assert!(foreign.contains("tool:\n"), "the configuration, from the latched topic");
+        assert!(!said.contains("cannot be read"), "{said}");
+        let tile = foreign.split("largest force, pipe on guide").next().unwrap();
+        tiles.push(tile.rsplit("<b>").next().unwrap().to_owned());
+    }
+    assert!(
+        tiles.iter().all(|tile| *tile == tiles[0]),
+        "both hold the same: {tiles:?}"
+    );
+}
+
 /// The example of the manual, on a bag of ours, with the packages that it names.
 #[test]
 fn interop_the_python_example_reads_and_draws_a_recording() {

@@ -58,11 +58,7 @@ pub(super) fn run(args: &DashboardArgs) -> anyhow::Result<()> {
             for note in notes {
                 tracing::warn!("{note}");
             }
-            let token = match (args.allow_control, &args.token_file) {
-                (false, _) => None,
-                (true, None) => Some(Token::random()?),
-                (true, Some(file)) => Some(Token::from_file(file)?),
-            };
+            let token = Token::where_allowed(args.allow_control, args.token_file.as_deref())?;
             Source::Twin {
                 network,
                 twin: NodeIdentity::new(&args.namespace, &args.node).map_err(WrongUse::new)?,

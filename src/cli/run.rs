@@ -10,6 +10,7 @@ use super::{WrongUse, numbers, record_name, signals};
 use crate::alarms::state_file;
 use crate::cli::output::say;
 use crate::dds::network::Network;
+use crate::live::Token;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
 use crate::ros::args::RosArgs;
@@ -59,13 +60,19 @@ pub(super) struct RunArgs {
     /// ~/.local/state/flexdrill.
     #[arg(long, value_name = "DIR")]
     state_dir: Option<PathBuf>,
-    /// Also show what is published over WebSocket, to Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Reading
-    /// only: nothing that a viewer sends acts on the twin.
+    /// Also show what is published over WebSocket, to Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Nothing that
+    /// a viewer sends acts on the twin, unless --allow-control is given too.
     #[arg(long, value_name = "ADDRESS:PORT")]
     foxglove: Option<SocketAddr>,
     /// Let a viewer from this page in too, as https://viewer.example; pages of this machine and of Foxglove always may.
     #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
     allow_origin: Vec<String>,
+    /// Let a viewer that opens ws://ADDRESS:PORT/?token=TOKEN set parameters, call services and drive; the token is printed.
+    #[arg(long, requires = "foxglove")]
+    allow_control: bool,
+    /// File with the token; without it a new one is made.
+    #[arg(long, value_name = "FILE", requires = "allow_control")]
+    token_file: Option<PathBuf>,
     /// Start from a state that ~/save_checkpoint has written. A recording of such a run cannot be replayed.
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
@@ -90,6 +97,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         .or_else(|| state_file::default_folder(|name| std::env::var(name).ok()));
     let alarm_state =
         state_dir.map(|folder| folder.join(state_file::file_name(network.domain_id, &identity.full_name())));
+    let token = Token::where_allowed(args.allow_control, args.token_file.as_deref())?;
     let setup = NodeSetup {
         config: started.config,
         config_file,
@@ -100,6 +108,7 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         live: args.foxglove.map(|address| LiveAddress {
             address,
             origins: args.allow_origin.clone(),
+            token,
         }),
         record: args
             .record
@@ -191,6 +200,12 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     match &setup.alarm_state {
         Some(path) => row("alarm state", path.display().to_string()),
         None => row("alarm state", "not kept: no home folder; give --state-dir".to_owned()),
+    }
+    if let Some(live) = &setup.live {
+        row("live", format!("ws://{}", live.address));
+        if let Some(token) = &live.token {
+            row("steering", format!("ws://{}/?token={}", live.address, token.text()));
+        }
     }
     if let Some(path) = &setup.record {
         row("recording", path.display().to_string());

@@ -54,6 +54,7 @@ pub(super) fn router(shared: Shared) -> Router {
         .route("/live", any(live))
         .route("/api/session", get(session))
         .route("/api/history", get(history))
+        .route("/api/orbit/{joint}/{time_ns}", get(orbit))
         .route("/api/journal", get(journal))
         .route("/api/control", get(control))
         .route("/api/control/{what}", post(act))
@@ -117,6 +118,13 @@ async fn history(State(shared): Server) -> Response {
             response
         }
         None => answer(StatusCode::NOT_FOUND, "nothing was heard of the twin yet"),
+    }
+}
+
+async fn orbit(State(shared): Server, Path((joint, time)): Path<(usize, i64)>) -> Response {
+    match shared.board.orbit(joint, time) {
+        Some(motion) => Json(motion).into_response(),
+        None => answer(StatusCode::NOT_FOUND, "no motion of that joint is kept of this time"),
     }
 }
 

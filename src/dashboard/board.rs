@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
 use super::history::History;
+use super::orbits::Orbits;
 use super::session::Session;
 use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
@@ -42,6 +43,8 @@ struct Incident {
 struct Known {
     session: Option<Session>,
     history: History,
+    /// The player of a bag has its motion itself.
+    orbits: Option<Orbits>,
     events: VecDeque<(i64, AlarmEvent)>,
     incidents: Vec<Incident>,
     status: Option<(TwinStatus, Instant)>,
@@ -51,11 +54,21 @@ struct Known {
 pub(super) struct Board(Mutex<Known>);
 
 impl Board {
-    /// Knows nothing; its history has a frame for so many seconds.
-    pub fn new(seconds: u32) -> Self {
+    /// Of a twin; knows nothing yet.
+    pub fn live() -> Self {
+        Self::new(1, Some(Orbits::default()))
+    }
+
+    /// Of a bag; its history has a frame for so many seconds.
+    pub fn of_bag(seconds: u32) -> Self {
+        Self::new(seconds, None)
+    }
+
+    fn new(seconds: u32, orbits: Option<Orbits>) -> Self {
         Self(Mutex::new(Known {
             session: None,
             history: History::new(seconds),
+            orbits,
             events: VecDeque::new(),
             incidents: Vec::new(),
             status: None,
@@ -81,6 +94,11 @@ impl Board {
     /// The history as the page gets it.
     pub fn history(&self) -> Option<Vec<u8>> {
         self.known().history.to_bytes()
+    }
+
+    /// A joint's motion at a time (ns since 1970) as the page gets it, where it is kept.
+    pub fn orbit(&self, joint: usize, time: i64) -> Option<Value> {
+        self.known().orbits.as_ref()?.at(joint, time)
     }
 
     /// The journal as the page gets it.
@@ -146,6 +164,9 @@ impl Known {
                 let message: JointDeflections = read(body)?;
                 let time = stamp(&message.header.stamp);
                 history.joints(time, &message);
+                if let Some(orbits) = &mut self.orbits {
+                    orbits.observe(time, &message);
+                }
                 time
             }
             name if name == topics::CONTACT_FORCES.name => {
@@ -305,7 +326,7 @@ mod tests {
 
     #[test]
     fn an_incident_lasts_from_the_call_to_the_end_with_its_worst_level() {
-        let board = Board::new(1);
+        let board = Board::live();
         send(&board, 10, 1, AlarmEvent::ACTIVATED, Alarm::LOW);
         send(&board, 10, 1, AlarmEvent::ACTIVATED, Alarm::LOW);
         send(&board, 12, 2, AlarmEvent::RAISED, Alarm::HIGH);

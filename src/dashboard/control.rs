@@ -3,34 +3,28 @@
 //! The server steers as any rig does, by `rig/inputs`, ten times a second, and only while it is the one publisher: where
 //! another sends an input, it does not begin, and stops. A page that steers says every second that it is still there.
 
+mod ask;
+mod drive;
+
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
+use self::ask::named;
+pub(super) use self::ask::{Ask, ControlParts};
+use self::drive::{Drive, applied, measured};
 use super::session::Limit;
-use super::token::Token;
-use crate::dds::plan::Offer;
-use crate::dds::port::{Monitor, PortBuilder, TopicPublisher};
+use crate::dds::port::Monitor;
+use crate::live::Token;
 use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
-use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
-use crate::messages::{
-    AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, RigInputs, ShelveAlarmRequest, ShelveAlarmResponse, TwinStatus,
-    UnshelveAlarmRequest, UnshelveAlarmResponse, to_cdr_body, topics,
-};
-use crate::ros::args::NodeIdentity;
-use crate::ros::client::{CallError, ServiceClient};
-use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use crate::messages::{RigInputs, TwinStatus, to_cdr_body};
 
 /// Time between two samples.
 pub(super) const PERIOD: Duration = Duration::from_millis(100);
 /// Steering ends when the page has said nothing for so long: three of its words, which come each second.
 pub(super) const DEAD_MAN: Duration = Duration::from_secs(3);
-/// A stamp of the twin that is further from the clock than this is that of a recording's or simulator's clock (ns).
-const OTHER_CLOCK: i64 = 10_000_000_000;
-/// Longest name of an operator (characters).
-const LONGEST_NAME: usize = 100;
 
 /// Why a request is not carried out.
 #[derive(Debug, PartialEq, thiserror::Error)]
@@ -46,36 +40,6 @@ pub(super) enum Refused {
     Away(String),
 }
 
-/// What an operator asks of the node.
-pub(super) enum Ask {
-    Acknowledge {
-        id: String,
-        reason: String,
-    },
-    /// For so long (s); without, until its condition has gone.
-    Shelve {
-        id: String,
-        reason: String,
-        duration: Option<f64>,
-    },
-    Unshelve {
-        id: String,
-        reason: String,
-    },
-    Reset,
-    Pause(bool),
-}
-
-/// While the page steers. Values are speed (r/min) and weight (kN).
-#[derive(Debug, Clone)]
-struct Drive {
-    operator: String,
-    target: [f64; 2],
-    sent: [f64; 2],
-    limits: [Limit; 2],
-    renewed: Instant,
-}
-
 #[derive(Debug, Default)]
 struct Steering {
     drive: Option<Drive>,
@@ -89,48 +53,6 @@ pub(super) struct Control {
     monitor: Monitor,
     parts: ControlParts,
     steering: Mutex<Steering>,
-}
-
-/// Its endpoints, named before DDS is up.
-pub(super) struct ControlParts {
-    /// Absolute name of this node.
-    node: String,
-    inputs: TopicPublisher,
-    acknowledge: ServiceClient,
-    shelve: ServiceClient,
-    unshelve: ServiceClient,
-    reset: ServiceClient,
-    pause: ServiceClient,
-}
-
-impl ControlParts {
-    /// At `port`, of the node `own` that speaks to the node called `twin`; `identity` is of this process alone.
-    pub fn new(port: &mut PortBuilder, own: &NodeIdentity, twin: &NodeIdentity, identity: u64) -> anyhow::Result<Self> {
-        let offer = Offer {
-            reliable: true,
-            latched: false,
-            depth: 10,
-            rate: 1.0 / PERIOD.as_secs_f64(),
-            lifespan: None,
-        };
-        let inputs = port.publisher(
-            &twin.expand(topics::RIG_INPUTS.name)?,
-            topics::RIG_INPUTS.kind.dds_type,
-            offer,
-        );
-        let mut client = |name: &str, kind: &str| -> anyhow::Result<ServiceClient> {
-            Ok(ServiceClient::new(port, &twin.expand(name)?, kind, identity))
-        };
-        Ok(Self {
-            node: own.full_name(),
-            inputs,
-            acknowledge: client("~/acknowledge_alarm", "flexdrill/srv/AcknowledgeAlarm")?,
-            shelve: client("~/shelve_alarm", "flexdrill/srv/ShelveAlarm")?,
-            unshelve: client("~/unshelve_alarm", "flexdrill/srv/UnshelveAlarm")?,
-            reset: client("~/reset", "std_srvs/srv/Trigger")?,
-            pause: client("~/pause", "std_srvs/srv/SetBool")?,
-        })
-    }
 }
 
 impl Control {
@@ -296,60 +218,6 @@ impl Control {
             "renew_within_s": DEAD_MAN.as_secs(),
         })
     }
-
-    /// Asks the node; what it says.
-    pub async fn ask(&self, operator: &str, ask: Ask) -> Result<String, Refused> {
-        let operator_name = named(operator)?;
-        let (monitor, parts) = (&self.monitor, &self.parts);
-        let asked = match ask {
-            Ask::Acknowledge { id, reason } => {
-                let request = AcknowledgeAlarmRequest {
-                    id,
-                    operator_name,
-                    reason,
-                };
-                let answer = parts.acknowledge.call(monitor, &request).await;
-                answer.map(|AcknowledgeAlarmResponse { success, message }| (success, message))
-            }
-            Ask::Shelve { id, reason, duration } => {
-                let request = ShelveAlarmRequest {
-                    id,
-                    one_shot: duration.is_none(),
-                    duration: duration.unwrap_or_default(),
-                    operator_name,
-                    reason,
-                };
-                let answer = parts.shelve.call(monitor, &request).await;
-                answer.map(|ShelveAlarmResponse { success, message }| (success, message))
-            }
-            Ask::Unshelve { id, reason } => {
-                let request = UnshelveAlarmRequest {
-                    id,
-                    operator_name,
-                    reason,
-                };
-                let answer = parts.unshelve.call(monitor, &request).await;
-                answer.map(|UnshelveAlarmResponse { success, message }| (success, message))
-            }
-            Ask::Reset => {
-                tracing::info!("{operator_name} asks for a reset");
-                let answer = parts.reset.call(monitor, &TriggerRequest::default()).await;
-                answer.map(|TriggerResponse { success, message }| (success, message))
-            }
-            Ask::Pause(data) => {
-                tracing::info!("{operator_name} asks to {}", if data { "pause" } else { "go on" });
-                let answer = parts.pause.call(monitor, &SetBoolRequest { data }).await;
-                answer.map(|SetBoolResponse { success, message }| (success, message))
-            }
-        };
-        match asked {
-            Ok((true, message)) => Ok(message),
-            Ok((false, message)) => Err(Refused::Conflict(message)),
-            Err(error @ (CallError::NoServer { .. } | CallError::NoReply { .. } | CallError::Encoding { .. })) => {
-                Err(Refused::Away(error.to_string()))
-            }
-        }
-    }
 }
 
 impl Steering {
@@ -359,91 +227,6 @@ impl Steering {
     }
 }
 
-impl Drive {
-    /// One period towards the targets, no faster than the model follows.
-    fn advance(&mut self) {
-        for ((sent, target), limit) in self.sent.iter_mut().zip(self.target).zip(self.limits) {
-            let most = limit.slew * PERIOD.as_secs_f64();
-            *sent += (target - *sent).clamp(-most, most);
-        }
-    }
-}
-
-/// The name of who asks.
-fn named(operator: &str) -> Result<String, Refused> {
-    let name = operator.trim();
-    let length = name.chars().count();
-    if length == 0 || length > LONGEST_NAME || name.chars().any(char::is_control) {
-        return Err(Refused::Wrong(format!(
-            "operator has {length} characters; give a name of 1 to {LONGEST_NAME}"
-        )));
-    }
-    Ok(name.to_owned())
-}
-
-/// What acts on the model (r/min, kN).
-fn applied(status: &TwinStatus) -> [Option<f64>; 2] {
-    let value = |input: usize| {
-        status
-            .input_applied
-            .get(input)
-            .copied()
-            .filter(|value| value.is_finite())
-    };
-    [value(0).map(rad_per_s_to_rpm), value(1).map(n_to_kn)]
-}
-
-/// The present time on the rig's clock: the system's, or where the twin follows another clock, that one (ns since 1970).
-fn measured(status: Option<(&TwinStatus, Instant)>) -> i64 {
-    let clock = super::now();
-    match status {
-        Some((status, arrived)) => {
-            let stamp = status.header.stamp.to_nanoseconds();
-            let twins = stamp.saturating_add(arrived.elapsed().as_nanos() as i64);
-            if (twins - clock).abs() > OTHER_CLOCK {
-                twins
-            } else {
-                clock
-            }
-        }
-        None => clock,
-    }
-}
-
 fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_values_sent_go_to_the_target_no_faster_than_the_slew_limit() {
-        let limit = |slew| Limit {
-            min: 0.0,
-            max: 100.0,
-            slew,
-        };
-        let mut drive = Drive {
-            operator: "Kim".into(),
-            target: [40.0, 0.0],
-            sent: [35.0, 0.5],
-            limits: [limit(20.0), limit(10.0)],
-            renewed: Instant::now(),
-        };
-        drive.advance();
-        assert_eq!(drive.sent, [37.0, 0.0]);
-        drive.advance();
-        drive.advance();
-        assert_eq!(drive.sent, [40.0, 0.0]);
-    }
-
-    #[test]
-    fn who_asks_must_say_his_name() {
-        assert_eq!(named(" Kim ").unwrap(), "Kim");
-        for wrong in ["", "  ", "a\nb", &"x".repeat(101)] {
-            assert!(named(wrong).is_err(), "{wrong}");
-        }
-    }
 }

@@ -1,9 +1,13 @@
 //! The last hour, one frame a second, for a page that is opened late: bounded memory, whatever is sent.
 
+mod columns;
+mod second;
+mod wire;
+
 use std::collections::VecDeque;
 
-use serde_json::json;
-
+use self::columns::{Column, Layout};
+use self::second::{Open, Put};
 use super::session::Session;
 use crate::messages::visualization_msgs::MarkerArray;
 use crate::messages::{
@@ -12,139 +16,9 @@ use crate::messages::{
 
 /// Frames kept: an hour at one a second. Of the default tool a frame has 6.4 kB, all of them 23 MB.
 pub(super) const CAPACITY: usize = 3600;
-/// Most bytes of frames, however long the tool and whatever is sent; the hour of a longer one is shorter.
-const MOST_BYTES: usize = 64 << 20;
 /// Times further back than this are another run, not messages out of order (ns).
 const ANOTHER_RUN: i64 = 2_000_000_000;
 const SECOND: i64 = 1_000_000_000;
-
-/// How the values of one second become one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum How {
-    Last,
-    /// The last, in the seconds after it too: it is sent when it changes.
-    Held,
-    Most,
-    Least,
-    Mean,
-}
-
-/// How many values a column has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Many {
-    One,
-    Joints,
-    Stations,
-    Watched,
-}
-
-macro_rules! columns {
-    ($($column:ident $name:literal $unit:literal $how:ident $many:ident)*) => {
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        enum Column { $($column),* }
-        /// Name, unit, way and size of each column, in their order.
-        const COLUMNS: &[(&str, &str, How, Many)] = &[$(($name, $unit, How::$how, Many::$many)),*];
-    };
-}
-
-columns! {
-    Time "time" "s" Last One
-    State "state" "" Last One
-    RealTimeFactor "real_time_factor" "" Last One
-    ModelQuality "model_quality" "" Most One
-    SpeedState "rotary_speed_state" "" Last One
-    WeightState "weight_on_bit_state" "" Last One
-    SpeedReceived "rotary_speed_received" "rad/s" Last One
-    SpeedApplied "rotary_speed_applied" "rad/s" Last One
-    WeightReceived "weight_on_bit_received" "N" Last One
-    WeightApplied "weight_on_bit_applied" "N" Last One
-    BitSpeedMin "bit_speed_min" "rad/s" Least One
-    BitSpeedMean "bit_speed_mean" "rad/s" Mean One
-    BitSpeedMax "bit_speed_max" "rad/s" Most One
-    BitTorqueMean "bit_torque_mean" "N m" Mean One
-    BitTorqueMax "bit_torque_max" "N m" Most One
-    StickSlip "stick_slip_index" "" Most One
-    StickSlipSeverity "stick_slip_severity" "" Most One
-    BitAcceleration "bit_lateral_acceleration_peak" "m/s2" Most One
-    WarningSeverity "warning_severity" "" Held One
-    WarningKind "warning_kind" "" Held One
-    WarningBody "warning_body" "" Held One
-    WarningDepth "warning_measured_depth" "m" Held One
-    PipeGuideForce "max_pipe_guide_force" "N" Most One
-    GuideWallForce "max_guide_wall_force" "N" Most One
-    ShockSeverity "shock_severity" "" Most One
-    BendAngle "max_bend_angle" "rad" Most One
-    JointsAtLimit "joints_at_limit" "" Most One
-    Unacknowledged "unacknowledged_alarms" "" Last One
-    WorstAlarm "worst_alarm_priority" "" Last One
-    JointBend "joint_bend_angle" "rad" Most Joints
-    JointStop "joint_stop_moment" "N m" Most Joints
-    JointY "joint_lateral_y" "m" Last Joints
-    JointZ "joint_lateral_z" "m" Last Joints
-    PipeGuidePeak "pipe_guide_normal_peak" "N" Most Stations
-    GuideWallPeak "guide_wall_normal_peak" "N" Most Stations
-    ContactState "contact_state" "" Last Stations
-    WhirlKind "whirl_kind" "" Last Watched
-    WhirlSeverity "whirl_severity" "" Last Watched
-    WhirlRatio "whirl_ratio" "" Last Watched
-    Clearance "clearance_ratio" "" Last Watched
-    ContactDuty "contact_duty" "" Last Watched
-    PipeY "pipe_y" "m" Last Stations
-    PipeZ "pipe_z" "m" Last Stations
-    GuideY "guide_y" "m" Last Stations
-    GuideZ "guide_z" "m" Last Stations
-}
-
-/// Sizes of a tool, and where its columns begin.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Layout {
-    joints: usize,
-    stations: usize,
-    watched: usize,
-    offsets: Vec<usize>,
-    stride: usize,
-}
-
-impl Layout {
-    fn new(joints: usize, stations: usize, watched: usize) -> Self {
-        let mut layout = Self {
-            joints,
-            stations,
-            watched,
-            offsets: Vec::new(),
-            stride: 0,
-        };
-        for (.., many) in COLUMNS {
-            layout.offsets.push(layout.stride);
-            layout.stride += layout.length(*many);
-        }
-        layout
-    }
-
-    /// Frames that are kept of this tool.
-    fn capacity(&self) -> usize {
-        CAPACITY.min(MOST_BYTES / (4 * self.stride.max(1))).max(1)
-    }
-
-    fn length(&self, many: Many) -> usize {
-        match many {
-            Many::One => 1,
-            Many::Joints => self.joints,
-            Many::Stations => self.stations,
-            Many::Watched => self.watched,
-        }
-    }
-}
-
-/// A second that is being filled.
-#[derive(Debug, Clone)]
-struct Open {
-    /// Number of the period since 1970.
-    period: i64,
-    values: Vec<f32>,
-    /// Values in the means.
-    counts: Vec<u32>,
-}
 
 /// The last hour.
 #[derive(Debug)]
@@ -340,11 +214,7 @@ impl History {
             }
         }
         let begins = self.open.is_none();
-        let open = self.open.get_or_insert_with(|| Open {
-            period,
-            values: vec![f32::NAN; layout.stride],
-            counts: vec![0; COLUMNS.len()],
-        });
+        let open = self.open.get_or_insert_with(|| Open::new(period, layout));
         let mut put = Put { layout, open };
         if let Some((_, warning)) = self.held.as_ref().filter(|_| begins) {
             put.warning(warning);
@@ -358,95 +228,6 @@ impl History {
             self.frames.push_back((done.period, done.values));
         }
         self.complete = true;
-    }
-
-    /// All frames, as the page gets them; none while nothing is known.
-    pub fn to_bytes(&self) -> Option<Vec<u8>> {
-        let layout = self.layout.as_ref()?;
-        let open = self.open.as_ref().map(|open| (open.period, &open.values));
-        let frames = || self.frames.iter().map(|(period, values)| (*period, values)).chain(open);
-        let (base, _) = frames().next()?;
-        let count = frames().count();
-        let columns: Vec<_> = COLUMNS
-            .iter()
-            .zip(&layout.offsets)
-            .map(|((name, unit, _, many), offset)| {
-                json!({"name": name, "unit": unit, "offset": offset, "length": layout.length(*many)})
-            })
-            .collect();
-        let mut head = json!({
-            "base_ns": (base * self.period).to_string(),
-            "period_s": self.period / SECOND,
-            "capacity": layout.capacity(),
-            "count": count,
-            "stride": layout.stride,
-            "complete": self.complete,
-            "columns": columns,
-        })
-        .to_string();
-        // The numbers begin where a typed array of any size may.
-        while !(4 + head.len()).is_multiple_of(8) {
-            head.push(' ');
-        }
-        let mut bytes = Vec::with_capacity(4 + head.len() + count * layout.stride * 4);
-        bytes.extend((head.len() as u32).to_le_bytes());
-        bytes.extend(head.as_bytes());
-        for (period, values) in frames() {
-            let time = ((period - base) * (self.period / SECOND)) as f32;
-            bytes.extend(time.to_le_bytes());
-            bytes.extend(
-                values
-                    .iter()
-                    .skip(Column::Time as usize + 1)
-                    .flat_map(|value| value.to_le_bytes()),
-            );
-        }
-        Some(bytes)
-    }
-}
-
-/// Puts values into the frame that is being filled.
-struct Put<'a> {
-    layout: &'a Layout,
-    open: &'a mut Open,
-}
-
-impl Put<'_> {
-    fn warning(&mut self, message: &WhirlWarning) {
-        self.one(Column::WarningSeverity, f64::from(message.severity));
-        self.one(Column::WarningKind, f64::from(message.kind));
-        self.one(Column::WarningBody, f64::from(message.body));
-        self.one(Column::WarningDepth, message.measured_depth);
-    }
-
-    fn one(&mut self, column: Column, value: f64) {
-        self.all(column, std::iter::once(value));
-    }
-
-    fn all(&mut self, column: Column, values: impl Iterator<Item = f64>) {
-        let number = column as usize;
-        let (Some((_, _, how, many)), Some(&offset), Some(count)) = (
-            COLUMNS.get(number),
-            self.layout.offsets.get(number),
-            self.open.counts.get_mut(number),
-        ) else {
-            return;
-        };
-        let length = self.layout.length(*many);
-        let Some(kept) = self.open.values.get_mut(offset..offset + length) else {
-            return;
-        };
-        *count += 1;
-        for (kept, value) in kept.iter_mut().zip(values) {
-            let value = value as f32;
-            *kept = match how {
-                How::Last | How::Held => value,
-                How::Most => kept.max(value),
-                How::Least => kept.min(value),
-                How::Mean if *count == 1 => value,
-                How::Mean => *kept + (value - *kept) / *count as f32,
-            };
-        }
     }
 }
 

@@ -16,9 +16,9 @@ mod board;
 mod control;
 mod history;
 mod listen;
+mod orbits;
 mod recorded;
 mod session;
-mod token;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -30,9 +30,9 @@ use self::board::Board;
 use self::control::{Control, ControlParts};
 use self::listen::Ears;
 use self::recorded::Recorded;
-pub use self::token::Token;
 use crate::dds::network::Network;
 use crate::dds::port::{Port, PortBuilder};
+pub use crate::live::Token;
 use crate::live::{self, Hub};
 use crate::ros::args::NodeIdentity;
 
@@ -121,7 +121,7 @@ struct Live {
 impl Live {
     async fn start(network: &Network, twin: &NodeIdentity, token: Option<Token>) -> anyhow::Result<Self> {
         let mut random = [0; 8];
-        token::fill_random(&mut random)?;
+        live::fill_random(&mut random)?;
         // Several dashboards are several nodes: the twin tells them apart by their names.
         let own = NodeIdentity::new(&twin.namespace, &format!("flexdrill_dashboard_{}", std::process::id()))?;
         let mut port = PortBuilder::new(network, &own.namespace, &own.name);
@@ -134,7 +134,7 @@ impl Live {
             None => None,
         };
         let hub = Hub::new(ears.topics())?;
-        let board = Arc::new(Board::new(1));
+        let board = Arc::new(Board::live());
         let port = tokio::task::spawn_blocking(move || port.start()).await??;
         ears.listen(&hub, &board);
         let control = control.map(|(token, parts)| Arc::new(Control::new(token, port.monitor(), parts)));

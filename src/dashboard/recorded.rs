@@ -37,7 +37,7 @@ impl Recorded {
             .find_map(|topic| topic.namespace(topics::STATUS.name).map(str::to_owned));
         let states = Arc::new(States::default());
         let seconds = (end - start).div_ceil(CAPACITY as u64 * 1_000_000_000);
-        let board = Arc::new(Board::new(u32::try_from(seconds).unwrap_or(u32::MAX)));
+        let board = Arc::new(Board::of_bag(u32::try_from(seconds).unwrap_or(u32::MAX)));
         board.with_history(|history| history.set_complete(false));
         let played = Arc::new(PlayedBag {
             name: path

@@ -126,7 +126,7 @@ pub struct Peers {
 pub struct Peer {
     /// Its id on the network.
     pub id: Guid,
-    /// The ROS 2 node that it belongs to, where that is known.
+    /// The ROS 2 node that it belongs to, where that is known: an absolute name. What is no node says what it is.
     pub node: Option<String>,
     /// Where it can be reached, as `192.168.1.7`.
     pub address: Option<String>,
@@ -135,7 +135,8 @@ pub struct Peer {
 impl std::fmt::Display for Peer {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match &self.node {
-            Some(node) => write!(f, "node {node}")?,
+            Some(node) if node.starts_with('/') => write!(f, "node {node}")?,
+            Some(other) => f.write_str(other)?,
             None => f.write_str("a DDS program")?,
         }
         if let Some(address) = &self.address {

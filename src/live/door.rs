@@ -1,20 +1,25 @@
 //! Who may come in: a WebSocket that speaks the protocol, from this machine's own pages and programs.
 //!
 //! A page of anybody can open a WebSocket to this machine from the browser that shows it; the browser says by `Origin`
-//! whose page it is. A name that its owner points to this machine (DNS rebinding) shows in `Host`.
+//! whose page it is. A name that its owner points to this machine (DNS rebinding) shows in `Host`. Who steers shows the
+//! token in the address, the one place that the protocol has for it.
 
 use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use axum::body::Body;
-use axum::extract::Request;
+use axum::extract::{ConnectInfo, Request};
 use axum::http::{HeaderMap, HeaderName, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 use flexdrill_realtime::monotonic;
 use hyper_util::rt::TokioIo;
+use tokio::io::AsyncWriteExt as _;
 use tokio::net::TcpStream;
 use tokio::sync::Semaphore;
 
+use super::Token;
+use super::pump::{Pump, text_of_client};
+use super::steering::Steering;
 use crate::told::{Throttles, printable};
 
 /// Most clients at once: each may leave some megabytes lying in its queue.
@@ -36,9 +41,18 @@ const OPENING: [HeaderName; 5] = [
     header::SEC_WEBSOCKET_PROTOCOL,
 ];
 
-/// Lets clients through to the protocol's server, which listens where only this machine gets.
+/// Where who has shown the token gets.
+pub(super) struct SteeredWay {
+    pub token: Token,
+    /// The protocol's server that offers to steer.
+    pub target: SocketAddr,
+    pub steering: Arc<Steering>,
+}
+
+/// Lets clients through to the protocol's servers, which listen where only this machine gets.
 pub struct Door {
     target: SocketAddr,
+    steered: Option<SteeredWay>,
     seats: Arc<Semaphore>,
     origins: Vec<String>,
     told: Mutex<Throttles<&'static str>>,
@@ -47,8 +61,14 @@ pub struct Door {
 impl Door {
     /// To the server at `target`, for pages of this machine, of Foxglove, and of `origins` (as `https://viewer.example`).
     pub fn new(target: SocketAddr, origins: &[String]) -> Arc<Self> {
+        Self::with(target, None, origins)
+    }
+
+    /// The same, with a way for who has the token.
+    pub(super) fn with(target: SocketAddr, steered: Option<SteeredWay>, origins: &[String]) -> Arc<Self> {
         Arc::new(Self {
             target,
+            steered,
             seats: Arc::new(Semaphore::new(MOST_CLIENTS)),
             origins: origins.to_vec(),
             told: Mutex::new(Throttles::new(TOLD_INTERVAL)),
@@ -90,7 +110,16 @@ impl Door {
             self.tell("seats", &why);
             return Err((StatusCode::SERVICE_UNAVAILABLE, why));
         };
-        let (response, theirs) = open(self.target, headers).await.map_err(|error| {
+        let way = self.way(request.uri())?;
+        let viewer = match request.extensions().get() {
+            Some(ConnectInfo(address)) => *address,
+            None => SocketAddr::from(([0, 0, 0, 0], 0)),
+        };
+        let (target, introduction) = match way {
+            Some(way) => (way.target, text_of_client(&way.steering.introduce(viewer))),
+            None => (self.target, Vec::new()),
+        };
+        let (response, theirs) = open(target, headers).await.map_err(|error| {
             let why = format!("the live data cannot be reached: {error}");
             self.tell("target", &why);
             (StatusCode::BAD_GATEWAY, why)
@@ -98,12 +127,44 @@ impl Door {
         let ours = hyper::upgrade::on(&mut request);
         tokio::spawn(async move {
             if let Ok((ours, theirs)) = tokio::try_join!(ours, theirs) {
+                let (mut from_viewer, to_viewer) = tokio::io::split(TokioIo::new(ours));
+                let (from_server, mut to_server) = tokio::io::split(TokioIo::new(theirs));
+                let hear = async {
+                    to_server.write_all(&introduction).await?;
+                    tokio::io::copy(&mut from_viewer, &mut to_server).await
+                };
+                let pump = Pump::new(viewer);
                 // It ends when either side goes, and that is all there is to know.
-                let _ = tokio::io::copy_bidirectional(&mut TokioIo::new(ours), &mut TokioIo::new(theirs)).await;
+                tokio::select! {
+                    _ = hear => {}
+                    () = pump.run(from_server, to_viewer) => {}
+                }
             }
             drop(seat);
         });
         Ok(response)
+    }
+
+    /// Where a viewer gets by the address that it asked for: with the token to where it may steer, without it to look.
+    fn way(&self, asked: &Uri) -> Result<Option<&SteeredWay>, (StatusCode, String)> {
+        let Some(offered) = token_in(asked) else {
+            return Ok(None);
+        };
+        let refused = |status, why: &str| {
+            self.tell("token", why);
+            Err((status, why.to_owned()))
+        };
+        match &self.steered {
+            None => refused(
+                StatusCode::FORBIDDEN,
+                "a viewer came with a token, but steering is off: start with --allow-control, or leave ?token= out to look",
+            ),
+            Some(way) if way.token.is(offered) => Ok(Some(way)),
+            Some(_) => refused(
+                StatusCode::UNAUTHORIZED,
+                "a viewer came with another token than the one that was printed at the start; leave ?token= out to look",
+            ),
+        }
     }
 
     fn origin_is_ours(&self, headers: &HeaderMap) -> bool {
@@ -118,6 +179,11 @@ impl Door {
             tracing::warn!("{why}{more}");
         }
     }
+}
+
+/// The token in `/?token=TOKEN`.
+fn token_in(asked: &Uri) -> Option<&str> {
+    asked.query()?.split('&').find_map(|part| part.strip_prefix("token="))
 }
 
 /// What is said to a client that asks for another subprotocol.
@@ -276,6 +342,25 @@ mod tests {
         ] {
             assert!(!asked(Some(foreign)), "{foreign}");
         }
+    }
+
+    #[test]
+    fn the_token_is_a_part_of_the_address() {
+        for (address, token) in [
+            ("/", None),
+            ("/?token=abc", Some("abc")),
+            ("/live?x=1&token=abc", Some("abc")),
+            ("/?tokens=abc", None),
+            ("/?token=", Some("")),
+        ] {
+            assert_eq!(token_in(&address.parse().unwrap()), token, "{address}");
+        }
+        let door = Door::new(([127, 0, 0, 1], 1).into(), &[]);
+        let way = |address: &str| door.way(&address.parse().unwrap()).map(|way| way.is_some());
+        assert!(!way("/").unwrap());
+        let (status, why) = way("/?token=abc").unwrap_err();
+        assert_eq!(status, StatusCode::FORBIDDEN);
+        assert!(why.contains("--allow-control"), "{why}");
     }
 
     #[test]

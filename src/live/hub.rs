@@ -129,6 +129,9 @@ impl ServerListener for Hub {
 
     fn on_client_connect(&self) {
         self.clients.fetch_add(1, Ordering::Relaxed);
+        if let Some(player) = locked(&self.player).as_ref() {
+            player.greet();
+        }
     }
 
     fn on_client_disconnect(&self) {

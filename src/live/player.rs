@@ -74,6 +74,8 @@ struct State {
     ended: bool,
     /// To go there.
     seek: Option<u64>,
+    /// Somebody has come who does not know how it plays.
+    greet: bool,
     stop: bool,
 }
 
@@ -92,6 +94,17 @@ impl State {
             (_, true) => PlaybackStatus::Ended,
             (true, false) => PlaybackStatus::Playing,
             (false, false) => PlaybackStatus::Paused,
+        }
+    }
+
+    /// What viewers hear of it.
+    fn told(&self, current_time: u64, did_seek: bool) -> PlaybackState {
+        PlaybackState {
+            status: self.status(),
+            current_time,
+            playback_speed: self.speed,
+            did_seek,
+            request_id: None,
         }
     }
 }
@@ -137,6 +150,7 @@ impl Player {
                 anchor: (Instant::now(), range.0),
                 ended: false,
                 seek: Some(range.0),
+                greet: false,
                 stop: false,
             }),
             changed: Condvar::new(),
@@ -175,16 +189,16 @@ impl Player {
             state.ended = false;
         }
         state.anchor = (now, time);
-        let answer = PlaybackState {
-            status: state.status(),
-            current_time: time,
-            playback_speed: state.speed,
-            did_seek: seek.is_some(),
-            request_id: None,
-        };
+        let answer = state.told(time, seek.is_some());
         drop(state);
         self.changed.notify_all();
         answer
+    }
+
+    /// Has all viewers told how it plays: one of them is new, and the protocol has no word to that one alone.
+    pub(super) fn greet(&self) {
+        locked(&self.state).greet = true;
+        self.changed.notify_all();
     }
 
     fn play(&self, mut bag: Bag, stage: &Stage) {
@@ -194,6 +208,13 @@ impl Player {
             let mut state = locked(&self.state);
             if state.stop {
                 return;
+            }
+            if std::mem::take(&mut state.greet) {
+                // Told before the state can change, so that no viewer hears an older one after a newer.
+                let how = state.told(state.time(Instant::now(), self.range.1), false);
+                stage.server.broadcast_time(how.current_time);
+                stage.server.broadcast_playback_state(how);
+                continue;
             }
             if let Some(time) = state.seek.take() {
                 drop(state);
@@ -237,15 +258,7 @@ impl Player {
     fn end(&self, mut state: MutexGuard<'_, State>, stage: &Stage) {
         state.anchor = (Instant::now(), self.range.1);
         (state.playing, state.ended) = (false, true);
-        let ended = PlaybackState {
-            status: PlaybackStatus::Ended,
-            current_time: self.range.1,
-            playback_speed: state.speed,
-            did_seek: false,
-            request_id: None,
-        };
-        drop(state);
-        stage.server.broadcast_playback_state(ended);
+        stage.server.broadcast_playback_state(state.told(self.range.1, false));
     }
 }
 

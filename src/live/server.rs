@@ -9,17 +9,19 @@ use std::thread::JoinHandle;
 use axum::Router;
 use axum::extract::Request;
 use axum::serve::ListenerExt as _;
+use foxglove::websocket::Capability;
 use foxglove::{WebSocketServer, WebSocketServerHandle};
 use tokio::net::TcpListener;
 use tokio::sync::{Notify, oneshot};
 
 use super::LiveError;
-use super::door::Door;
+use super::Token;
+use super::door::{Door, SteeredWay};
 use super::hub::Hub;
+use super::pump::BACKLOG;
+use super::steering::{ENCODING, Steering};
 use crate::told::printable;
 
-/// Messages that a client may leave lying; then its oldest goes. At 20 kB each, the largest of the default tool, 5 MB.
-const BACKLOG: usize = 256;
 /// Bytes that wait for the live thread; then the oldest goes: some seconds of all outputs of the default tool.
 const MOST_BYTES: usize = 8 << 20;
 
@@ -32,18 +34,35 @@ pub(crate) async fn start_protocol(
     hub: &Arc<Hub>,
     range: Option<(u64, u64)>,
 ) -> Result<WebSocketServerHandle, LiveError> {
-    let mut server = WebSocketServer::new()
+    let mut server = protocol_of(hub).listener(Arc::clone(hub) as _);
+    if let Some((start, end)) = range {
+        server = server.capabilities([Capability::Time]).playback_time_range(start, end);
+    }
+    Ok(server.start().await?)
+}
+
+/// The same, for viewers that steer.
+///
+/// # Errors
+/// When it cannot listen.
+async fn start_steered(hub: &Arc<Hub>, steering: &Arc<Steering>) -> Result<Arc<WebSocketServerHandle>, LiveError> {
+    let server = protocol_of(hub)
+        .listener(Arc::clone(steering) as _)
+        .capabilities([Capability::ClientPublish])
+        .supported_encodings([ENCODING])
+        .services(steering.services())
+        .parameter_handler(Arc::clone(steering) as _);
+    let protocol = Arc::new(server.start().await?);
+    steering.set_protocol(&protocol);
+    Ok(protocol)
+}
+
+fn protocol_of(hub: &Hub) -> WebSocketServer {
+    WebSocketServer::new()
         .name(concat!("flexdrill ", env!("CARGO_PKG_VERSION")))
         .bind(Ipv4Addr::LOCALHOST.to_string(), 0)
         .context(hub.context())
         .message_backlog_size(BACKLOG)
-        .listener(Arc::clone(hub) as _);
-    if let Some((start, end)) = range {
-        server = server
-            .capabilities([foxglove::websocket::Capability::Time])
-            .playback_time_range(start, end);
-    }
-    Ok(server.start().await?)
 }
 
 /// The door to a protocol's server.
@@ -82,7 +101,7 @@ pub(crate) async fn serve(
         // Small messages go out as they come; that it cannot be set costs a little time only.
         let _ = stream.set_nodelay(true);
     });
-    let serving = axum::serve(listener, router);
+    let serving = axum::serve(listener, router.into_make_service_with_connect_info::<SocketAddr>());
     tokio::select! {
         result = serving.into_future() => result,
         () = end => Ok(()),
@@ -92,6 +111,32 @@ pub(crate) async fn serve(
 /// All that comes to the address goes through the door.
 pub(crate) fn only_door(door: Arc<Door>) -> Router {
     Router::new().fallback(move |request: Request| Arc::clone(&door).enter(request))
+}
+
+/// The protocol's servers, which serve as long as these are kept.
+type Protocols = (WebSocketServerHandle, Option<Arc<WebSocketServerHandle>>);
+
+/// The server for who looks, the one for who steers, and the door to both.
+async fn start_both(
+    hub: &Arc<Hub>,
+    steering: Option<(Token, Arc<Steering>)>,
+    origins: &[String],
+) -> Result<(Arc<Door>, Protocols), LiveError> {
+    let here = |server: &WebSocketServerHandle| SocketAddr::from((Ipv4Addr::LOCALHOST, server.port()));
+    let looked = start_protocol(hub, None).await?;
+    let (way, steered) = match steering {
+        None => (None, None),
+        Some((token, steering)) => {
+            let server = start_steered(hub, &steering).await?;
+            let way = SteeredWay {
+                token,
+                target: here(&server),
+                steering,
+            };
+            (Some(way), Some(server))
+        }
+    };
+    Ok((Door::with(here(&looked), way, origins), (looked, steered)))
 }
 
 /// A message on its way to the live thread.
@@ -159,7 +204,8 @@ pub struct LiveServer {
 }
 
 impl LiveServer {
-    /// Listens at `address`, which `option` gave; viewers in pages of `origins` may come in too.
+    /// Listens at `address`, which `option` gave; viewers in pages of `origins` may come in too, and who shows the token may
+    /// steer.
     ///
     /// # Errors
     /// When it cannot.
@@ -168,6 +214,7 @@ impl LiveServer {
         address: SocketAddr,
         hub: Arc<Hub>,
         origins: &[String],
+        steering: Option<(Token, Arc<Steering>)>,
     ) -> Result<Self, LiveError> {
         let listener = listen(option, address)?;
         let address = listener.local_addr()?;
@@ -183,11 +230,12 @@ impl LiveServer {
         let (given, origins) = (Arc::clone(&shared), origins.to_vec());
         let work = move || {
             runtime.block_on(async {
-                let protocol = match start_protocol(&given.hub, None).await {
-                    Ok(protocol) => protocol,
+                let started = start_both(&given.hub, steering, &origins).await;
+                let (door, protocols) = match started {
+                    Ok(started) => started,
                     Err(error) => return drop(told.send(Err(error))),
                 };
-                let router = only_door(door_to(&protocol, &origins));
+                let router = only_door(door);
                 // Who waits for it is there.
                 let _ = told.send(Ok(()));
                 let served = tokio::select! {
@@ -197,7 +245,8 @@ impl LiveServer {
                 if let Err(error) = served {
                     tracing::error!("the live server ended: {}", printable(&error.to_string()));
                 }
-                drop(protocol.stop());
+                // Their tasks end with the runtime.
+                drop(protocols);
             });
         };
         let thread = std::thread::Builder::new().name("live".into()).spawn(work)?;

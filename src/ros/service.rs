@@ -151,7 +151,12 @@ impl ServiceServer {
     {
         loop {
             let asked = self.requests.next().await;
-            let (dialect, request) = match interpret::<Req>(self.mapping, &asked.body) {
+            let mapping = if asked.is_from_dds() {
+                self.mapping
+            } else {
+                ServiceMapping::Only(Dialect::Enhanced)
+            };
+            let (dialect, request) = match interpret::<Req>(mapping, &asked.body) {
                 Ok(request) => request,
                 Err(why) => {
                     tracing::warn!(
@@ -165,11 +170,11 @@ impl ServiceServer {
             let response = CLIENT
                 .scope(asked.client.clone(), async { handler(request).await })
                 .await;
-            self.reply(&asked, dialect, response);
+            self.reply(asked, dialect, response);
         }
     }
 
-    fn reply<Resp: Reply>(&self, asked: &Request, dialect: Dialect, response: Resp) {
+    fn reply<Resp: Reply>(&self, asked: Request, dialect: Dialect, response: Resp) {
         let mut bytes = match dialect {
             Dialect::Cyclone => asked.body.get(..CYCLONE_HEADER).unwrap_or_default().to_vec(),
             Dialect::Enhanced => Vec::new(),

@@ -4,6 +4,7 @@ bags.py check BAG    reads the recording that the Rust test has made, with both,
 bags.py live BAG     reads a recording that the node has made while it ran, with both, and holds one against the other
 bags.py parts BAG    reads a recording in several files, and its metadata
 bags.py killed BAG   finds that a recording that was killed is refused
+bags.py record BAG   writes BAG again as BAG_mcap, BAG_sqlite and BAG_humble.db3, as `ros2 bag record -a` does that begins in the run
 bags.py write DIR    writes DIR/mcap and DIR/sqlite with rosbags, for the Rust test to read
 
 Ends with 77 when the packages are missing.
@@ -11,6 +12,7 @@ Ends with 77 when the packages are missing.
 
 import dataclasses
 import math
+import sqlite3
 import sys
 from collections import defaultdict
 from pathlib import Path
@@ -173,9 +175,69 @@ def write(folder):
     print("hash", store.hash_rihs01("flexdrill/msg/BitState"))
 
 
+def record(bag):
+    """What a recorder of all topics hears: latched states when it begins, all else as it comes, and what others publish."""
+    store = own_types()
+    log = store.types["rcl_interfaces/msg/Log"]
+    time = store.types["builtin_interfaces/msg/Time"]
+    text = get_types_from_msg("string secret\nfloat64[] numbers\n", "other_msgs/msg/Foreign")
+    store.register(text)
+    with AnyReader([bag], default_typestore=store) as reader:
+        connections = list(reader.connections)
+        heard = [(stamp, connection, bytes(data)) for connection, stamp, data in reader.messages()]
+    begin = heard[0][0] + 3 * 10**9
+    latched = {
+        connection.topic
+        for connection in connections
+        if any(qos.durability.name == "TRANSIENT_LOCAL" for qos in connection.ext.offered_qos_profiles)
+    }
+    standing = {}
+    for stamp, connection, data in heard:
+        if stamp < begin and connection.topic in latched:
+            standing[connection.topic] = (begin, connection, data)
+    # A recorder notes when it heard a message, some milliseconds after it was sent.
+    later = [(stamp + 3_000_000, connection, data) for stamp, connection, data in heard if stamp >= begin]
+    for plugin, name in ((StoragePlugin.MCAP, "mcap"), (StoragePlugin.SQLITE3, "sqlite")):
+        with Writer(bag.with_name(f"{bag.name}_{name}"), version=9, storage_plugin=plugin) as writer:
+            written = {
+                connection.topic: writer.add_connection(
+                    connection.topic,
+                    connection.msgtype,
+                    typestore=store,
+                    offered_qos_profiles=connection.ext.offered_qos_profiles,
+                )
+                for connection in connections
+            }
+            rosout = writer.add_connection("/rosout", log.__msgtype__, typestore=store)
+            foreign = writer.add_connection("/other/foreign", "other_msgs/msg/Foreign", typestore=store)
+            said = log(time(begin // 10**9, 0), 20, "/other", "hello", "other.cpp", "main", 1)
+            writer.write(rosout, begin, store.serialize_cdr(said, log.__msgtype__))
+            writer.write(foreign, begin, b"\0\1\0\0\1\2\3")
+            for stamp, connection, data in [*standing.values(), *later]:
+                writer.write(written[connection.topic], stamp, data)
+    as_humble(bag.with_name(f"{bag.name}_sqlite") / f"{bag.name}_sqlite.db3", bag.with_name(f"{bag.name}_humble.db3"))
+    print(f"messages {len(standing) + len(later) + 2} latched {sorted(standing)}")
+
+
+def as_humble(file, out):
+    """The tables of ROS 2 Humble, which know no definitions and no hashes, and no metadata."""
+    old, new = sqlite3.connect(file), sqlite3.connect(out)
+    text, whole = "TEXT NOT NULL", "INTEGER NOT NULL"
+    names = ["name", "type", "serialization_format", "offered_qos_profiles"]
+    new.execute(f"CREATE TABLE topics(id INTEGER PRIMARY KEY, {', '.join(f'{name} {text}' for name in names)})")
+    new.execute(f"CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id {whole}, timestamp {whole}, data BLOB NOT NULL)")
+    for table, columns in (("topics", ["id", *names]), ("messages", ["id", "topic_id", "timestamp", "data"])):
+        rows = old.execute(f"SELECT {', '.join(columns)} FROM {table}")
+        new.executemany(f"INSERT INTO {table} VALUES ({', '.join('?' * len(columns))})", rows)
+    new.commit()
+    new.close()
+    old.close()
+
+
 def main():
     action, path = sys.argv[1:]
-    {"check": check, "live": live, "parts": parts, "killed": killed, "write": write}[action](Path(path))
+    actions = {"check": check, "live": live, "parts": parts, "killed": killed, "record": record, "write": write}
+    actions[action](Path(path))
 
 
 main()

@@ -2,6 +2,7 @@
 
 viewer.py decode URL SECONDS [SUBPROTOCOL]   subscribes to everything; says per topic what came, decoded by its own schema
 viewer.py crowd URL COUNT SECONDS            COUNT viewers that subscribe to everything, one of which takes nothing; one decodes
+viewer.py light URL COUNT SECONDS            the same of a crowd that only empties its sockets; says how many bytes each got
 viewer.py play URL                           pauses, seeks, plays faster, to the end; says what the server answered
 viewer.py refused URL SUBPROTOCOL ORIGIN     says with which code it is not let in ("-" leaves either out)
 
@@ -11,7 +12,8 @@ Answers one JSON object. Ends with 77 when the packages are missing.
 import asyncio
 import json
 import math
-import socket
+import select
+import socket as socketlib
 import struct
 import sys
 import time
@@ -42,11 +44,18 @@ class Viewer:
         """Server info and all channels, with an id that is not theirs for each."""
         self.info = json.loads(await self.socket.recv())
         assert self.info["op"] == "serverInfo", self.info
-        said = json.loads(await self.socket.recv())
-        assert said["op"] == "advertise", said
+        said = await self.word("advertise")
         self.channels = {1000 + index: channel for index, channel in enumerate(said["channels"])}
         subscriptions = [{"id": id, "channelId": channel["id"]} for id, channel in self.channels.items()]
         await self.socket.send(json.dumps({"op": "subscribe", "subscriptions": subscriptions}))
+
+    async def word(self, op):
+        """The next text, which is that one; a bag's player tells the time and its state meanwhile."""
+        while not isinstance(frame := await self.socket.recv(), str):
+            self.take(frame)
+        said = json.loads(frame)
+        assert said["op"] == op, said
+        return said
 
     def decode(self, id, data):
         channel = self.channels[id]
@@ -125,8 +134,8 @@ async def decode(url, seconds, protocol=PROTOCOL):
 
 async def crowd(url, count, seconds):
     """All subscribe to everything. The first takes nothing after that, with the smallest buffer; the last decodes."""
-    frozen = socket.socket()
-    frozen.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    frozen = socketlib.socket()
+    frozen.setsockopt(socketlib.SOL_SOCKET, socketlib.SO_RCVBUF, 4096)
     host, port = url.split("/")[2].rsplit(":", 1)
     frozen.connect((host, int(port)))
     viewers = []
@@ -150,18 +159,61 @@ async def crowd(url, count, seconds):
     return {"counts": counts, "joints": len(stamps), "gaps": gaps, "topics": len(viewers[-1].found)}
 
 
+async def light(url, count, seconds):
+    """Viewers that cost next to nothing: the handshake and a subscription by hand, then bytes that nobody looks at."""
+    async with opened(url) as socket:
+        first = Viewer(socket)
+        await first.greet()
+    wanted = json.dumps({
+        "op": "subscribe",
+        "subscriptions": [{"id": id, "channelId": channel["id"]} for id, channel in first.channels.items()],
+    }).encode()
+    frame = b"\x81\xfe" + struct.pack(">H", len(wanted)) + bytes(4) + wanted
+    place = url.split("/")[2]
+    upgrade = ["GET / HTTP/1.1", f"Host: {place}", "Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13"]
+    upgrade += ["Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==", f"Sec-WebSocket-Protocol: {PROTOCOL}", "", ""]
+    host, port = place.rsplit(":", 1)
+    sockets = {}
+    for index in range(int(count)):
+        viewer = socketlib.socket()
+        if index == 0:
+            viewer.setsockopt(socketlib.SOL_SOCKET, socketlib.SO_RCVBUF, 4096)
+        viewer.connect((host, int(port)))
+        viewer.sendall("\r\n".join(upgrade).encode())
+        head = viewer.recv(4096)
+        assert head.startswith(b"HTTP/1.1 101"), head
+        viewer.sendall(frame)
+        sockets[viewer] = 0
+    frozen, *others = sockets
+    room, deadline = bytearray(1 << 20), time.monotonic() + float(seconds)
+    while time.monotonic() < deadline:
+        # Ten times a second, all that lies there: a viewer's own pace.
+        time.sleep(0.1)
+        for viewer in select.select(others, [], [], 0)[0]:
+            sockets[viewer] += viewer.recv_into(room)
+    for viewer in sockets:
+        viewer.close()
+    return {"bytes": [sockets[viewer] for viewer in others]}
+
+
 async def play(url):
     async with opened(url) as socket:
         viewer = Viewer(socket)
         await viewer.greet()
         start, end = (viewer.info[key]["sec"] * 10**9 + viewer.info[key]["nsec"] for key in ("dataStartTime", "dataEndTime"))
         middle = (start + end) // 2
+        await viewer.listen(2.0, until=lambda: viewer.states)
+        greeted = viewer.states[:1]
         paused = await viewer.control(1, 1.0, middle, "pause in the middle")
         await viewer.listen(1.0)
         named = lambda name: next(topic for topic in viewer.found if topic.endswith(name))
         status = named("/twin/status")
         at_rest = max(viewer.found[status]["stamps"][-1:] or [0])
         count = sum(topic["count"] for topic in viewer.found.values())
+        async with opened(url) as another:
+            late = Viewer(another)
+            await late.greet()
+            await late.listen(2.0, until=lambda: late.states)
         await viewer.listen(1.0)
         still = sum(topic["count"] for topic in viewer.found.values()) - count
         began = time.monotonic()
@@ -175,6 +227,8 @@ async def play(url):
             "start": start,
             "end": end,
             "middle": middle,
+            "greeted": greeted,
+            "late": late.states[:1],
             "paused": paused,
             "at_rest": at_rest,
             "still": still,
@@ -199,7 +253,8 @@ async def refused(url, protocol, origin):
 
 def main():
     command, *arguments = sys.argv[1:]
-    answer = asyncio.run({"decode": decode, "crowd": crowd, "play": play, "refused": refused}[command](*arguments))
+    commands = {"decode": decode, "crowd": crowd, "light": light, "play": play, "refused": refused}
+    answer = asyncio.run(commands[command](*arguments))
     print(json.dumps(answer))
 
 

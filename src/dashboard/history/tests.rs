@@ -1,5 +1,6 @@
 //! The hour: a frame a second, bounded, with its gaps.
 
+use super::columns::MOST_BYTES;
 use super::*;
 use crate::messages::SessionInfo;
 use serde_json::Value;

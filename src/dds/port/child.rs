@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::inbox::{Request, Sample};
+use super::inbox::{Request, Sample, Way};
 use super::{Shared, TopicCounters};
 use crate::dds::frames::{self, Beat, FromSide, LogLevel, Stall, ToSide};
 use crate::dds::plan::{GuidPrefix, Plan};
@@ -238,8 +238,10 @@ impl Hearing {
             } => {
                 if let Some(inbox) = self.shared.services.get(usize::from(service)) {
                     inbox.put(Request {
-                        life: self.life,
-                        ticket,
+                        way: Way::Dds {
+                            life: self.life,
+                            ticket,
+                        },
                         client,
                         body,
                     });

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tokio::sync::Notify;
+use tokio::sync::{Notify, oneshot};
 
 use crate::dds::frames::Peer;
 use crate::dds::plan::Guid;
@@ -23,16 +23,38 @@ pub enum Sample {
     Unreadable(String),
 }
 
+/// Where the reply to a request goes.
+#[derive(Debug)]
+pub(super) enum Way {
+    /// Through the DDS process of this life.
+    Dds { life: u64, ticket: u64 },
+    /// To a part of this process.
+    Here(oneshot::Sender<Vec<u8>>),
+}
+
 /// A request to a service.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct Request {
-    /// Which life of the DDS process it came through.
-    pub(super) life: u64,
-    pub(super) ticket: u64,
+    pub(super) way: Way,
     /// Who asks.
     pub client: Peer,
     /// CDR without its header.
     pub body: Vec<u8>,
+}
+
+impl Request {
+    /// Asked for within this process, by `client`, with a CDR body; the body of the reply comes to the receiver, which hears
+    /// nothing where the service does not answer.
+    pub fn of_this_process(client: Peer, body: Vec<u8>) -> (Self, oneshot::Receiver<Vec<u8>>) {
+        let (sender, receiver) = oneshot::channel();
+        let way = Way::Here(sender);
+        (Self { way, client, body }, receiver)
+    }
+
+    /// Whether it came over DDS, where clients speak in two forms.
+    pub fn is_from_dds(&self) -> bool {
+        matches!(self.way, Way::Dds { .. })
+    }
 }
 
 /// A bounded queue. When it is full the oldest goes: of an input only the newest counts, and a client whose request is
@@ -54,7 +76,8 @@ impl<T> Inbox<T> {
         }
     }
 
-    pub(super) fn put(&self, item: T) {
+    /// Adds one; where there is no room, the oldest goes.
+    pub(crate) fn put(&self, item: T) {
         {
             let mut queue = self.lock();
             if queue.len() == self.most {

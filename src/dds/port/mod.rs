@@ -17,6 +17,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 pub use self::health::{Health, Restart};
+use self::inbox::Way;
 pub use self::inbox::{Inbox, Request, Sample};
 use self::keeper::Keeper;
 use self::outbox::Outbox;
@@ -167,6 +168,12 @@ impl PortBuilder {
         (publisher, inbox)
     }
 
+    /// The services so far, for who asks within this process: absolute name, type, and where requests are put.
+    pub fn services(&self) -> impl Iterator<Item = (&str, &str, &Arc<Inbox<Request>>)> {
+        let named = self.plan.services.iter().zip(&self.services);
+        named.map(|(plan, inbox)| (plan.name.as_str(), plan.ros_type.as_str(), inbox))
+    }
+
     /// Brings DDS up.
     ///
     /// # Errors
@@ -286,14 +293,18 @@ impl Requests {
     }
 
     /// Answers it with a CDR body. A request that came through a process that has ended meanwhile is not answered.
-    pub fn reply(&self, request: &Request, body: Vec<u8>) {
-        self.outbox.reply(
-            request.life,
-            ToSide::Reply {
-                service: self.service,
-                ticket: request.ticket,
-                body,
-            },
-        );
+    pub fn reply(&self, request: Request, body: Vec<u8>) {
+        match request.way {
+            Way::Dds { life, ticket } => self.outbox.reply(
+                life,
+                ToSide::Reply {
+                    service: self.service,
+                    ticket,
+                    body,
+                },
+            ),
+            // Who asked may have gone.
+            Way::Here(answer) => drop(answer.send(body)),
+        }
     }
 }

@@ -341,9 +341,9 @@ impl Minder {
     }
 
     fn tend_writers(&mut self, now: Instant) {
-        let (mut writers, book) = (locked(&self.writers), locked(&self.book));
+        let (mut writers, mut book) = (locked(&self.writers), locked(&self.book));
         for writer in writers.iter_mut() {
-            let stalled = writer.tend(now, &mut self.node, &self.participant, &book);
+            let stalled = writer.tend(now, &mut self.node, &self.participant, &mut book);
             if let Some(stall) = stalled {
                 self.outlet.send(FromSide::Stalled(stall));
             }

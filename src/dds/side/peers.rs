@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::net::{IpAddr, SocketAddr};
+use std::time::Instant;
 
 use ros2_client::{Gid, Node, Publisher, Subscription};
+use rustdds::discovery::DiscoveredReaderData;
 use rustdds::policy::{Durability, History, Reliability};
 use rustdds::{DomainParticipant, DomainParticipantStatusEvent, GUID, QosPolicyBuilder, RTPSEntity as _, TopicKind};
 use serde::{Deserialize, Serialize};
@@ -19,6 +21,9 @@ pub(super) const DISCOVERY_TOPIC: &str = "ros_discovery_info";
 const DISCOVERY_TYPE: &str = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
 /// Most participants remembered: made-up ones must not pile up.
 const MOST_PARTICIPANTS: usize = 1024;
+
+/// Most readers of which is remembered when they were found.
+const MOST_READERS: usize = 4096;
 
 /// `rmw_dds_common/msg/ParticipantEntitiesInfo`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -52,6 +57,8 @@ pub(super) struct PeerBook {
     read: Vec<String>,
     written: Vec<String>,
     told: Option<Peers>,
+    /// When each reader of what is written was found.
+    found: BTreeMap<GUID, Instant>,
 }
 
 impl PeerBook {
@@ -83,12 +90,15 @@ impl PeerBook {
             read: plan.readers.iter().map(|plan| dds_topic_name(&plan.topic)).collect(),
             written: plan.writers.iter().map(|plan| dds_topic_name(&plan.topic)).collect(),
             told: None,
+            found: BTreeMap::new(),
         })
     }
 
     /// Who is there; `None` when nothing has changed since it was last asked.
     pub(super) fn look(&mut self, participant: &DomainParticipant) -> Option<Peers> {
         self.hear();
+        let reading = participant.discovered_readers();
+        self.find(&reading, Instant::now());
         let written = participant.discovered_writers();
         let present: Vec<GuidPrefix> = written
             .iter()
@@ -109,7 +119,6 @@ impl PeerBook {
                 })
                 .collect()
         });
-        let reading = participant.discovered_readers();
         let readers = self.written.iter().map(|topic| {
             let readers = reading
                 .iter()
@@ -170,6 +179,35 @@ impl PeerBook {
         }
     }
 
+    /// When the newest of the readers that ask for every sample of a topic was found; none where there are no such.
+    pub(super) fn newest_reader(
+        &mut self,
+        topic: &str,
+        participant: &DomainParticipant,
+        now: Instant,
+    ) -> Option<Instant> {
+        let readers = participant.discovered_readers();
+        self.find(&readers, now);
+        let topic = dds_topic_name(topic);
+        let waited_for = readers.iter().filter(|reader| {
+            let data = &reader.subscription_topic_data;
+            data.topic_name == topic && data.qos().is_reliable()
+        });
+        let found = waited_for.filter_map(|reader| self.found.get(&reader.reader_proxy.remote_reader_guid));
+        found.max().copied()
+    }
+
+    /// Notes readers that are new, and forgets those that have gone.
+    fn find(&mut self, readers: &[DiscoveredReaderData], now: Instant) {
+        let present = readers
+            .iter()
+            .filter(|reader| self.written.contains(&reader.subscription_topic_data.topic_name))
+            .map(|reader| reader.reader_proxy.remote_reader_guid);
+        let known = std::mem::take(&mut self.found);
+        let noted = |guid| (guid, known.get(&guid).copied().unwrap_or(now));
+        self.found = present.take(MOST_READERS).map(noted).collect();
+    }
+
     /// The readers for which a writer refuses: those to which samples were sent again meanwhile or whose socket on this
     /// machine piles up, else all that asked for every sample. Whether it is these for certain.
     pub(super) fn stalled(
@@ -187,13 +225,13 @@ impl PeerBook {
             .filter(|reader| reader.subscription_topic_data.qos().is_reliable())
             .filter(|reader| prefix(&reader.reader_proxy.remote_reader_guid) != prefix(&publisher.guid()))
             .collect();
-        let describe = |reader: &rustdds::discovery::DiscoveredReaderData| {
+        let describe = |reader: &DiscoveredReaderData| {
             self.peer(
                 &reader.reader_proxy.remote_reader_guid,
                 &reader.reader_proxy.unicast_locator_list,
             )
         };
-        let lags = |reader: &&rustdds::discovery::DiscoveredReaderData| {
+        let lags = |reader: &&DiscoveredReaderData| {
             watch.has_seen(&format!("{:?}", reader.reader_proxy.remote_reader_guid))
                 || backlog::piles_up(&sockets(&reader.reader_proxy.unicast_locator_list))
         };

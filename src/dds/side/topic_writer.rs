@@ -18,8 +18,12 @@ use super::raw::RawCdr;
 use crate::dds::frames::Stall;
 use crate::dds::plan::{Offer, WriterPlan, dds_topic_name};
 
-/// How long a writer may refuse before it is made anew. Others wait as long; a healthy reader acknowledges within 0.1 s.
+/// How long a writer may refuse before it is made anew. Others wait as long; a healthy reader that has found it acknowledges
+/// within 0.1 s.
 const PATIENCE: Duration = Duration::from_millis(400);
+/// A reader that was found so short ago is not there yet: it acknowledges once it has found the writer too. Of this library
+/// that takes up to four seconds on a busy machine, and begins anew with each writer that it must find.
+const SETTLING: Duration = Duration::from_secs(5);
 /// States of a latched topic that may wait for the one before to be acknowledged.
 const WAITING: usize = 16;
 /// A node's list of endpoints grows with each new writer, so after this many the process begins afresh.
@@ -38,7 +42,8 @@ pub(super) struct TopicWriter {
 
 /// A writer that refuses, and what is learned meanwhile.
 struct Refusing {
-    since: Instant,
+    /// Then it is made anew.
+    until: Instant,
     watch: RepairWatch,
 }
 
@@ -86,10 +91,17 @@ impl TopicWriter {
         now: Instant,
         node: &mut Node,
         participant: &DomainParticipant,
-        book: &PeerBook,
+        book: &mut PeerBook,
     ) -> Option<Stall> {
         self.flush();
-        let refusing = self.refusing.take_if(|refusing| now >= refusing.since + PATIENCE)?;
+        let refusing = self.refusing.as_mut().filter(|refusing| now >= refusing.until)?;
+        if let Some(found) = book.newest_reader(&self.plan.topic, participant, now)
+            && now < found + SETTLING
+        {
+            refusing.until = found + SETTLING;
+            return None;
+        }
+        let refusing = self.refusing.take()?;
         let (readers, is_certain) = book.stalled(&self.publisher, &self.plan.topic, participant, &refusing.watch);
         // A new writer that cannot be made leaves the old one, to be tried again.
         self.publisher = create(node, participant, &self.plan).ok()?;
@@ -127,7 +139,7 @@ impl TopicWriter {
             }
             Err(WriteError::WouldBlock { data }) => {
                 self.refusing.get_or_insert_with(|| Refusing {
-                    since: Instant::now(),
+                    until: Instant::now() + PATIENCE,
                     watch: RepairWatch::begin(),
                 });
                 Err(data.0)

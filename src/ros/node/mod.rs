@@ -10,6 +10,7 @@ mod ending;
 pub mod publish;
 pub mod publishers;
 pub mod rig;
+pub mod viewers;
 
 use std::future::Future;
 use std::net::SocketAddr;
@@ -28,6 +29,7 @@ use self::ending::{Ended, Ending};
 use self::publish::{Publisher, PublisherParts};
 use self::publishers::Publishers;
 use self::rig::{Now, RigInputs, RigTime};
+use self::viewers::Viewers;
 use super::args::{NodeIdentity, Remapping};
 use super::parameters::{self, Parameters};
 use super::service::ServiceMapping;
@@ -35,7 +37,7 @@ use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging, type_desc
 use crate::bag::{Recording, RecordingThread, Topic};
 use crate::dds::network::Network;
 use crate::dds::port::PortBuilder;
-use crate::live::{Hub, LiveError, LiveServer};
+use crate::live::{Hub, LiveError, LiveServer, Steering, Token};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
@@ -89,6 +91,8 @@ pub struct LiveAddress {
     pub address: SocketAddr,
     /// Pages that may look beside this machine's own, as `https://viewer.example`.
     pub origins: Vec<String>,
+    /// Who shows it may steer; nobody without.
+    pub token: Option<Token>,
 }
 
 /// What a node's run came to.
@@ -133,11 +137,6 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
             let name = |topic: &TopicInfo| setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned());
             Some(RecordingThread::start(path, name)?)
         }
-        None => None,
-    };
-
-    let live = match &setup.live {
-        Some(at) => Some(start_live(&setup, at)?),
         None => None,
     };
 
@@ -195,21 +194,32 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
         }
     }
     let (for_recording, received) = rig::for_recording();
+    let mut inputs = Vec::new();
     let mut plain = Vec::new();
     for (kind, topic) in [
         (InputKind::RotarySpeed, &topics::ROTARY_SPEED_RPM),
         (InputKind::WeightOnBit, &topics::WEIGHT_ON_BIT_KN),
     ] {
-        let samples = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
+        let name = setup.topic_name(topic)?;
+        let samples = port.subscription(&name, topic.kind.dds_type, false);
+        inputs.push(viewers::input(topic, name, &samples));
         plain.push((kind, samples));
     }
     let topic = &topics::RIG_INPUTS;
-    let stamped = port.subscription(&setup.topic_name(topic)?, topic.kind.dds_type, false);
+    let name = setup.topic_name(topic)?;
+    let stamped = port.subscription(&name, topic.kind.dds_type, false);
+    inputs.push(viewers::input(topic, name, &stamped));
     if setup.use_sim_time {
         let name = setup.topic_name(&topics::CLOCK)?;
         let ticks = port.subscription(&name, topics::CLOCK.kind.dds_type, false);
         tasks.spawn(rig::follow_clock(rig_inputs.clone(), ticks, Arc::clone(&simulated)));
     }
+    let live = match &setup.live {
+        Some(at) => Some(start_live(&setup, at, || {
+            Viewers::new(&port, &parameters, &rig_inputs, inputs)
+        })?),
+        None => None,
+    };
     let port = tokio::task::spawn_blocking(move || port.start())
         .await
         .map_err(|error| NodeError::Stopped(error.to_string()))??;
@@ -307,7 +317,12 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     Ok(RunSummary { status, recording })
 }
 
-fn start_live(setup: &NodeSetup, at: &LiveAddress) -> Result<LiveServer, NodeError> {
+/// Shows what is published, and lets who has the token steer.
+fn start_live(
+    setup: &NodeSetup,
+    at: &LiveAddress,
+    steered: impl FnOnce() -> Arc<Viewers>,
+) -> Result<LiveServer, NodeError> {
     // Names were checked when the publishers were made.
     let name = |topic: &TopicInfo| setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned());
     let offered: Vec<Topic> = topics::ALL
@@ -315,8 +330,25 @@ fn start_live(setup: &NodeSetup, at: &LiveAddress) -> Result<LiveServer, NodeErr
         .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
         .collect();
     let hub = Hub::new(&offered).map_err(LiveError::from)?;
-    let live = LiveServer::start("--foxglove", at.address, hub, &at.origins)?;
+    let steering = match &at.token {
+        None => None,
+        Some(token) => {
+            let viewers = steered();
+            let steering = Steering::new(Arc::clone(&viewers) as _, &hub)?;
+            viewers.tell_changes(&steering);
+            Some((token.clone(), steering))
+        }
+    };
+    let steers = steering.is_some();
+    let live = LiveServer::start("--foxglove", at.address, hub, &at.origins, steering)?;
     tracing::info!("live at ws://{} for Foxglove and Lichtblick", live.address());
+    if steers && !live.address().ip().is_loopback() {
+        tracing::warn!(
+            "--foxglove {} --allow-control: who has the token can steer from any machine that reaches this address, and the \
+             token goes in the clear; put a proxy with TLS in front",
+            live.address()
+        );
+    }
     Ok(live)
 }
 

@@ -171,6 +171,14 @@ impl RigInputs {
         locked(&self.conditioner).set_rules(inputs.rules());
     }
 
+    /// Takes over what is known of a publisher that discovery does not know.
+    pub fn describe(&self, driver: Driver) {
+        let mut intake = locked(&self.intake);
+        if !intake.drivers.is_described(driver.id) {
+            intake.drivers.describe(driver);
+        }
+    }
+
     /// Brings the targets up to date.
     pub fn update_targets(&self) {
         let now = (self.now)();

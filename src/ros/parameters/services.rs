@@ -3,7 +3,7 @@
 use std::fmt;
 use std::future::Future;
 use std::pin::Pin;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use ros2_client::parameters::raw;
 use ros2_client::rcl_interfaces::{
@@ -66,7 +66,12 @@ pub struct Parameters {
     act: Box<Act>,
     events: TopicPublisher,
     node_name: String,
+    /// Hears of every change beside `/parameter_events`.
+    told: OnceLock<Box<Told>>,
 }
+
+/// Hears of what has changed.
+pub type Told = dyn Fn(&[Parameter]) + Send + Sync;
 
 impl Parameters {
     /// Takes over a store. `act` is called with each set of values while no other change can come between.
@@ -89,6 +94,7 @@ impl Parameters {
             act,
             events,
             node_name,
+            told: OnceLock::new(),
         };
         let all = parameters.with(ParameterStore::all);
         parameters.publish(all, Vec::new());
@@ -98,6 +104,24 @@ impl Parameters {
     /// Reads the values.
     pub fn with<T>(&self, read: impl FnOnce(&ParameterStore) -> T) -> T {
         read(&self.store.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Has `told` hear of every change from now on; one only.
+    pub fn tell(&self, told: Box<Told>) {
+        // The first stays.
+        let _ = self.told.set(told);
+    }
+
+    /// Sets one, for `origin`, as a service does.
+    ///
+    /// # Errors
+    /// When it is refused.
+    pub fn set_one(&self, change: Parameter, origin: &str) -> Result<(), Refusal> {
+        let result = self.set(&[change], origin);
+        if let Err(reason) = &result {
+            tracing::warn!("a parameter change was refused: {reason}; asked for by {origin}");
+        }
+        result
     }
 
     /// Sets all of `changes` or none, lets them act, publishes the event and logs who asked.
@@ -113,6 +137,9 @@ impl Parameters {
         for (Parameter { name, value }, before) in changed.iter().zip(before) {
             let before = before.map_or_else(String::new, |before| format!(", was {}", show(&before)));
             tracing::info!("parameter {name} is {}{before}: asked for by {origin}", show(value));
+        }
+        if let Some(told) = self.told.get() {
+            told(&changed);
         }
         self.publish(Vec::new(), changed);
         Ok(())

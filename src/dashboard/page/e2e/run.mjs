@@ -4,62 +4,27 @@
 // (launch_scripts/page_test.sh makes one). With --dist the page comes from that folder instead of out of the program.
 // Every step has a bound; what was started is stopped; the last line sums up.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, openSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { chromium } from "playwright-core";
+import {
+  clean,
+  lastWords,
+  node,
+  option,
+  PORT,
+  rig,
+  root,
+  server,
+  start,
+  stop,
+  stopAll,
+  until,
+  work,
+} from "./programs.mjs";
 
-const root = join(dirname(fileURLToPath(import.meta.url)), "../../../..");
-const option = (name, otherwise) => {
-  const at = process.argv.indexOf(`--${name}`);
-  return at < 0 ? otherwise : process.argv[at + 1];
-};
-const flexdrill = option("flexdrill", join(root, "target/release/flexdrill"));
 const shots = option("shots", "");
-const work = mkdtempSync(join(tmpdir(), "flexdrill-page-"));
-const PORT = 8080;
 const TOKEN = "a-token-of-the-test-0123456789";
-const environment = { ...process.env, ROS_LOCALHOST_ONLY: "1", XDG_STATE_HOME: join(work, "state") };
-
-const running = new Map();
-
-/** Starts flexdrill under a name; its words go to a file of that name. */
-function start(name, ...words) {
-  const log = openSync(join(work, `${name}.log`), "a");
-  const child = spawn(flexdrill, words, { stdio: ["ignore", log, log], env: environment, cwd: root });
-  running.set(name, child);
-  return child;
-}
-
-/** Ends a program and waits for it. */
-async function stop(name, signal = "SIGTERM") {
-  const child = running.get(name);
-  running.delete(name);
-  if (!child || child.exitCode !== null || child.signalCode !== null) return;
-  const ended = new Promise((resolve) => child.once("exit", resolve));
-  child.kill(signal);
-  const timer = setTimeout(() => child.kill("SIGKILL"), 20_000);
-  await ended;
-  clearTimeout(timer);
-}
-
-/** Waits until `what` gives something true; fails with `words` after `seconds`. */
-async function until(words, seconds, what) {
-  const end = Date.now() + 1e3 * seconds;
-  let last;
-  for (;;) {
-    try {
-      last = await what();
-      if (last) return last;
-    } catch (error) {
-      last = error;
-    }
-    if (Date.now() > end) throw new Error(`not within ${seconds} s: ${words} (last: ${last})`);
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  }
-}
 
 let done = 0;
 async function step(name, what) {
@@ -68,20 +33,6 @@ async function step(name, what) {
   done++;
   console.log(`ok ${done} ${name} (${((Date.now() - begin) / 1e3).toFixed(1)} s)`);
 }
-
-const node = (...more) => start("node", "run", "--config", join(root, "config/coarse.yaml"), ...more);
-const rig = () =>
-  start(
-    "rig",
-    "rig",
-    join(root, "config/field_logs/demo.csv"),
-    "--loop",
-    "--from",
-    "45",
-    "--mapping",
-    join(root, "config/field_logs/rig_1hz.yaml"),
-  );
-const server = (...more) => start("server", "dashboard", "--listen", `127.0.0.1:${PORT}`, ...more);
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
@@ -273,6 +224,17 @@ try {
     const after = await page.evaluate(() => window.flexdrill.store.moment().time);
     assert.ok(after < before, `${after} is before ${before}`);
     await shot("past");
+    // As if that was longer ago than the page keeps motion: the server has some of it.
+    await page.evaluate(() => {
+      const { context, store } = window.flexdrill;
+      context.choose({ joint: 0, station: store.geometry.jointStation[0] });
+      store.joints.clear();
+    });
+    const source = () => page.textContent(".place .hint");
+    await until("the server's motion", 20, async () => /three seconds of every ten are kept/.test(await source()));
+    assert.ok(/2[0-9] positions a second/.test(await source()), await source());
+    await shot("past_place");
+    await page.focus("#timeline");
     await page.keyboard.press("Escape");
     await until("live", 5, async () => !(await page.evaluate(() => document.body.classList.contains("past"))));
   });
@@ -332,22 +294,12 @@ try {
   await shot("failed").catch(() => {});
 } finally {
   await browser.close();
-  for (const name of [...running.keys()]) await stop(name);
+  await stopAll();
 }
 if (failed) {
   console.log(`not ok ${done + 1} ${failed.stack ?? failed}`);
-  for (const name of ["server", "node", "rig"]) {
-    try {
-      const words = readFileSync(join(work, `${name}.log`), "utf8")
-        .split("\n")
-        .slice(-12)
-        .join("\n");
-      console.log(`--- last words of ${name}:\n${words}`);
-    } catch {
-      // It was never started.
-    }
-  }
+  lastWords();
 }
-rmSync(work, { recursive: true, force: true });
+clean();
 console.log(failed ? `page: ${done} steps passed, then one failed` : `page: ${done} steps passed`);
 process.exit(failed ? 1 : 0);

@@ -98,6 +98,18 @@ async function json<T>(path: string): Promise<T | null> {
 export const session = (): Promise<Session | null> => json<Session>("/api/session");
 export const control = (): Promise<ControlState | null> => json<ControlState>("/api/control");
 
+/** Three seconds of a joint's motion, longer ago than a minute. */
+export interface Orbit {
+  from_ns: string;
+  times_s: number[];
+  y_m: number[];
+  z_m: number[];
+}
+
+/** A joint's motion at a time (s), where the server has kept it. */
+export const orbit = (joint: number, time: number): Promise<Orbit | null> =>
+  json<Orbit>(`/api/orbit/${joint}/${BigInt(Math.round(time * 1e3)) * 1_000_000n}`);
+
 export async function journal(): Promise<JournalEntry[] | null> {
   return (await json<{ events: JournalEntry[] }>("/api/journal"))?.events ?? null;
 }

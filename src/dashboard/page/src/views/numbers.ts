@@ -3,7 +3,8 @@
 import { configured } from "../configuration";
 import { h, setAttribute, setText } from "../dom";
 import type { Layout, Scalar } from "../store/layout";
-import type { Moment, Topic } from "../store/store";
+import type { Moment } from "../store/store";
+import type { Topic } from "../store/topics";
 import { convert, digits, type Kind, lapse, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { INPUT_STATE, PRIORITY_SHAPE, SEVERITY, word } from "../words";

@@ -1,15 +1,9 @@
 // The orbit of the pipe's axis, looking down the hole: forward whirl turns clockwise.
 
 import { fit } from "../dom";
+import type { Motion } from "../store/motion";
 import type { Context } from "../view";
 import { digits, quantity } from "../units";
-
-/** Points of a motion with their times, oldest first; y to the right, z down (m). */
-export interface Motion {
-  times: number[];
-  y: number[];
-  z: number[];
-}
 
 /** Length of the trail (s): two turns at 40 r/min. */
 const TRAIL = 3;

@@ -1,14 +1,16 @@
 // One place of the tool: orbit, full spectrum, forces, stop moment, what the alarms say of it.
 
+import * as api from "../api";
 import { configured } from "../configuration";
 import { h, setText, show } from "../dom";
 import { fullSpectrum } from "../spectrum";
 import type { Vector } from "../store/layout";
+import { heard, type Motion, PastMotion } from "../store/motion";
 import type { Ring } from "../store/ring";
-import { convert, digits, number, quantity, withUnit } from "../units";
+import { clock, convert, digits, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type Place, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, SEVERITY, WHIRL_KIND, word } from "../words";
-import { drawOrbit, drawSpectrum, type Motion } from "./orbit";
+import { drawOrbit, drawSpectrum } from "./orbit";
 import { Strip } from "./strip";
 
 /** Length of the strips and of the motion that the spectrum is of (s). */
@@ -38,6 +40,7 @@ export class PlaceView implements View {
   private readonly outerTitle = h("h3");
   private readonly fast = new Pace(50);
   private readonly slow = new Pace(500);
+  private readonly past = new PastMotion(api.orbit);
   private factsKey = "";
 
   constructor(private readonly context: Context) {
@@ -122,7 +125,9 @@ export class PlaceView implements View {
     const inclination = number((geometry.stationInclination[place.station] * 180) / Math.PI, 0);
     const depth = withUnit(geometry.stationDepth[place.station], "depth", settings.units);
     setText(this.title, `${name} · ${depth} · ${inclination}°`);
-    const pipe = this.pipe(place);
+    const recent = this.pipe(place);
+    const kept = recent.times.length === 0 && place.joint !== null ? this.past.at(place.joint, store.shown) : null;
+    const pipe = kept ?? recent;
     const guide = this.guideNow(place.station);
     const tool = store.session?.tool;
     drawOrbit(this.orbit, context, pipe.times.length > 0 ? pipe : this.pipeThen(place.station), guide, {
@@ -130,7 +135,7 @@ export class PlaceView implements View {
       guide: tool?.guide_clearance ?? 0.008,
     });
     if (!this.slow.due(now, context.revision)) return;
-    this.drawSlow(place, pipe);
+    this.drawSlow(place, pipe, kept);
   }
 
   /** The pipe's axis about the bore's: of joints at their own rate, of other stations as often as the shape comes. */
@@ -139,8 +144,8 @@ export class PlaceView implements View {
     const { layout } = store;
     if (!layout) return { times: [], y: [], z: [] };
     const { joints, stations } = layout.counts;
-    if (place.joint !== null) return motion(store.joints, place.joint, joints + place.joint, store.shown);
-    return motion(store.shapes, place.station, stations + place.station, store.shown);
+    if (place.joint !== null) return heard(store.joints, place.joint, joints + place.joint, store.shown, SPAN);
+    return heard(store.shapes, place.station, stations + place.station, store.shown, SPAN);
   }
 
   /** The one position that the hour has of a second. */
@@ -160,7 +165,7 @@ export class PlaceView implements View {
     return [layout.vector(row, "guide_y")[station] || 0, layout.vector(row, "guide_z")[station] || 0];
   }
 
-  private drawSlow(place: Place, pipe: Motion): void {
+  private drawSlow(place: Place, pipe: Motion, kept: Motion | null | undefined): void {
     const { context } = this;
     const { store, settings } = context;
     const moment = store.moment();
@@ -171,16 +176,7 @@ export class PlaceView implements View {
       pipe.times.length > 1 ? (pipe.times.length - 1) / (pipe.times[pipe.times.length - 1] - pipe.times[0]) : 0;
     const turns = layout.scalar(row, "rotary_speed_applied") / (2 * Math.PI);
     drawSpectrum(this.spectrum, context, fullSpectrum(pipe.y, pipe.z, rate), turns);
-    setText(
-      this.source,
-      pipe.times.length === 0
-        ? "Motion is kept for a minute; this time is longer ago. The dot and the strips are of the hour, with a row a " +
-            "second; a recording has it all."
-        : `Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: in ` +
-            `the guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ` +
-            `${number(rate, 0)} positions a second` +
-            (place.joint === null ? "; a joint has more." : "."),
-    );
+    setText(this.source, this.words(place, pipe, kept, rate));
     const { stations, joints } = layout.counts;
     const unit = quantity("force", settings.units).unit;
     this.strip(this.forces, store.contacts, place.station, ["pipe_guide_normal_peak", place.station], "force");
@@ -200,6 +196,28 @@ export class PlaceView implements View {
       setText(this.momentTitle, `Moment of the stop (${quantity("torque", settings.units).unit}), dashed: rated`);
     }
     this.list(place);
+  }
+
+  /** What the motion is of, or why there is none. */
+  private words(place: Place, pipe: Motion, kept: Motion | null | undefined, rate: number): string {
+    if (pipe.times.length === 0) {
+      const hour = "The dot and the strips are of the hour, with a row a second; a recording has it all.";
+      if (place.joint === null) {
+        return `No motion: between joints it is kept for a minute, and this is longer ago; a joint has more. ${hour}`;
+      }
+      return kept === undefined
+        ? "Motion of this time is asked for."
+        : `No motion: the server has kept none of this joint from within 10 s of this time. ${hour}`;
+    }
+    const what = kept
+      ? `Motion of the ${number(pipe.times[pipe.times.length - 1] - pipe.times[0], 1)} s until ` +
+        `${clock(pipe.times[pipe.times.length - 1])}: further back than a minute, three seconds of every ten are kept. `
+      : "";
+    return (
+      `${what}Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: ` +
+      `in the guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ` +
+      `${number(rate, 0)} positions a second${place.joint === null ? "; a joint has more." : "."}`
+    );
   }
 
   /** A column of a ring over the last seconds; where those are no longer kept, that of the hour, a value a second. */
@@ -287,18 +305,4 @@ export class PlaceView implements View {
         : [h("li", { class: "none" }, "none")]),
     );
   }
-}
-
-/** Two columns of a ring over the last `SPAN` before a time. */
-function motion(ring: Ring, y: number, z: number, to: number): Motion {
-  const out: Motion = { times: [], y: [], z: [] };
-  for (let index = Math.max(0, ring.before(to - SPAN)); index < ring.length; index++) {
-    const time = ring.time(index);
-    if (time > to) break;
-    if (time < to - SPAN) continue;
-    out.times.push(time);
-    out.y.push(ring.value(index, y));
-    out.z.push(ring.value(index, z));
-  }
-  return out;
 }

@@ -1,6 +1,6 @@
 //! The secret that who steers must show.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
@@ -12,7 +12,15 @@ const RANDOM: usize = 24;
 const SHORTEST: usize = 16;
 
 /// A secret.
+#[derive(Clone)]
 pub struct Token(String);
+
+/// Without the secret itself: what is debugged is logged.
+impl fmt::Debug for Token {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Token(..)")
+    }
+}
 
 impl Token {
     /// A new one.
@@ -48,13 +56,25 @@ impl Token {
         Ok(Self(token.to_owned()))
     }
 
+    /// The one of an option that allows to steer: from its file, or a new one.
+    ///
+    /// # Errors
+    /// As the two others.
+    pub fn where_allowed(allowed: bool, file: Option<&Path>) -> anyhow::Result<Option<Self>> {
+        Ok(match (allowed, file) {
+            (false, _) => None,
+            (true, None) => Some(Self::random()?),
+            (true, Some(file)) => Some(Self::from_file(file)?),
+        })
+    }
+
     /// For the address that is printed.
     pub fn text(&self) -> &str {
         &self.0
     }
 
     /// Whether it is this one. Takes the same time whatever is offered.
-    pub(super) fn is(&self, offered: &str) -> bool {
+    pub(crate) fn is(&self, offered: &str) -> bool {
         self.0.as_bytes().ct_eq(offered.as_bytes()).into()
     }
 }
@@ -63,7 +83,7 @@ impl Token {
 ///
 /// # Errors
 /// When it has none.
-pub(super) fn fill_random(bytes: &mut [u8]) -> anyhow::Result<()> {
+pub(crate) fn fill_random(bytes: &mut [u8]) -> anyhow::Result<()> {
     let length = bytes.len();
     let filled = rustix::rand::getrandom(bytes, rustix::rand::GetRandomFlags::empty())
         .context("the system gives no random numbers")?;

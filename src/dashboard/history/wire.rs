@@ -1,0 +1,52 @@
+//! The last hour as the page gets it: a length of four bytes, JSON that names the columns, frames of 32-bit floats.
+
+use serde_json::json;
+
+use super::columns::{COLUMNS, Column};
+use super::{History, SECOND};
+
+impl History {
+    /// All frames, as the page gets them; none while nothing is known.
+    pub fn to_bytes(&self) -> Option<Vec<u8>> {
+        let layout = self.layout.as_ref()?;
+        let open = self.open.as_ref().map(|open| (open.period, &open.values));
+        let frames = || self.frames.iter().map(|(period, values)| (*period, values)).chain(open);
+        let (base, _) = frames().next()?;
+        let count = frames().count();
+        let columns: Vec<_> = COLUMNS
+            .iter()
+            .zip(&layout.offsets)
+            .map(|((name, unit, _, many), offset)| {
+                json!({"name": name, "unit": unit, "offset": offset, "length": layout.length(*many)})
+            })
+            .collect();
+        let mut head = json!({
+            "base_ns": (base * self.period).to_string(),
+            "period_s": self.period / SECOND,
+            "capacity": layout.capacity(),
+            "count": count,
+            "stride": layout.stride,
+            "complete": self.complete,
+            "columns": columns,
+        })
+        .to_string();
+        // The numbers begin where a typed array of any size may.
+        while !(4 + head.len()).is_multiple_of(8) {
+            head.push(' ');
+        }
+        let mut bytes = Vec::with_capacity(4 + head.len() + count * layout.stride * 4);
+        bytes.extend((head.len() as u32).to_le_bytes());
+        bytes.extend(head.as_bytes());
+        for (period, values) in frames() {
+            let time = ((period - base) * (self.period / SECOND)) as f32;
+            bytes.extend(time.to_le_bytes());
+            bytes.extend(
+                values
+                    .iter()
+                    .skip(Column::Time as usize + 1)
+                    .flat_map(|value| value.to_le_bytes()),
+            );
+        }
+        Some(bytes)
+    }
+}

@@ -1,0 +1,60 @@
+// Alarms as they stand and stood, and the journal of their events.
+
+import type { JournalEntry } from "../api";
+import type { AlarmEvent, AlarmList } from "../messages";
+import { stamp } from "./topics";
+
+/** Most entries of the journal, and of alarm lists to drag back through. */
+const JOURNAL = 2000;
+const LISTS = 500;
+
+export class AlarmBook {
+  /** As they stand. */
+  newest: AlarmList | null = null;
+  journal: JournalEntry[] = [];
+  journalRevision = 0;
+  private lists: { time: number; list: AlarmList }[] = [];
+
+  /** Takes a list; false where a newer one is known. */
+  take(list: AlarmList, isBag: boolean): boolean {
+    const last = this.newest;
+    // Of a latched topic old samples may come too: the highest sequence holds, then the newest.
+    if (last && !isBag && stamp(list.header) < stamp(last.header) && list.sequence <= last.sequence) return false;
+    this.newest = list;
+    if (!last || last.sequence !== list.sequence) {
+      this.lists.push({ time: stamp(list.header), list });
+      if (this.lists.length > LISTS) this.lists.shift();
+    }
+    return true;
+  }
+
+  takeEvent(event: AlarmEvent): void {
+    if (this.journal.some((entry) => entry.sequence === event.sequence)) return;
+    const { sec, nanosec } = event.header.stamp;
+    this.journal.push({ ...event, stamp_ns: (BigInt(sec) * 1_000_000_000n + BigInt(nanosec)).toString() });
+    if (this.journal.length > JOURNAL) this.journal.shift();
+    this.journalRevision++;
+  }
+
+  /** Takes the server's journal, older than what has been heard here. */
+  takeJournal(events: JournalEntry[]): void {
+    const known = new Set(events.map((event) => event.sequence));
+    this.journal = [...events, ...this.journal.filter((event) => !known.has(event.sequence))].slice(-JOURNAL);
+    this.journalRevision++;
+  }
+
+  /** As they stood at a time (s); null when that is not known. */
+  at(time: number): AlarmList | null {
+    let found: AlarmList | null = null;
+    for (const entry of this.lists) {
+      if (entry.time > time) break;
+      found = entry.list;
+    }
+    return found;
+  }
+
+  /** What stood is of another time or tool. */
+  forgetPast(): void {
+    this.lists = [];
+  }
+}
