@@ -2,7 +2,8 @@
 
 use flexdrill::messages::generated::{
     TYPES, builtin_interfaces, diagnostic_msgs, flexdrill as ours, geometry_msgs, lifecycle_msgs, rcl_interfaces,
-    rosgraph_msgs, sensor_msgs, std_msgs, std_srvs, tf2_msgs, type_description_interfaces, visualization_msgs,
+    rosgraph_msgs, sensor_msgs, service_msgs, std_msgs, std_srvs, tf2_msgs, type_description_interfaces,
+    visualization_msgs,
 };
 use flexdrill::messages::{Message, find_type, from_cdr, from_cdr_body, to_cdr, to_cdr_body};
 use flexdrill_core::inputs::InputKind;
@@ -133,6 +134,7 @@ types! {
     visualization_msgs::MarkerArray,
     visualization_msgs::MeshFile,
     visualization_msgs::UVCoordinate,
+    service_msgs::ServiceEventInfo,
 }
 
 /// The number of a type, before bytes of it.
