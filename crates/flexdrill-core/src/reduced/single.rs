@@ -405,10 +405,7 @@ impl SingleElimination<'_> {
         let crossing = self.additions.crossing[k];
         let added = &self.additions.couplings[k].lower;
         let b = &self.sweep.columns[k];
-        let keep = match &self.rows[k + 1] {
-            Some(rows) => Some(S::round(rows)),
-            None => None,
-        };
+        let keep = self.rows[k + 1].as_ref().map(|rows| S::round(rows));
         let zero = S::splat(0.0);
         if crossing == Crossing::Both {
             let mut lower = [zero; 12];
