@@ -1,4 +1,4 @@
-//! The elimination in single precision, a node's block in registers.
+//! The elimination in single precision: a block is sixteen vectors, kept in the first-level cache.
 //!
 //! Newton's residual is taken in double, so that a correction need only be good to a few digits. Pivots go in pairs as in
 //! double, without exchanges; where a multiplier of a row still to come is larger than a thousand, or nothing is a number
