@@ -160,87 +160,75 @@ impl<E: Equations> Kernel for Step<'_, E> {
         let Self {
             equations,
             model,
-            stride,
+            stride: (stride, most_iterations),
             conditions,
             from,
             to,
         } = self;
-        take(equations, model, stride, conditions, from, to)
-    }
-}
-
-#[inline(always)]
-fn take(
-    equations: &mut impl Equations,
-    model: &Model,
-    (stride, most_iterations): (Stride, u32),
-    conditions: &Conditions,
-    from: &State,
-    to: &mut State,
-) -> Result<u32, (u32, StepFailure)> {
-    let Stride {
-        scheme, h, accuracy, ..
-    } = stride;
-    equations.bit().begin();
-    equations.begin(model, stride, from, to);
-    scheme.predict(h, from, to);
-    to.time = conditions.time;
-    let drive_angle = conditions.drive_angle;
-    to.drive_angle = drive_angle;
-    let (driven, spin) = equations.driven_and_bit(model);
-    if let Some(driven) = driven {
-        to.q[driven] = drive_angle;
-        (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
-    }
-    let factors = scheme.factors(h);
-    let mut iterations = 0;
-    loop {
-        equations.residual(model, to, conditions, factors, iterations);
-        let (residuals, weights) = (equations.residuals(), equations.weights(accuracy));
-        let ratio = worst(residuals, weights);
-        let failure = |cause, value: f64, unknown: usize| {
-            let (station, body) = equations.locate(model, unknown);
-            StepFailure {
-                cause,
-                time: from.time,
-                step: h,
-                station,
-                body,
-                value,
-            }
-        };
-        if ratio.is_nan() {
-            let unknown = worst_unknown(residuals, weights);
-            return Err((iterations, failure(FailureCause::NotFinite, f64::NAN, unknown)));
+        let Stride {
+            scheme, h, accuracy, ..
+        } = stride;
+        equations.bit().begin();
+        equations.begin(model, stride, from, to);
+        scheme.predict(h, from, to);
+        to.time = conditions.time;
+        let drive_angle = conditions.drive_angle;
+        to.drive_angle = drive_angle;
+        let (driven, spin) = equations.driven_and_bit(model);
+        if let Some(driven) = driven {
+            to.q[driven] = drive_angle;
+            (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
         }
-        // Motion is not left to the predictor: what a small step leaves of its forces is of one sign, step after step.
-        if ratio <= 1.0 && (iterations > 0 || accuracy == Accuracy::Rest) {
-            return match equations.out_of_range(model, to) {
-                Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
-                None => {
-                    scheme.finish(h, from, to);
-                    Ok(iterations)
+        let factors = scheme.factors(h);
+        let mut iterations = 0;
+        loop {
+            equations.residual(model, to, conditions, factors, iterations);
+            let (residuals, weights) = (equations.residuals(), equations.weights(accuracy));
+            let ratio = worst(residuals, weights);
+            let failure = |cause, value: f64, unknown: usize| {
+                let (station, body) = equations.locate(model, unknown);
+                StepFailure {
+                    cause,
+                    time: from.time,
+                    step: h,
+                    station,
+                    body,
+                    value,
                 }
             };
+            if ratio.is_nan() {
+                let unknown = worst_unknown(residuals, weights);
+                return Err((iterations, failure(FailureCause::NotFinite, f64::NAN, unknown)));
+            }
+            // Motion is not left to the predictor: what a small step leaves of its forces is of one sign, step after step.
+            if ratio <= 1.0 && (iterations > 0 || accuracy == Accuracy::Rest) {
+                return match equations.out_of_range(model, to) {
+                    Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
+                    None => {
+                        scheme.finish(h, from, to);
+                        Ok(iterations)
+                    }
+                };
+            }
+            if iterations == most_iterations {
+                let unknown = worst_unknown(residuals, weights);
+                let value = residuals[unknown];
+                return Err((iterations, failure(FailureCause::NotConverged, value, unknown)));
+            }
+            iterations += 1;
+            if let Err(singular) = equations.solve(model, to, conditions, factors) {
+                let failure = StepFailure {
+                    cause: FailureCause::Singular,
+                    time: from.time,
+                    step: h,
+                    station: singular.station,
+                    body: Body::Pipe,
+                    value: singular.pivot,
+                };
+                return Err((iterations, failure));
+            }
+            correct(equations, to, conditions, factors, spin);
         }
-        if iterations == most_iterations {
-            let unknown = worst_unknown(residuals, weights);
-            let value = residuals[unknown];
-            return Err((iterations, failure(FailureCause::NotConverged, value, unknown)));
-        }
-        iterations += 1;
-        if let Err(singular) = equations.solve(model, to, conditions, factors) {
-            let failure = StepFailure {
-                cause: FailureCause::Singular,
-                time: from.time,
-                step: h,
-                station: singular.station,
-                body: Body::Pipe,
-                value: singular.pivot,
-            };
-            return Err((iterations, failure));
-        }
-        correct(equations, to, conditions, factors, spin);
     }
 }
 

@@ -1,7 +1,8 @@
 //! Joints eight at a time: [`super::law`] over eight lanes, with what was linearised last kept in memory.
 
 use super::Joint;
-use super::law::{JointLaw, RotationFunction, Stop, moments, tangent};
+use super::law::{JointLaw, RotationFunction, moments, tangent};
+use super::stop::Stop;
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Number};
 use crate::simd::vector::Vector;

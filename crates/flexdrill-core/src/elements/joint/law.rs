@@ -1,27 +1,15 @@
-//! The law of a joint, for one joint (`T` = f64) or eight at a time: rotational rows of Eq. 13 and the limit stop.
+//! The law of a joint, for one joint (`T` = f64) or eight at a time: rotational rows of Eq. 13, and the moments of rows
+//! and [stop](super::stop).
 //!
 //! `M` is a number as kept in memory (`Number::Memory`): what a residual linearises is kept until the tangent needs it.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::jet::Jet;
-use super::rotation::{DirectionJet, shaft_axis, shaft_direction, transverse_axis};
+use super::rotation::{DirectionJet, shaft_axis, transverse_axis};
+use super::stop::Stop;
 use crate::simd::number::Number;
 use crate::tool::description::JointKind;
-
-/// Coefficients of arcsin(x)/x in powers of x^2: (2n)! / (4^n n!^2 (2n + 1)).
-const ARC_SINE: [f64; 10] = {
-    let mut c = [1.0; 10];
-    let (mut n, mut ratio) = (1, 1.0);
-    while n < c.len() {
-        ratio *= (2 * n - 1) as f64 / (2 * n) as f64;
-        c[n] = ratio / (2 * n + 1) as f64;
-        n += 1;
-    }
-    c
-};
-/// Up to this sine (7 degrees) they give the angle to rounding: the next term is 0.125^20 / 120.
-const LARGEST_SINE: f64 = 0.125;
 
 /// A scalar function of a joint's six rotations with its derivatives.
 #[derive(Debug, Clone, Copy, Default)]
@@ -56,25 +44,6 @@ pub struct JointLaw<M> {
     pub stop_damping: f64,
 }
 
-/// The stop's moment with what its tangent takes. All zero where it is open.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Stop<M> {
-    /// Moment M (N m, >= 0).
-    pub moment: M,
-    /// d M / d angle at a constant rate: k (1 + c angle').
-    pub stiffness: M,
-    /// d M / d angle': k (angle - limit) c.
-    pub damping: M,
-    /// Energy in the stop's spring (J).
-    pub energy: M,
-    /// Power taken by the stop's damping (W).
-    pub dissipation: M,
-    /// d angle / d rotations.
-    pub gradient: [M; 6],
-    /// d2 angle / d rotations2.
-    pub hessian: [[M; 6]; 6],
-}
-
 impl<M> RotationFunction<M> {
     /// Keeps `product`.
     #[inline(always)]
@@ -90,16 +59,16 @@ impl<M> RotationFunction<M> {
 }
 
 /// d_a . (Q d_b) of a direction of the end above and one of the start below, with its derivatives in the six rotations.
-struct Product<T> {
-    value: T,
-    gradient: [T; 6],
-    hessian: [[T; 6]; 6],
+pub(super) struct Product<T> {
+    pub value: T,
+    pub gradient: [T; 6],
+    pub hessian: [[T; 6]; 6],
 }
 
 impl<T: Number> Product<T> {
     /// Value, gradient (a row of Phi_q, Eq. 16) and second derivatives, by the product rule.
     #[inline(always)]
-    fn of(above: &DirectionJet<T>, relative: &[[T; 3]; 3], below: &DirectionJet<T>) -> Self {
+    pub fn of(above: &DirectionJet<T>, relative: &[[T; 3]; 3], below: &DirectionJet<T>) -> Self {
         let zero = T::of(0.0);
         let mut out = Self {
             value: zero,
@@ -203,7 +172,7 @@ impl<M> JointLaw<M> {
     }
 
     #[inline(always)]
-    fn relative<T: Number<Memory = M>>(&self) -> [[T; 3]; 3] {
+    pub(super) fn relative<T: Number<Memory = M>>(&self) -> [[T; 3]; 3] {
         let mut out = [[T::of(0.0); 3]; 3];
         for (to, from) in out.iter_mut().zip(&self.relative) {
             for (to, from) in to.iter_mut().zip(from) {
@@ -211,94 +180,6 @@ impl<M> JointLaw<M> {
             }
         }
         out
-    }
-
-    /// Bend angle less the limit (rad), of the sine and cosine of the bend angle; where it is negative only its sign.
-    #[inline(always)]
-    fn beyond_limit<T: Number<Memory = M>>(&self, sine: T, cosine: T) -> T {
-        let (limit_sine, limit_cosine) = (T::load(&self.limit_sine), T::load(&self.limit_cosine));
-        let of_sine = sine * limit_cosine - cosine * limit_sine;
-        let of_cosine = cosine * limit_cosine + sine * limit_sine;
-        if T::of(LARGEST_SINE).any_below(of_sine) || of_cosine.any_below(T::of(0.0)) {
-            return of_sine.zip(of_cosine, libm::atan2);
-        }
-        let square = of_sine * of_sine;
-        let mut sum = T::of(ARC_SINE[ARC_SINE.len() - 1]);
-        for &c in ARC_SINE[..ARC_SINE.len() - 1].iter().rev() {
-            sum = T::of(c).plus_product(sum, square);
-        }
-        sum * of_sine
-    }
-
-    /// Eq. 13, third row read as a limit: the stop at rotations `q` and rates `rate`,
-    /// M = k (angle - limit)(1 + c angle') >= 0, which is continuous at onset. Returns whether it is shut (for some
-    /// joint of `T`); where not, as nearly always, `stop` is left as it is.
-    #[inline(always)]
-    pub fn stop<T: Number<Memory = M>>(&self, q: &[T; 6], rate: &[T; 6], stop: &mut Stop<M>) -> bool {
-        let relative = self.relative::<T>();
-        let upper = shaft_direction(q[1], q[2]);
-        let below = shaft_direction(q[4], q[5]);
-        let mut lower = [T::of(0.0); 3];
-        for (lower, row) in lower.iter_mut().zip(&relative) {
-            *lower = row[0] * below[0] + row[1] * below[1] + row[2] * below[2];
-        }
-        let cosine = upper[0] * lower[0] + upper[1] * lower[1] + upper[2] * lower[2];
-        if !cosine.any_below(T::load(&self.limit_cosine)) {
-            return false;
-        }
-        let across = [
-            upper[1] * lower[2] - upper[2] * lower[1],
-            upper[2] * lower[0] - upper[0] * lower[2],
-            upper[0] * lower[1] - upper[1] * lower[0],
-        ];
-        let sine = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).map(f64::sqrt);
-        let over = self.beyond_limit(sine, cosine);
-        let (k, c) = (self.stop_stiffness, self.stop_damping);
-        let spring = over.map(|over| if over > 0.0 { k * over } else { 0.0 });
-        let inverse = sine.zip(over, |sine, over| if over > 0.0 { 1.0 / sine } else { 0.0 });
-        let ratio = cosine * inverse;
-
-        // cos(angle) is smooth in the rotations; the angle follows from it by the chain rule.
-        let bend = Product::of(&shaft_axis(q[1], q[2]), &relative, &shaft_axis(q[4], q[5]));
-        let mut gradient = bend.gradient;
-        let mut angle_rate = T::of(0.0);
-        for i in 0..6 {
-            gradient[i] = -(gradient[i] * inverse);
-            gradient[i].store(&mut stop.gradient[i]);
-            angle_rate = angle_rate + gradient[i] * rate[i];
-        }
-        for i in 0..6 {
-            for j in 0..6 {
-                let bent = gradient[i] * gradient[j] * ratio;
-                (-(bend.hessian[i][j] * inverse) - bent).store(&mut stop.hessian[i][j]);
-            }
-        }
-        // Pushing: shut, and not opening faster than the law can push. Where it opens too fast there is no moment and
-        // the spring's energy goes into its damping.
-        let pushing = |spring: f64, rate: f64| spring > 0.0 && 1.0 + c * rate > 0.0;
-        let zero_or = |pushing: bool, value: f64| if pushing { value } else { 0.0 };
-        spring
-            .zip(angle_rate, |s, rate| zero_or(pushing(s, rate), s * (1.0 + c * rate)))
-            .store(&mut stop.moment);
-        spring
-            .zip(angle_rate, |s, rate| zero_or(pushing(s, rate), k * (1.0 + c * rate)))
-            .store(&mut stop.stiffness);
-        spring
-            .zip(angle_rate, |s, rate| zero_or(pushing(s, rate), s * c))
-            .store(&mut stop.damping);
-        spring
-            .zip(over, |s, over| zero_or(over > 0.0, 0.5 * s * over))
-            .store(&mut stop.energy);
-        spring
-            .zip(angle_rate, |s, rate| {
-                if pushing(s, rate) {
-                    s * c * rate * rate
-                } else {
-                    -s * rate
-                }
-            })
-            .store(&mut stop.dissipation);
-        true
     }
 }
 
@@ -365,14 +246,14 @@ pub fn tangent<T: Number>(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use nalgebra::{Matrix3, Rotation3, Vector3};
 
     use super::*;
     use crate::elements::joint::Joint;
     use crate::tool::description::JointDescription;
 
-    fn joint(kind: JointKind) -> Joint {
+    pub fn joint(kind: JointKind) -> Joint {
         let description = JointDescription {
             kind,
             limit: 0.1,
@@ -387,7 +268,7 @@ mod tests {
     }
 
     /// The stop is shut (0.16 rad of bend against 0.1) and pushes.
-    const AT: [f64; 6] = [0.7, 0.09, 0.01, 0.71, -0.12, 0.02];
+    pub const AT: [f64; 6] = [0.7, 0.09, 0.01, 0.71, -0.12, 0.02];
     const RATE: [f64; 6] = [4.0, 0.3, 0.1, 4.1, -0.2, 0.05];
 
     #[test]
@@ -493,16 +374,5 @@ mod tests {
         }
         // Rounding of angles of some 10 rad. A cross joint of this bend (0.24 rad) would sway by 0.014 rad.
         assert!(farthest < 1e-13, "the spins part by {farthest} rad");
-    }
-
-    #[test]
-    fn a_stop_that_opens_too_fast_does_not_pull() {
-        let law = joint(JointKind::Universal).law;
-        let opening = [0.0, -30.0, 0.0, 0.0, 30.0, 0.0];
-        let mut stop = Stop::default();
-        assert!(law.stop(&AT, &opening, &mut stop));
-        assert_eq!((stop.moment, stop.stiffness, stop.damping), (0.0, 0.0, 0.0));
-        assert!(stop.energy > 0.0 && stop.dissipation > 0.0);
-        assert!(!law.stop(&[0.0; 6], &opening, &mut stop));
     }
 }

@@ -15,6 +15,7 @@ pub mod group;
 mod jet;
 pub mod law;
 pub mod rotation;
+pub mod stop;
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,12 +1,13 @@
 //! The tool in motion: steps that are halved and retried until they converge, or reported as failed.
 
+mod checkpoint;
+
 use std::cell::{Ref, RefCell};
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::EnergyPoint;
 use crate::dynamics::newton::{self, Accuracy, Stride, Tolerances};
 use crate::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use crate::dynamics::phases::{Phase, Stopwatch};
@@ -24,6 +25,8 @@ use crate::reduced::{self, Reduced};
 use crate::simd::Instructions;
 use crate::tool::description::{Direction, LiveParameters, ToolDescription};
 use crate::validation::ValidationError;
+
+pub use checkpoint::StepperCheckpoint;
 
 /// Inputs over one step: both change linearly from its start to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,19 +65,6 @@ pub struct Counters {
     pub failed_steps: u64,
     /// Why and where the last sub-step was rejected.
     pub last_rejection: Option<StepFailure>,
-}
-
-/// All that a run needs to go on bit for bit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StepperCheckpoint {
-    state: State,
-    energy: EnergyPoint,
-    audit: EnergyAudit,
-    counters: Counters,
-    live: LiveParameters,
-    turns: f64,
-    weight_on_bit: f64,
-    refinement: u32,
 }
 
 /// Finest refinement: a step in four parts.
@@ -334,42 +324,6 @@ impl Stepper {
     /// Angle of the drive since the start (rad).
     pub fn drive_angle(&self) -> f64 {
         self.track.state.drive_angle + self.turns * TAU
-    }
-
-    /// What it takes to go on from here.
-    pub fn checkpoint(&self) -> StepperCheckpoint {
-        StepperCheckpoint {
-            state: self.track.state.clone(),
-            energy: self.track.energy.clone(),
-            audit: self.audit,
-            counters: self.counters,
-            live: self.live,
-            turns: self.turns,
-            weight_on_bit: self.weight_on_bit,
-            refinement: self.refinement,
-        }
-    }
-
-    /// Goes on from a checkpoint of the same model; `false`, and nothing done, if its sizes are another model's.
-    pub fn restore(&mut self, checkpoint: &StepperCheckpoint) -> bool {
-        let track = &mut self.track;
-        let same = checkpoint.state.q.len() == track.state.q.len()
-            && checkpoint.state.pipe_axial.len() == track.state.pipe_axial.len()
-            && checkpoint.energy.fits(&track.energy);
-        if !same {
-            return false;
-        }
-        self.live = checkpoint.live;
-        track.state.copy_from(&checkpoint.state);
-        let conditions = self.conditions(checkpoint.state.time, checkpoint.weight_on_bit);
-        self.evaluate(&conditions, true);
-        self.track.energy.copy_from(&checkpoint.energy);
-        self.audit = checkpoint.audit;
-        self.counters = checkpoint.counters;
-        self.turns = checkpoint.turns;
-        self.weight_on_bit = checkpoint.weight_on_bit;
-        self.set_refinement(checkpoint.refinement);
-        true
     }
 
     /// Takes whole turns off the spins of the pipe.
