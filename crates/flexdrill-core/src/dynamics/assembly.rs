@@ -6,7 +6,7 @@
 
 use crate::dynamics::phases::Stopwatch;
 use crate::elements::bit::BitTorque;
-use crate::elements::gap::Touch;
+use crate::elements::gap::Layer;
 use crate::elements::joint::Joint;
 use crate::elements::joint::group::JointGroup;
 use crate::linear::{BlockSystem, TangentIncrement};
@@ -21,10 +21,10 @@ pub struct Assembler {
     pub residual: Vec<f64>,
     /// The whole tangent, as assembled by [`Assembler::tangent`].
     pub system: BlockSystem,
-    /// Touching pipe-guide gaps, per station.
-    pub inner: Vec<Option<Touch>>,
-    /// Touching guide-wall gaps, per station.
-    pub outer: Vec<Option<Touch>>,
+    /// Touching pipe-guide gaps.
+    pub inner: Layer,
+    /// Touching guide-wall gaps.
+    pub outer: Layer,
     /// Rotational rows and stops of the joints, eight at a time from the top.
     pub(super) groups: Vec<JointGroup>,
     /// Torque of the rock on the bit at the last residual.
@@ -55,8 +55,8 @@ impl Assembler {
                 model.held.iter().chain(&model.driven).copied(),
             ),
             system,
-            inner: vec![None; model.stations.len()],
-            outer: vec![None; model.stations.len()],
+            inner: Layer::new(model.stations.len()),
+            outer: Layer::new(model.stations.len()),
             groups: model.joints.chunks(8).map(JointGroup::of).collect(),
             bit: BitTorque::default(),
             stopwatch: Stopwatch::default(),

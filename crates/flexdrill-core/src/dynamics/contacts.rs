@@ -7,43 +7,42 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, node, translation};
-use crate::elements::gap::GapVector;
+use crate::elements::gap::{GapVector, Layer};
 use crate::linear::{ContactBlock, Touching};
 use crate::model::{Model, Station};
+use crate::simd::Kernel;
+use crate::simd::vector::Vector;
 
 impl Assembler {
     /// Finds what touches and adds its forces, Eq. 20 to 34: the sum of Eq. 39.
     pub(super) fn contact_forces(&mut self, model: &Model, state: &State, conditions: &Conditions) {
-        for (s, station) in model.stations.iter().enumerate() {
-            let lateral = inner_lateral(station, state);
-            self.inner[s] = None;
-            if lateral.norm_squared() > station.inner_clearance * station.inner_clearance {
-                let velocity = inner_velocity(model, station, state);
-                self.inner[s] = conditions.inner.touch(lateral, station.inner_clearance, &velocity);
-            }
-            let lateral = Vector2::new(state.q[station.guide + 1], state.q[station.guide + 2]);
-            self.outer[s] = None;
-            if lateral.norm_squared() > model.outer_clearance * model.outer_clearance {
-                let velocity = outer_velocity(model, station, state);
-                self.outer[s] = conditions.outer.touch(lateral, model.outer_clearance, &velocity);
-            }
-            if let Some(touch) = &self.inner[s] {
-                let force = touch.force();
-                let (on_pipe, on_guide) = inner_forces(model, station, &force);
-                self.scatter(station.pipe_above, (-on_pipe).as_slice());
-                self.scatter(station.guide, (-on_guide).as_slice());
-            }
-            if let Some(touch) = &self.outer[s] {
-                let force = touch.force();
-                self.scatter(station.guide, (-outer_force(model, &force)).as_slice());
-            }
+        self.instructions.run(Search {
+            layers: [&mut self.inner, &mut self.outer],
+            model,
+            state,
+            conditions,
+        });
+        let residual = &mut self.residual;
+        for (s, touch) in self.inner.iter() {
+            let station = &model.stations[s];
+            let (on_pipe, on_guide) = inner_forces(model, station, &touch.force().into());
+            scatter(residual, station.pipe_above, &-on_pipe);
+            scatter(residual, station.guide, &-on_guide);
+        }
+        for (s, touch) in self.outer.iter() {
+            scatter(
+                residual,
+                model.stations[s].guide,
+                &-outer_force(model, &touch.force().into()),
+            );
         }
     }
 
     /// Fills the contacts' part of the tangent increment, Eq. 28 and 32.
     pub(super) fn contact_tangent(&mut self, model: &Model, factors: TangentFactors) {
         for (s, station) in model.stations.iter().enumerate() {
-            self.increment.touching[s] = match (&self.inner[s], &self.outer[s]) {
+            let (inner, outer) = (self.inner.get(s), self.outer.get(s));
+            self.increment.touching[s] = match (&inner, &outer) {
                 (None, None) => Touching::Nothing,
                 (None, Some(_)) => Touching::Guide,
                 (Some(_), _) => Touching::Both,
@@ -54,8 +53,8 @@ impl Assembler {
             let block = &mut self.increment.contact[s];
             *block = [[0.0; 12]; 12];
             // A local force change of minus `on` times `by` . motion is one of the same form on the nodes.
-            if let Some(touch) = &self.inner[s] {
-                for term in touch.tangent(factors.stiffness, factors.damping) {
+            if let Some(touch) = inner {
+                for term in touch.tangent(factors.stiffness, factors.damping).terms() {
                     let (on, by) = (
                         inner_forces(model, station, &term.on),
                         inner_forces(model, station, &term.by),
@@ -63,13 +62,60 @@ impl Assembler {
                     add_product::<12>(block, 0, &joined(&on), &joined(&by));
                 }
             }
-            if let Some(touch) = &self.outer[s] {
-                for term in touch.tangent(factors.stiffness, factors.damping) {
+            if let Some(touch) = outer {
+                for term in touch.tangent(factors.stiffness, factors.damping).terms() {
                     let (on, by) = (outer_force(model, &term.on), outer_force(model, &term.by));
                     add_product::<6>(block, 6, &on.data.0[0], &by.data.0[0]);
                 }
             }
         }
+    }
+}
+
+/// Finds what touches.
+struct Search<'a> {
+    layers: [&'a mut Layer; 2],
+    model: &'a Model,
+    state: &'a State,
+    conditions: &'a Conditions,
+}
+
+impl Kernel for Search<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self {
+            layers: [inner, outer],
+            model,
+            state,
+            conditions,
+        } = self;
+        inner.clear();
+        outer.clear();
+        for (s, station) in model.stations.iter().enumerate() {
+            let (lateral, clearance) = (inner_lateral(station, state), station.inner_clearance);
+            if lateral.norm_squared() > clearance * clearance {
+                let velocity = inner_velocity(model, station, state);
+                inner.push::<V>(&conditions.inner, s, lateral.into(), clearance, &velocity.into());
+            }
+            let clearance = model.outer_clearance;
+            let lateral = Vector2::new(state.q[station.guide + 1], state.q[station.guide + 2]);
+            if lateral.norm_squared() > clearance * clearance {
+                let velocity = outer_velocity(model, station, state);
+                outer.push::<V>(&conditions.outer, s, lateral.into(), clearance, &velocity.into());
+            }
+        }
+        inner.finish::<V>(&conditions.inner);
+        outer.finish::<V>(&conditions.outer);
+    }
+}
+
+/// Adds a force at a node.
+#[inline(always)]
+fn scatter(residual: &mut [f64], first: usize, force: &GapVector) {
+    for (to, x) in residual[first..].iter_mut().zip(force) {
+        *to += x;
     }
 }
 

@@ -138,22 +138,22 @@ impl EnergyPoint {
         stored += self.kinetic;
         self.friction.fill(0.0);
         self.contact_dissipation = 0.0;
-        for (s, station) in model.stations.iter().enumerate() {
-            if let Some(touch) = &assembler.inner[s] {
-                let (pipe, guide) = inner_forces(model, station, &touch.friction_force());
-                for k in 0..6 {
-                    self.friction[station.pipe_above + k] += pipe[k];
-                    self.friction[station.guide + k] += guide[k];
-                }
-                stored += touch.energy;
-                self.contact_dissipation += touch.dissipation;
+        for (s, touch) in assembler.inner.iter() {
+            let station = &model.stations[s];
+            let (pipe, guide) = inner_forces(model, station, &touch.friction_force().into());
+            for k in 0..6 {
+                self.friction[station.pipe_above + k] += pipe[k];
+                self.friction[station.guide + k] += guide[k];
             }
-            if let Some(touch) = &assembler.outer[s] {
-                let guide = outer_force(model, &touch.friction_force());
-                (0..6).for_each(|k| self.friction[station.guide + k] += guide[k]);
-                stored += touch.energy;
-                self.contact_dissipation += touch.dissipation;
-            }
+            stored += touch.energy;
+            self.contact_dissipation += touch.dissipation;
+        }
+        for (s, touch) in assembler.outer.iter() {
+            let guide = outer_force(model, &touch.friction_force().into());
+            let first = model.stations[s].guide;
+            (0..6).for_each(|k| self.friction[first + k] += guide[k]);
+            stored += touch.energy;
+            self.contact_dissipation += touch.dissipation;
         }
         self.finish(stored, &model.places, model, conditions, assembler, &assembler.residual);
     }

@@ -3,9 +3,10 @@
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, translation};
-use crate::elements::joint::group::{JointGroup, Lane};
+use crate::elements::joint::group::JointGroup;
 use crate::model::{JointPlaces, Model};
 use crate::simd::Kernel;
+use crate::simd::number::Lane;
 use crate::simd::vector::Vector;
 
 impl Assembler {

@@ -62,13 +62,6 @@ impl Assembler {
             self.residual[unknown] = 0.0;
         }
     }
-
-    #[inline]
-    pub(super) fn scatter(&mut self, first: usize, force: &[f64]) {
-        for (r, f) in self.residual[first..first + 6].iter_mut().zip(force) {
-            *r += f;
-        }
-    }
 }
 
 /// Adds the forces of point masses, in the numbering of `places`.

@@ -1,14 +1,13 @@
-//! Contacts at all stations: found eight stations of a span at a time, evaluated by the law of the gap, and put on the
-//! span's ends.
+//! Contacts at all stations: found eight stations of a span at a time, evaluated by the law of the gap eight contacts at a
+//! time, and put on the spans' ends.
 
 use nalgebra::Vector2;
 
 use super::residual::{load, plus_column, product, store};
-use super::{Reduced, at_ends};
+use super::{EndColumn, Reduced, at_ends, span_of};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
-use crate::elements::gap::GapVector;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
@@ -23,10 +22,6 @@ impl Reduced {
         state: &State,
         conditions: &Conditions,
     ) {
-        for &station in &self.hits {
-            (assembler.inner[station], assembler.outer[station]) = (None, None);
-        }
-        self.hits.clear();
         self.any.fill(false);
         let instructions = self.instructions;
         instructions.run(Search {
@@ -68,7 +63,7 @@ struct Search<'a> {
 
 /// A local force's lanes with those of the rotations times a radius.
 #[inline(always)]
-pub(super) fn at_radius(force: &GapVector, radius: f64) -> [f64; 6] {
+pub(super) fn at_radius(force: &[f64; 6], radius: f64) -> [f64; 6] {
     [
         force[0],
         force[1],
@@ -79,10 +74,21 @@ pub(super) fn at_radius(force: &GapVector, radius: f64) -> [f64; 6] {
     ]
 }
 
+/// The sum of what local forces put on both ends of a span, added to `sum`.
+#[inline(always)]
+pub(super) fn plus_rows<V: Vector>(sum: [V; 2], rows: &[EndColumn; 6], x: &[f64; 6]) -> [V; 2] {
+    let (mut even, mut odd) = (sum, [V::splat(0.0); 2]);
+    for k in 0..3 {
+        even = plus_column(even, &rows[2 * k], V::splat(x[2 * k]));
+        odd = plus_column(odd, &rows[2 * k + 1], V::splat(x[2 * k + 1]));
+    }
+    [even[0].plus(odd[0]), even[1].plus(odd[1])]
+}
+
 impl Search<'_> {
-    /// Evaluates station `i` of span `l`, where `inner` and `outer` gap are closed as their flags say.
+    /// Puts down the motion of station `i` of span `l`, where `inner` and `outer` gap are closed as their flags say.
     #[inline(always)]
-    fn touch<V: Vector>(&mut self, (l, i): (usize, usize), lateral: [Vector2<f64>; 2], closed: [bool; 2]) {
+    fn found<V: Vector>(&mut self, (l, i): (usize, usize), lateral: [[f64; 2]; 2], closed: [bool; 2]) {
         let Self {
             by,
             assembler,
@@ -91,48 +97,61 @@ impl Search<'_> {
             conditions,
         } = self;
         let station = l * by.per + i;
-        let at = &model.stations[station];
         let [inner_radius, outer_radius] = model.guide_radii;
-        let mut lanes = Aligned([0.0; 8]);
-        by.local::<V>(&state.v, l, i, 1).store(&mut lanes);
-        let guide = GapVector::from_column_slice(&lanes[..6]);
-        if !by.any[l] {
-            by.any[l] = true;
-            by.touched[l] = Aligned([[0.0; 16]; 2]);
-        }
-        let kind = &by.kinds[by.links[l].kind];
-        let mut on_guide = [0.0; 6];
+        let (mut lanes, mut guide) = (Aligned([0.0; 8]), Aligned([0.0; 8]));
+        by.local::<V>(&state.v, l, i, 1).store(&mut guide);
+        let guide = [guide[0], guide[1], guide[2], guide[3], guide[4], guide[5]];
+        by.any[l] = true;
         if closed[0] {
             by.local::<V>(&state.v, l, i, 0).store(&mut lanes);
-            let moving = at_radius(&guide, inner_radius);
-            let velocity = GapVector::from_fn(|k, _| lanes[k] - moving[k]);
-            let touch = conditions.inner.touch(lateral[0], at.inner_clearance, &velocity);
-            if let Some(touch) = &touch {
-                let force = touch.force();
-                let mut sum = load::<V>(&by.touched[l][0]);
-                for (row, f) in kind.force[i][0].iter().zip(force.iter()) {
-                    sum = plus_column(sum, row, V::splat(-f));
-                }
-                store(sum, &mut by.touched[l][0]);
-                on_guide = at_radius(&force, inner_radius);
+            let mut velocity = at_radius(&guide, inner_radius);
+            for (x, pipe) in velocity.iter_mut().zip(*lanes) {
+                *x = pipe - *x;
             }
-            assembler.inner[station] = touch;
+            let clearance = model.stations[station].inner_clearance;
+            let layer = &mut assembler.inner;
+            layer.push::<V>(&conditions.inner, station, lateral[0], clearance, &velocity);
         }
         if closed[1] {
-            let velocity = GapVector::from_column_slice(&at_radius(&guide, outer_radius));
-            let touch = conditions.outer.touch(lateral[1], model.outer_clearance, &velocity);
-            if let Some(touch) = &touch {
-                let force = at_radius(&touch.force(), outer_radius);
-                (0..6).for_each(|k| on_guide[k] -= force[k]);
+            let velocity = at_radius(&guide, outer_radius);
+            let layer = &mut assembler.outer;
+            layer.push::<V>(&conditions.outer, station, lateral[1], model.outer_clearance, &velocity);
+        }
+    }
+
+    /// Puts all contacts on the ends of their spans.
+    #[inline(always)]
+    fn put<V: Vector>(&mut self) {
+        let Self {
+            by, assembler, model, ..
+        } = self;
+        let [inner_radius, outer_radius] = model.guide_radii;
+        for (touched, any) in by.touched.iter_mut().zip(&by.any) {
+            if *any {
+                **touched = [[0.0; 16]; 2];
             }
-            assembler.outer[station] = touch;
         }
-        let mut sum = load::<V>(&by.touched[l][1]);
-        for (row, f) in kind.force[i][1].iter().zip(on_guide) {
-            sum = plus_column(sum, row, V::splat(f));
+        for (station, touch) in assembler.inner.iter() {
+            let (l, i) = span_of(station, by.per);
+            let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
+            let force = touch.force();
+            let [pipe, guide] = &mut by.touched[l].0;
+            let mut opposite = force;
+            opposite.iter_mut().for_each(|x| *x = -*x);
+            store(plus_rows::<V>(load(pipe), on_pipe, &opposite), pipe);
+            store(
+                plus_rows::<V>(load(guide), on_guide, &at_radius(&force, inner_radius)),
+                guide,
+            );
         }
-        store(sum, &mut by.touched[l][1]);
-        by.hits.push(station);
+        for (station, touch) in assembler.outer.iter() {
+            let (l, i) = span_of(station, by.per);
+            let rows = &by.kinds[by.links[l].kind].force[i][1];
+            let mut force = at_radius(&touch.force(), outer_radius);
+            force.iter_mut().for_each(|x| *x = -*x);
+            let guide = &mut by.touched[l][1];
+            store(plus_rows::<V>(load(guide), rows, &force), guide);
+        }
     }
 }
 
@@ -141,6 +160,8 @@ impl Kernel for Search<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(mut self) {
+        self.assembler.inner.clear();
+        self.assembler.outer.clear();
         let outer_squared = self.model.outer_clearance * self.model.outer_clearance;
         // The first station belongs to no span's lanes; its pipe lies on the bore's axis.
         let top = &self.model.stations[0];
@@ -155,7 +176,7 @@ impl Kernel for Search<'_> {
             guide.norm_squared() > outer_squared,
         ];
         if closed[0] | closed[1] {
-            self.touch::<V>((0, 0), [inner, guide], closed);
+            self.found::<V>((0, 0), [inner.into(), guide.into()], closed);
         }
         let (nodes, _) = self.state.q.as_chunks();
         for l in 0..self.by.links.len() {
@@ -179,13 +200,16 @@ impl Kernel for Search<'_> {
             while any != 0 {
                 let lane = any.trailing_zeros() as usize;
                 any &= any - 1;
-                let lateral = [
-                    Vector2::new(lanes[0][lane], lanes[1][lane]),
-                    Vector2::new(lanes[2][lane], lanes[3][lane]),
-                ];
+                let lateral = [[lanes[0][lane], lanes[1][lane]], [lanes[2][lane], lanes[3][lane]]];
                 let closed = [inner >> lane & 1 == 1, outer >> lane & 1 == 1];
-                self.touch::<V>((l, lane + 1), lateral, closed);
+                self.found::<V>((l, lane + 1), lateral, closed);
             }
         }
+        let Self {
+            assembler, conditions, ..
+        } = &mut self;
+        assembler.inner.finish::<V>(&conditions.inner);
+        assembler.outer.finish::<V>(&conditions.outer);
+        self.put::<V>();
     }
 }

@@ -1,7 +1,7 @@
 //! The energy audit's point over the joints: elements and friction; the rest is shared with the whole tool.
 
-use super::contacts::at_radius;
-use super::residual::{around, load, plus_column, product, store};
+use super::contacts::{at_radius, plus_rows};
+use super::residual::{around, load, product, store};
 use super::slaving::TENSION;
 use super::{EndColumn, Reduced, at_ends, ends, span_of};
 use crate::dynamics::assembly::Assembler;
@@ -200,28 +200,25 @@ impl Kernel for Friction<'_> {
             assembler,
         } = self;
         let mut stored = 0.0;
-        for &station in &by.hits {
+        for (station, touch) in assembler.inner.iter() {
             let (l, i) = span_of(station, by.per);
-            let rows = &by.kinds[by.links[l].kind].force[i];
-            let mut on_guide = [0.0; 6];
-            if let Some(touch) = &assembler.inner[station] {
-                let force = touch.friction_force();
-                add(
-                    &mut point.friction,
-                    ends(l, 0),
-                    &on_ends::<V>(&rows[0], &at_radius(&force, 1.0)),
-                );
-                on_guide = at_radius(&-force, model.guide_radii[0]);
-                stored += touch.energy;
-                point.contact_dissipation += touch.dissipation;
-            }
-            if let Some(touch) = &assembler.outer[station] {
-                let force = at_radius(&touch.friction_force(), model.guide_radii[1]);
-                (0..6).for_each(|k| on_guide[k] += force[k]);
-                stored += touch.energy;
-                point.contact_dissipation += touch.dissipation;
-            }
-            add(&mut point.friction, ends(l, 1), &on_ends::<V>(&rows[1], &on_guide));
+            let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
+            let force = touch.friction_force();
+            let mut on = on_ends::<V>(on_pipe, &force);
+            add(&mut point.friction, ends(l, 0), &on);
+            on = on_ends::<V>(on_guide, &at_radius(&force, model.guide_radii[0]));
+            on.iter_mut().for_each(|x| *x = -*x);
+            add(&mut point.friction, ends(l, 1), &on);
+            stored += touch.energy;
+            point.contact_dissipation += touch.dissipation;
+        }
+        for (station, touch) in assembler.outer.iter() {
+            let (l, i) = span_of(station, by.per);
+            let rows = &by.kinds[by.links[l].kind].force[i][1];
+            let force = at_radius(&touch.friction_force(), model.guide_radii[1]);
+            add(&mut point.friction, ends(l, 1), &on_ends::<V>(rows, &force));
+            stored += touch.energy;
+            point.contact_dissipation += touch.dissipation;
         }
         stored
     }
@@ -230,13 +227,8 @@ impl Kernel for Friction<'_> {
 /// What a local force `x` puts on both ends of a span.
 #[inline(always)]
 fn on_ends<V: Vector>(rows: &[EndColumn; 6], x: &[f64; 6]) -> EndColumn {
-    let (mut even, mut odd) = ([V::splat(0.0); 2], [V::splat(0.0); 2]);
-    for k in 0..3 {
-        even = plus_column(even, &rows[2 * k], V::splat(x[2 * k]));
-        odd = plus_column(odd, &rows[2 * k + 1], V::splat(x[2 * k + 1]));
-    }
     let mut out = [0.0; 16];
-    store([even[0].plus(odd[0]), even[1].plus(odd[1])], &mut out);
+    store(plus_rows([V::splat(0.0); 2], rows, x), &mut out);
     out
 }
 

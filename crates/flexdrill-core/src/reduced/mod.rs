@@ -110,8 +110,6 @@ pub(crate) struct Reduced {
     on_below: Vec<NodeForces>,
     /// Whether `touched` holds anything, per span.
     any: Vec<bool>,
-    /// Stations with contact, top to bottom.
-    hits: Vec<usize>,
     foreseen: Vec<[f64; 2]>,
     foreseen_part: f64,
     additions: Additions<f64>,
@@ -189,7 +187,6 @@ impl Reduced {
             on_above: vec![Aligned([0.0; 24]); nodes],
             on_below: vec![Aligned([0.0; 24]); nodes],
             any: vec![false; spans],
-            hits: Vec::with_capacity(model.stations.len()),
             foreseen: vec![[0.0; 2]; spans],
             foreseen_part: 0.0,
             additions: Additions::new(nodes),

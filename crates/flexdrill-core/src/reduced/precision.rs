@@ -30,36 +30,38 @@ pub(super) trait Lanes<S>: Copy {
     fn plus_product(self, a: Self, b: Self) -> Self;
 }
 
-/// What each of six local forces at a station puts on the unknowns of the nodes [above, below] of its span, through the
-/// pipe and through the guide. Slaving is its own transpose here: the same numbers say how the station moves by them.
+/// What each of six local forces of a gap at a station puts on the unknowns of the nodes [above, below] of its span:
+/// through pipe and guide in the inner layer, through the guide in the outer one. Slaving is its own transpose here: the
+/// same numbers say how the gap moves by them.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(super) struct OnNodes<S> {
-    pub pipe: [[[S; NODE]; 6]; 2],
-    pub guide: [[[S; NODE]; 6]; 2],
+    pub inner: [[[S; NODE]; 6]; 2],
+    pub outer: [[[S; NODE]; 6]; 2],
 }
 
 impl<S: Precision> OnNodes<S> {
-    /// From the rows of a station over the ends of its span, [pipe, guide].
-    pub(super) fn of(rows: &[[[f64; 16]; 6]; 2]) -> Self {
-        let made = |body: usize| {
+    /// From the rows of a station over the ends of its span, [pipe, guide], and the radii of the guide, [inner, outer] (m).
+    pub(super) fn of(rows: &[[[f64; 16]; 6]; 2], radii: [f64; 2]) -> Self {
+        // The guide gets the opposite of what the pipe gets.
+        let layer = |on_pipe: f64, on_guide: f64, radius: f64| {
             std::array::from_fn(|end| {
-                let first = match (body, end) {
-                    (0, 0) => U,
-                    (0, _) => 0,
-                    _ => GUIDE,
-                };
                 std::array::from_fn(|k| {
+                    let arm = if k < 3 { 1.0 } else { radius };
                     let mut column = [S::ZERO; NODE];
-                    let row: &[f64; 16] = &rows[body][k];
-                    (0..6).for_each(|i| column[first + i] = S::of(row[8 * end + i]));
+                    for (body, first, part) in [(0, if end == 0 { U } else { 0 }, on_pipe), (1, GUIDE, on_guide * arm)]
+                    {
+                        if part != 0.0 {
+                            (0..6).for_each(|i| column[first + i] = S::of(part * rows[body][k][8 * end + i]));
+                        }
+                    }
                     column
                 })
             })
         };
         Self {
-            pipe: made(0),
-            guide: made(1),
+            inner: layer(1.0, -1.0, radii[0]),
+            outer: layer(0.0, 1.0, radii[1]),
         }
     }
 }

@@ -27,7 +27,7 @@ pub(super) struct LinkMatrices {
     pub motion: Vec<Aligned<[[[f64; 8]; 12]; 2]>>,
     /// The same by rows: what a local force puts on the ends.
     pub force: Vec<Aligned<[[EndColumn; 6]; 2]>>,
-    /// The same on the unknowns of both nodes, in both precisions.
+    /// What a force of a gap puts on the unknowns of both nodes, in both precisions.
     pub on_nodes: Vec<OnNodes<f64>>,
     pub on_nodes_single: Vec<OnNodes<f32>>,
     /// Displacements of the inner nodes in their own frames, columns of a node one after the other.
@@ -213,8 +213,8 @@ impl LinkMatrices {
             tension: Aligned(tension.map(|tension| end_column(|j| tension[j]))),
             lateral: Aligned(lateral),
             motion,
-            on_nodes: force.iter().map(|rows| OnNodes::of(rows)).collect(),
-            on_nodes_single: force.iter().map(|rows| OnNodes::of(rows)).collect(),
+            on_nodes: force.iter().map(|rows| OnNodes::of(rows, model.guide_radii)).collect(),
+            on_nodes_single: force.iter().map(|rows| OnNodes::of(rows, model.guide_radii)).collect(),
             force,
             inner,
             slowest,

@@ -1,14 +1,13 @@
 //! What contacts, the bit and point masses add to the reduced tangent in an iteration. A contact inside a span adds to
 //! the blocks of both its ends and to what couples them.
 
-use super::precision::{Lanes, OnNodes, Precision};
-use super::slaving::{Link, LinkMatrices};
+use super::precision::{Lanes, Precision};
 use super::{BOTTOM, NODE, Reduced, TOP, span_of};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, motion};
-use crate::elements::gap::{GapVector, TangentTerms, Touch};
+use crate::elements::gap::GapTangent;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
@@ -95,7 +94,6 @@ impl<S: Precision> Additions<S> {
             to: self,
             reduced,
             assembler,
-            model,
             factors,
         });
         let spin = reduced.places.bit_spin;
@@ -124,7 +122,6 @@ struct Contacts<'a, S> {
     to: &'a mut Additions<S>,
     reduced: &'a Reduced,
     assembler: &'a Assembler,
-    model: &'a Model,
     factors: TangentFactors,
 }
 
@@ -133,66 +130,35 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
 
     #[inline(always)]
     fn run<V: Vector>(self) {
-        let (kinds, links): (&[LinkMatrices], &[Link]) = (&self.reduced.kinds, &self.reduced.links);
-        let per = self.reduced.per;
-        let [inner_radius, outer_radius] = self.model.guide_radii;
-        for &station in &self.reduced.hits {
-            let (l, i) = span_of(station, per);
-            let rows = &S::on_nodes(&kinds[links[l].kind])[i];
-            if let Some(touch) = &self.assembler.inner[station] {
+        let layers = [(&self.assembler.inner, true), (&self.assembler.outer, false)];
+        for (layer, inner) in layers {
+            for (station, touch) in layer.iter() {
+                let (l, i) = span_of(station, self.reduced.per);
+                let rows = &S::on_nodes(&self.reduced.kinds[self.reduced.links[l].kind])[i];
                 let place = Place {
                     l,
-                    i,
-                    per,
-                    rows,
-                    radius: -inner_radius,
-                    sign: -1.0,
+                    at: [i == 0, i == self.reduced.per],
+                    rows: if inner { &rows.inner } else { &rows.outer },
                 };
-                place.add::<V, true>(self.to, touch, self.factors);
-            }
-            if let Some(touch) = &self.assembler.outer[station] {
-                let place = Place {
-                    l,
-                    i,
-                    per,
-                    rows,
-                    radius: outer_radius,
-                    sign: 1.0,
-                };
-                place.add::<V, false>(self.to, touch, self.factors);
+                let tangent = touch.tangent(self.factors.stiffness, self.factors.damping);
+                if inner {
+                    place.add::<V, true>(self.to, &tangent);
+                } else {
+                    place.add::<V, false>(self.to, &tangent);
+                }
             }
         }
     }
 }
 
-/// Where a contact is: station `i` of span `l`.
+/// Where a contact is.
 struct Place<'a, S> {
+    /// Span.
     l: usize,
-    i: usize,
-    /// Stations per span.
-    per: usize,
-    rows: &'a OnNodes<S>,
-    /// Guide's radius with the sign of the force on it.
-    radius: f64,
-    sign: f64,
-}
-
-/// The sum of six columns.
-#[inline(always)]
-fn combined<V: Vector, S: Precision>(columns: &[[S; NODE]; 6], x: &[f64; 6]) -> S::Lanes<V> {
-    let mut even = S::Lanes::<V>::load(&columns[0]).times(S::Lanes::<V>::splat(S::of(x[0])));
-    let mut odd = S::Lanes::<V>::load(&columns[1]).times(S::Lanes::<V>::splat(S::of(x[1])));
-    for k in 1..3 {
-        even = even.plus_product(
-            S::Lanes::<V>::load(&columns[2 * k]),
-            S::Lanes::<V>::splat(S::of(x[2 * k])),
-        );
-        odd = odd.plus_product(
-            S::Lanes::<V>::load(&columns[2 * k + 1]),
-            S::Lanes::<V>::splat(S::of(x[2 * k + 1])),
-        );
-    }
-    even.plus(odd)
+    /// Whether it is at its top or bottom end.
+    at: [bool; 2],
+    /// What a local force puts on the nodes above and below.
+    rows: &'a [[[S; NODE]; 6]; 2],
 }
 
 /// The products of a contact on one node: their first factors and, to be read number by number, their second ones.
@@ -202,63 +168,64 @@ struct Factors<L, S> {
 }
 
 impl<S: Precision> Place<'_, S> {
-    /// What a local force `x` puts on the node above (0) or below (1): on the guide's unknowns, and with `INNER` on those
-    /// of the pipe.
+    /// [`GapTangent`] on a node.
     #[inline(always)]
-    fn on_node<V: Vector, const INNER: bool>(&self, end: usize, x: &GapVector) -> S::Lanes<V> {
-        let (sign, radius) = (self.sign, self.radius);
-        let on_guide = [
-            sign * x[0],
-            sign * x[1],
-            sign * x[2],
-            radius * x[3],
-            radius * x[4],
-            radius * x[5],
-        ];
-        let guide = combined::<V, S>(&self.rows.guide[end], &on_guide);
-        if INNER {
-            guide.plus(combined::<V, S>(
-                &self.rows.pipe[end],
-                &[x[0], x[1], x[2], x[3], x[4], x[5]],
-            ))
-        } else {
-            guide
+    fn factors<V: Vector>(&self, end: usize, tangent: &GapTangent) -> Factors<S::Lanes<V>, S> {
+        let of = |x: f64| S::Lanes::<V>::splat(S::of(x));
+        let mut row = [S::Lanes::<V>::splat(S::ZERO); 6];
+        for (row, from) in row.iter_mut().zip(&self.rows[end]) {
+            *row = S::Lanes::<V>::load(from);
         }
-    }
-
-    #[inline(always)]
-    fn factors<V: Vector, const INNER: bool>(&self, end: usize, terms: &TangentTerms) -> Factors<S::Lanes<V>, S> {
-        let mut by = Aligned([[S::ZERO; NODE]; 4]);
-        for (by, term) in by.iter_mut().zip(terms) {
-            self.on_node::<V, INNER>(end, &term.by).store(by);
+        let (y, z, minus_y, minus_z) = (
+            of(tangent.direction[0]),
+            of(tangent.direction[1]),
+            of(-tangent.direction[0]),
+            of(-tangent.direction[1]),
+        );
+        let normal = row[1].times(y).plus_product(row[2], z);
+        let tangential = row[2].times(y).plus_product(row[1], minus_z);
+        let around = tangential.plus(row[3]);
+        let along = row[0].plus_product(row[4], z).plus_product(row[5], minus_y);
+        let tilt = row[4].times(y).plus_product(row[5], z);
+        let ([a, b, c], by) = (tangent.by_normal, tangent.by_tangent);
+        let mut out = Aligned([[S::ZERO; NODE]; 4]);
+        for (to, from) in out.iter_mut().zip([normal, tangential, around, along]) {
+            from.store(to);
         }
-        let on = [
-            self.on_node::<V, INNER>(end, &terms[0].on),
-            self.on_node::<V, INNER>(end, &terms[1].on),
-            self.on_node::<V, INNER>(end, &terms[2].on),
-            self.on_node::<V, INNER>(end, &terms[3].on),
-        ];
-        Factors { on, by }
+        Factors {
+            on: [
+                normal
+                    .times(of(a))
+                    .plus_product(around, of(b))
+                    .plus_product(along, of(c)),
+                (normal.times(of(by[0])).plus_product(tangential, of(by[1])))
+                    .plus_product(tilt, of(by[4]))
+                    .plus(around.times(of(by[2])).plus_product(along, of(by[3]))),
+                around.times(of(tangent.by_around)),
+                along.times(of(tangent.by_along)),
+            ],
+            by: out,
+        }
     }
 
     /// Adds a contact: to the guide's unknowns, and with `INNER` to those of the pipe.
     #[inline(always)]
-    fn add<V: Vector, const INNER: bool>(&self, to: &mut Additions<S>, touch: &Touch, factors: TangentFactors) {
-        let terms = touch.tangent(factors.stiffness, factors.damping);
+    fn add<V: Vector, const INNER: bool>(&self, to: &mut Additions<S>, tangent: &GapTangent) {
         // The guide's columns come last in every list of twelve.
         let first = if INNER { 0 } else { 6 };
         // A station at a node moves with that node only.
-        if self.i == 0 || self.i == self.per {
-            let (end, columns) = if self.i == 0 { (0, &TOP) } else { (1, &BOTTOM) };
-            let node = self.factors::<V, INNER>(end, &terms);
-            let block = to.block(self.l + end);
-            for &j in &columns[first..] {
-                add_product::<V, S>(&mut block[j], &node.on, &node.by, j);
+        for (end, columns) in [&TOP, &BOTTOM].into_iter().enumerate() {
+            if self.at[end] {
+                let node = self.factors::<V>(end, tangent);
+                let block = to.block(self.l + end);
+                for &j in &columns[first..] {
+                    add_product::<V, S>(&mut block[j], &node.on, &node.by, j);
+                }
+                return;
             }
-            return;
         }
-        let above = self.factors::<V, INNER>(0, &terms);
-        let below = self.factors::<V, INNER>(1, &terms);
+        let above = self.factors::<V>(0, tangent);
+        let below = self.factors::<V>(1, tangent);
         let block = to.block(self.l);
         for &j in &TOP[first..] {
             add_product::<V, S>(&mut block[j], &above.on, &above.by, j);
@@ -278,11 +245,10 @@ impl<S: Precision> Place<'_, S> {
 /// column += on by^T, for column `j` of the product.
 #[inline(always)]
 fn add_product<V: Vector, S: Precision>(column: &mut [S; NODE], on: &[S::Lanes<V>; 4], by: &[[S; NODE]; 4], j: usize) {
-    let even = S::Lanes::<V>::load(column)
+    S::Lanes::<V>::load(column)
         .plus_product(on[0], S::Lanes::<V>::splat(by[0][j]))
-        .plus_product(on[1], S::Lanes::<V>::splat(by[1][j]));
-    let odd = on[2]
-        .times(S::Lanes::<V>::splat(by[2][j]))
-        .plus_product(on[3], S::Lanes::<V>::splat(by[3][j]));
-    even.plus(odd).store(column);
+        .plus_product(on[1], S::Lanes::<V>::splat(by[1][j]))
+        .plus_product(on[2], S::Lanes::<V>::splat(by[2][j]))
+        .plus_product(on[3], S::Lanes::<V>::splat(by[3][j]))
+        .store(column);
 }

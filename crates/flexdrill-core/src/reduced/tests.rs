@@ -120,10 +120,10 @@ fn check(tool: &ToolDescription, h: f64, seed: u64) {
         reduced.show(&model, (&state, &vec![[0.0; 3]; reduced.spans()]), &mut full);
         let mut whole = Assembler::new(&model, instructions);
         whole.residual(&model, &full, &conditions);
-        let inside = |touches: &[Option<crate::elements::gap::Touch>]| {
-            let stations = model.stations.iter().zip(touches);
-            stations
-                .filter(|(at, touch)| at.joint.is_none() && touch.is_some())
+        let inside = |layer: &crate::elements::gap::Layer| {
+            layer
+                .iter()
+                .filter(|(station, _)| model.stations[*station].joint.is_none())
                 .count()
         };
         if tool.elements_per_link > 1 {

@@ -1,4 +1,4 @@
-//! What the joints' formulas are written over: one number, or one of each of eight joints at once.
+//! What the formulas of joints and gaps are written over: one number, or one of each of eight of them at once.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -17,6 +17,14 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     fn of(x: f64) -> Self;
     /// self + a b, rounded once where the machine does that.
     fn plus_product(self, a: Self, b: Self) -> Self;
+    /// Quotient.
+    fn over(self, other: Self) -> Self;
+    /// Square root.
+    fn root(self) -> Self;
+    /// The larger; `other` where one of them is no number.
+    fn largest(self, other: Self) -> Self;
+    /// Itself where `x` is larger than `bound`, otherwise zero.
+    fn where_above(self, x: Self, bound: Self) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
     /// `f` of each number.
@@ -46,6 +54,22 @@ impl Number for f64 {
         self + a * b
     }
     #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        self / other
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+    #[inline(always)]
+    fn largest(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn where_above(self, x: Self, bound: Self) -> Self {
+        if x > bound { self } else { 0.0 }
+    }
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         libm::sincos(self)
     }
@@ -63,7 +87,10 @@ impl Number for f64 {
     }
 }
 
-/// One number of each of eight joints, computed with at once.
+/// Eight numbers, as kept in memory.
+pub type Lane = Aligned<[f64; 8]>;
+
+/// One number of each of eight joints or contacts, computed with at once.
 #[derive(Debug, Clone, Copy)]
 pub struct Eight<V>(pub V);
 
@@ -81,13 +108,13 @@ const fn series<const N: usize>(first: u32) -> [f64; N] {
 }
 
 impl<V: Vector> Number for Eight<V> {
-    type Memory = Aligned<[f64; 8]>;
+    type Memory = Lane;
     #[inline(always)]
-    fn load(from: &Aligned<[f64; 8]>) -> Self {
+    fn load(from: &Lane) -> Self {
         Self(V::load(from))
     }
     #[inline(always)]
-    fn store(self, to: &mut Aligned<[f64; 8]>) {
+    fn store(self, to: &mut Lane) {
         self.0.store(to);
     }
     #[inline(always)]
@@ -98,6 +125,26 @@ impl<V: Vector> Number for Eight<V> {
     #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {
         Self(self.0.plus_product(a.0, b.0))
+    }
+
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        Self(self.0.over(other.0))
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        Self(self.0.root())
+    }
+
+    #[inline(always)]
+    fn largest(self, other: Self) -> Self {
+        Self(self.0.largest(other.0))
+    }
+
+    #[inline(always)]
+    fn where_above(self, x: Self, bound: Self) -> Self {
+        Self(self.0.where_above(x.0, bound.0))
     }
 
     /// Sine and cosine, to two units in the last place of 1 for arguments up to 1e6.

@@ -25,6 +25,14 @@ pub(crate) trait Vector: Copy {
     fn minus(self, other: Self) -> Self;
     /// Product, lane by lane.
     fn times(self, other: Self) -> Self;
+    /// Quotient, lane by lane.
+    fn over(self, other: Self) -> Self;
+    /// Square root, lane by lane.
+    fn root(self) -> Self;
+    /// The larger, lane by lane; that of `other` where one of them is no number.
+    fn largest(self, other: Self) -> Self;
+    /// Lanes of `self` where `x` is larger than `bound`, zero in the others.
+    fn where_above(self, x: Self, bound: Self) -> Self;
     /// self + a b, rounded once where the machine does that.
     fn plus_product(self, a: Self, b: Self) -> Self;
     /// self - a b, likewise.
@@ -90,6 +98,26 @@ impl Vector for Portable {
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         self.zip(other, |x, y| x * y)
+    }
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        self.zip(other, |x, y| x / y)
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.zip(self, |x, _| x.sqrt())
+    }
+    #[inline(always)]
+    fn largest(self, other: Self) -> Self {
+        self.zip(other, |x, y| if x > y { x } else { y })
+    }
+    #[inline(always)]
+    fn where_above(self, x: Self, bound: Self) -> Self {
+        let mut out = self;
+        for ((out, x), bound) in out.0.iter_mut().zip(x.0).zip(bound.0) {
+            *out = if x > bound { *out } else { 0.0 };
+        }
+        out
     }
     #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {

@@ -61,6 +61,27 @@ impl Vector for Avx2 {
         unsafe { Self(_mm256_mul_pd(self.0, other.0), _mm256_mul_pd(self.1, other.1)) }
     }
     #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        unsafe { Self(_mm256_div_pd(self.0, other.0), _mm256_div_pd(self.1, other.1)) }
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        unsafe { Self(_mm256_sqrt_pd(self.0), _mm256_sqrt_pd(self.1)) }
+    }
+    #[inline(always)]
+    fn largest(self, other: Self) -> Self {
+        unsafe { Self(_mm256_max_pd(self.0, other.0), _mm256_max_pd(self.1, other.1)) }
+    }
+    #[inline(always)]
+    fn where_above(self, x: Self, bound: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_and_pd(self.0, _mm256_cmp_pd::<_CMP_GT_OQ>(x.0, bound.0)),
+                _mm256_and_pd(self.1, _mm256_cmp_pd::<_CMP_GT_OQ>(x.1, bound.1)),
+            )
+        }
+    }
+    #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {
         unsafe { Self(_mm256_fmadd_pd(a.0, b.0, self.0), _mm256_fmadd_pd(a.1, b.1, self.1)) }
     }
@@ -129,6 +150,27 @@ impl Vector for Avx512 {
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         unsafe { Self(_mm512_mul_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        unsafe { Self(_mm512_div_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        unsafe { Self(_mm512_sqrt_pd(self.0)) }
+    }
+    #[inline(always)]
+    fn largest(self, other: Self) -> Self {
+        unsafe { Self(_mm512_max_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn where_above(self, x: Self, bound: Self) -> Self {
+        unsafe {
+            Self(_mm512_maskz_mov_pd(
+                _mm512_cmp_pd_mask::<_CMP_GT_OQ>(x.0, bound.0),
+                self.0,
+            ))
+        }
     }
     #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {

@@ -9,7 +9,7 @@ use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snaps
 use crate::dynamics::contacts::inner_lateral;
 use crate::dynamics::state::{State, joint_rotations, translation};
 use crate::dynamics::stepper::Stepper;
-use crate::elements::gap::{Touch, gap};
+use crate::elements::gap::{Layer, gap};
 use crate::model::Model;
 use crate::motion::{
     AgeingWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation, JointLoadWatch,
@@ -148,12 +148,10 @@ impl Observer {
             .into_iter()
             .enumerate()
         {
-            for (station, touch) in touches.iter().enumerate() {
-                if let Some(touch) = touch {
-                    statistics.touch(station, dt, touch.normal);
-                    self.shock.push(layer, station, dt, touch.normal);
-                    self.ageing.rub(layer, station, touch.friction_power * dt);
-                }
+            for (station, touch) in touches.iter() {
+                statistics.touch(station, dt, touch.normal);
+                self.shock.push(layer, station, dt, touch.normal);
+                self.ageing.rub(layer, station, touch.friction_power * dt);
             }
             statistics.advance(dt);
         }
@@ -176,8 +174,8 @@ impl Observer {
         let share = 1.0 / self.decimation as f64;
         for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
             let touch = match body {
-                Body::Pipe => &forces.inner[station],
-                Body::Guide => &forces.outer[station],
+                Body::Pipe => forces.inner.get(station),
+                Body::Guide => forces.outer.get(station),
             };
             if let Some(touch) = touch {
                 sample.normal_force = sample.normal_force.max(touch.normal);
@@ -273,7 +271,7 @@ impl Observer {
         self.shock.write(1, &mut contacts.guide_wall.shock);
         out.shock = self.shock.level();
         for (s, station) in model.stations.iter().enumerate() {
-            contacts.state[s] = u8::from(forces.inner[s].is_some()) + 2 * u8::from(forces.outer[s].is_some());
+            contacts.state[s] = u8::from(forces.inner.get(s).is_some()) + 2 * u8::from(forces.outer.get(s).is_some());
             let guide = translation(&state.q, station.guide);
             let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
             out.shape.pipe[s] = [station.offset.x + pipe.y, station.offset.y + pipe.z];
@@ -398,15 +396,10 @@ fn gap_lateral(model: &Model, state: &State, station: usize, body: Body) -> Vect
     }
 }
 
-fn fill_layer(
-    out: &mut ContactLayer,
-    touches: &[Option<Touch>],
-    statistics: &ContactStatistics,
-    gap: impl Fn(usize) -> f64,
-) {
-    for (s, touch) in touches.iter().enumerate() {
+fn fill_layer(out: &mut ContactLayer, touches: &Layer, statistics: &ContactStatistics, gap: impl Fn(usize) -> f64) {
+    for s in 0..out.gap.len() {
         out.gap[s] = gap(s);
-        let values = touch.as_ref().map_or([0.0; 3], |t| [t.normal, t.tangential, t.axial]);
+        let values = touches.get(s).map_or([0.0; 3], |t| [t.normal, t.tangential, t.axial]);
         [out.normal[s], out.tangential[s], out.axial[s]] = values;
     }
     statistics.write(&mut out.normal_peak, &mut out.normal_rms);

@@ -108,13 +108,13 @@ impl Simulation {
         Some(self.touch(station, body)?.map_or(0.0, |touch| touch.friction_power))
     }
 
-    fn touch(&self, station: usize, body: Body) -> Option<Option<&Touch>> {
+    fn touch(&self, station: usize, body: Body) -> Option<Option<Touch>> {
         let forces = &self.stepper().newton().assembler;
         let touches = match body {
             Body::Pipe => &forces.inner,
             Body::Guide => &forces.outer,
         };
-        touches.get(station).map(Option::as_ref)
+        (station < self.stepper().model().stations.len()).then(|| touches.get(station))
     }
 
     /// Distance of a pipe's axis from the bore's, horizontally and towards the low side (m).

@@ -4,11 +4,8 @@ use super::Joint;
 use super::law::{JointLaw, RotationFunction, moments, tangent};
 use super::stop::Stop;
 use crate::simd::aligned::Aligned;
-use crate::simd::number::{Eight, Number};
+use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
-
-/// A value per joint of a group.
-pub type Lane = Aligned<[f64; 8]>;
 
 /// Up to eight joints next to each other, as given and as linearised last. Lanes without a joint repeat the last one.
 #[derive(Debug, Clone)]

@@ -76,7 +76,7 @@ impl<M> JointLaw<M> {
             upper[2] * lower[0] - upper[0] * lower[2],
             upper[0] * lower[1] - upper[1] * lower[0],
         ];
-        let sine = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).map(f64::sqrt);
+        let sine = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).root();
         let over = self.beyond_limit(sine, cosine);
         let (k, c) = (self.stop_stiffness, self.stop_damping);
         let spring = over.map(|over| if over > 0.0 { k * over } else { 0.0 });
