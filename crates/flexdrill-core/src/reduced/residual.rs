@@ -199,50 +199,65 @@ impl Kernel for Spans<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Vector>(self) {
-        let Self {
-            by,
-            to,
-            conditions,
-            operator,
-            keep_axial,
-        } = self;
-        let part = by.foreseen_part;
+    fn run<V: Vector>(mut self) {
+        match self.operator {
+            None => self.whole::<V>(),
+            Some(operator) => self.increment::<V>(operator),
+        }
+        if !self.keep_axial {
+            let part = self.by.foreseen_part;
+            let axial = self.to.pipe_axial.iter_mut().zip(&mut self.to.guide_axial);
+            for ((pipe, guide), (stretched, foreseen)) in axial.zip(self.by.stretched.iter().zip(&self.by.foreseen)) {
+                let now = [stretched[0][TENSION], stretched[1][TENSION]];
+                *pipe = now[0] + part * (foreseen[0] - now[0]);
+                *guide = now[1] + part * (foreseen[1] - now[1]);
+            }
+        }
+    }
+}
+
+impl Spans<'_> {
+    /// From the state.
+    #[inline(always)]
+    fn whole<V: Vector>(&mut self) {
+        let Self { by, to, conditions, .. } = self;
         let rayleigh = [conditions.rayleigh.alpha, conditions.rayleigh.beta];
         let ((q, _), (v, _), (a, _)) = (to.q.as_chunks(), to.v.as_chunks(), to.a.as_chunks());
-        let (corrections, _) = by.correction.as_chunks();
-        for (l, link) in by.links.iter().enumerate() {
+        let forces = by.linear.iter_mut().zip(&mut by.stretched);
+        for (l, (link, (linear, stretched))) in by.links.iter().zip(forces).enumerate() {
             let kind = &by.kinds[link.kind];
-            for (body, axial) in [&mut to.pipe_axial, &mut to.guide_axial].into_iter().enumerate() {
-                let (sum, stretched) = match operator {
-                    None => {
-                        let (at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
-                        let (mut strained, mut pushed) = (at, at_ends(a, l, body));
-                        for end in 0..2 {
-                            for j in 0..6 {
-                                strained[end][j] += rayleigh[1] * rate[end][j];
-                                pushed[end][j] += rayleigh[0] * rate[end][j];
-                            }
-                        }
-                        let stiff = product::<V>(&kind.stiffness[body], &strained);
-                        let inert = product::<V>(&kind.mass[body], &pushed);
-                        let sum = [stiff[0].plus(inert[0]), stiff[1].plus(inert[1])];
-                        (sum, product::<V>(&kind.geometric[body], &at))
+            for body in 0..2 {
+                let (at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
+                let (mut strained, mut pushed) = (at, at_ends(a, l, body));
+                for end in 0..2 {
+                    for j in 0..6 {
+                        strained[end][j] += rayleigh[1] * rate[end][j];
+                        pushed[end][j] += rayleigh[0] * rate[end][j];
                     }
-                    Some(operator) => {
-                        let columns = &by.operators[operator].spans[link.kind][body];
-                        let dq = at_ends(corrections, l, body);
-                        let sums = [load(&by.linear[l][body]), load(&by.stretched[l][body])];
-                        products([columns, &kind.geometric[body]], &dq, sums)
-                    }
-                };
-                store(stretched, &mut by.stretched[l][body]);
-                if !keep_axial {
-                    let now = by.stretched[l][body][TENSION];
-                    axial[l] = now + part * (by.foreseen[l][body] - now);
                 }
-                let linear = &mut by.linear[l][body];
-                store(sum, linear);
+                let stiff = product::<V>(&kind.stiffness[body], &strained);
+                let inert = product::<V>(&kind.mass[body], &pushed);
+                store([stiff[0].plus(inert[0]), stiff[1].plus(inert[1])], &mut linear[body]);
+                store(product::<V>(&kind.geometric[body], &at), &mut stretched[body]);
+            }
+        }
+    }
+
+    /// From the last correction.
+    #[inline(always)]
+    fn increment<V: Vector>(&mut self, operator: usize) {
+        let by = &mut *self.by;
+        let operator = &by.operators[operator].spans;
+        let (corrections, _) = by.correction.as_chunks();
+        let forces = by.linear.iter_mut().zip(&mut by.stretched);
+        for ((link, nodes), (linear, stretched)) in by.links.iter().zip(corrections.windows(2)).zip(forces) {
+            let (columns, geometric) = (&operator[link.kind], &by.kinds[link.kind].geometric);
+            for body in 0..2 {
+                let sums = [load(&linear[body]), load(&stretched[body])];
+                let dq = at_ends(nodes, 0, body);
+                let (sum, other) = products::<V>([&columns[body], &geometric[body]], &dq, sums);
+                store(sum, &mut linear[body]);
+                store(other, &mut stretched[body]);
             }
         }
     }

@@ -155,10 +155,14 @@ impl SingleElimination<'_> {
         let single = &self.operator.single;
         let zero = S::splat(0.0);
         let mut inverse = Inverse { own: zero, mate: zero };
-        *a = *single.blocks[self.operator.block_of[k]];
+        let constant = &single.blocks[self.operator.block_of[k]];
         if self.additions.touched[k] {
-            for (to, from) in a.iter_mut().zip(self.additions.blocks[k].iter()) {
-                S::load(to).plus(S::load(from)).store(to);
+            for ((to, from), added) in a.iter_mut().zip(constant.iter()).zip(self.additions.blocks[k].iter()) {
+                S::load(from).plus(S::load(added)).store(to);
+            }
+        } else {
+            for (to, from) in a.iter_mut().zip(constant.iter()) {
+                S::load(from).store(to);
             }
         }
         if let Some(joint) = k.checked_sub(1).and_then(|joint| self.sweep.joints.get(joint)) {
@@ -183,7 +187,9 @@ impl SingleElimination<'_> {
             return (inverse, zero);
         }
         let (crossing, upper) = (self.additions.crossing[k], &single.upper[self.links[k].kind]);
-        b[..12].copy_from_slice(&**upper);
+        for (to, from) in b.iter_mut().zip(upper.iter()) {
+            S::load(from).store(to);
+        }
         if crossing != Crossing::Nothing {
             let first = if crossing == Crossing::Guide { 6 } else { 0 };
             let added = &self.additions.couplings[k].upper;
