@@ -5,6 +5,7 @@ import { test } from "node:test";
 import type { History } from "../src/api";
 import type { Session } from "../src/api";
 import { Alarm, type AlarmList, type Header, type TwinStatus } from "../src/messages";
+import { AlarmBook } from "../src/store/alarms";
 import { Store } from "../src/store/store";
 
 const STATIONS = 4;
@@ -147,6 +148,19 @@ test("a twin that was away leaves a gap; a clock that was set back begins anew",
   assert.equal(store.now, 51);
 });
 
+test("topics that come a minute after another do not begin the hour anew", () => {
+  const store = new Store();
+  drill(store, 100, 105.1);
+  const status = (time: number) => ({ header: header(time), input_name: [] as string[] }) as unknown as TwinStatus;
+  for (let time = 105; time <= 165; time++) store.accept("twin/status", status(time));
+  const before = store.hour.length;
+  drill(store, 105.25, 110);
+  assert.equal(store.hour.length, before);
+  assert.equal(store.now, 165);
+  store.accept("twin/status", status(150));
+  assert.equal(store.hour.length, 0);
+});
+
 test("a recording that is brought elsewhere shows that time, and forgets the motion of the one before", () => {
   const store = new Store();
   store.session = { mode: "bag" } as Session;
@@ -283,6 +297,22 @@ test("of alarm lists the highest sequence holds, and the past has those of its t
   assert.equal(store.alarmsShown(), null);
   store.lookAt(null);
   assert.equal(store.alarmsShown()?.sequence, 6);
+});
+
+test("a list keeps the alarms of the one before that did not change, and nothing of those that did", () => {
+  const book = new AlarmBook();
+  const alarm = (id: string, value: number): AlarmList["alarms"][number] =>
+    ({ id, value, evidence: `${id} is seen`, since: { sec: 7, nanosec: 0 } }) as AlarmList["alarms"][number];
+  const list = (sequence: number, alarms: AlarmList["alarms"]): AlarmList =>
+    ({ header: header(100 + sequence), sequence, alarms }) as AlarmList;
+  book.take(list(1, [alarm("shock", NaN), alarm("pace", 1)]), false);
+  const first = book.newest?.alarms ?? [];
+  book.take(list(2, [alarm("pace", 2), alarm("shock", NaN), alarm("new", 3)]), false);
+  assert.equal(book.newest?.alarms[1], first[0]);
+  assert.deepEqual(book.newest?.alarms[0], alarm("pace", 2));
+  assert.deepEqual(book.newest?.alarms[2], alarm("new", 3));
+  assert.equal(first[1].value, 1);
+  assert.equal(book.at(101.5)?.alarms[1].value, 1);
 });
 
 test("events of the journal come once, whether heard or asked for", () => {

@@ -1,7 +1,7 @@
 // Alarms as they stand and stood, and the journal of their events.
 
 import type { JournalEntry } from "../api";
-import type { AlarmEvent, AlarmList } from "../messages";
+import type { Alarm, AlarmEvent, AlarmList } from "../messages";
 import { stamp } from "./topics";
 
 /** Most entries of the journal, and of alarm lists to drag back through. */
@@ -20,6 +20,7 @@ export class AlarmBook {
     const last = this.newest;
     // Of a latched topic old samples may come too: the highest sequence holds, then the newest.
     if (last && !isBag && stamp(list.header) < stamp(last.header) && list.sequence <= last.sequence) return false;
+    if (last) share(list, last);
     this.newest = list;
     if (!last || last.sequence !== list.sequence) {
       this.lists.push({ time: stamp(list.header), list });
@@ -31,7 +32,20 @@ export class AlarmBook {
   takeEvent(event: AlarmEvent): void {
     if (this.journal.some((entry) => entry.sequence === event.sequence)) return;
     const { sec, nanosec } = event.header.stamp;
-    this.journal.push({ ...event, stamp_ns: (BigInt(sec) * 1_000_000_000n + BigInt(nanosec)).toString() });
+    const { sequence, id, name, change, priority, annunciates, operator_name, reason, evidence } = event;
+    const stamp_ns = (BigInt(sec) * 1_000_000_000n + BigInt(nanosec)).toString();
+    this.journal.push({
+      stamp_ns,
+      sequence,
+      id,
+      name,
+      change,
+      priority,
+      annunciates,
+      operator_name,
+      reason,
+      evidence,
+    });
     if (this.journal.length > JOURNAL) this.journal.shift();
     this.journalRevision++;
   }
@@ -57,4 +71,29 @@ export class AlarmBook {
   forgetPast(): void {
     this.lists = [];
   }
+}
+
+/**
+ * Takes from the list before what is the same: a list has all alarms with all their texts, and hardly one changes. 500 of them
+ * would be megabytes otherwise.
+ */
+function share(list: AlarmList, before: AlarmList): void {
+  const known = new Map(before.alarms.map((alarm) => [alarm.id, alarm]));
+  list.alarms = list.alarms.map((alarm) => {
+    const old = known.get(alarm.id);
+    if (!old) return alarm;
+    if (same(alarm, old)) return old;
+    const texts = Object.entries(old).filter(
+      ([key, text]) => typeof text === "string" && alarm[key as keyof Alarm] === text,
+    );
+    return { ...alarm, ...Object.fromEntries(texts) };
+  });
+}
+
+function same(a: Alarm, b: Alarm): boolean {
+  return (Object.keys(a) as (keyof Alarm)[]).every((key) => {
+    const [x, y] = [a[key], b[key]];
+    if (typeof x !== "object" || typeof y !== "object") return Object.is(x, y);
+    return x.sec === y.sec && x.nanosec === y.nanosec;
+  });
 }

@@ -24,8 +24,9 @@ const HOUR = 3600;
 const QUICK = 3000;
 const SHAPES = 600;
 /**
- * Time that goes back further than this (s) is another time: topics of a loaded machine come out of order by some
- * seconds, those of a recording hardly. A recording that leaps ahead is elsewhere too.
+ * A topic whose time goes back further than this (s) is of another time. On a loaded machine one topic may come long after
+ * another, but each by itself in order; those of a recording are in order together. A recording that leaps ahead is
+ * elsewhere too.
  */
 const SET_BACK = 10;
 const BAG_BACK = 0.5;
@@ -53,6 +54,8 @@ export class Trace {
   /** Newest time on the rig's clock (s), NaN before the first message. */
   newest = NaN;
 
+  /** Newest time of each topic (s). */
+  private heard = new Map<string, number>();
   private second: Second | null = null;
   private secondNumber = NaN;
   private firstContacts: ContactForces | null = null;
@@ -87,7 +90,7 @@ export class Trace {
   }
 
   takeStatus(status: TwinStatus): void {
-    const second = this.begin(status.header);
+    const second = this.begin("status", status.header);
     if (!second) return;
     second.set("state", status.state);
     second.set("real_time_factor", status.real_time_factor);
@@ -101,7 +104,7 @@ export class Trace {
   }
 
   takeBit(bit: BitState): void {
-    const second = this.begin(bit.header);
+    const second = this.begin("bit", bit.header);
     if (!second) return;
     second.means({ bit_speed_mean: bit.rotary_speed, bit_torque_mean: bit.torque });
     second.smallest("bit_speed_min", bit.rotary_speed);
@@ -113,7 +116,7 @@ export class Trace {
 
   takeContacts(contacts: ContactForces): void {
     this.firstContacts ??= contacts;
-    const second = this.begin(contacts.header);
+    const second = this.begin("contacts", contacts.header);
     const stations = this.layout?.counts.stations ?? 0;
     if (!second) return;
     if (contacts.measured_depth.length !== stations) return this.forget();
@@ -132,7 +135,7 @@ export class Trace {
 
   takeJoints(joints: JointDeflections): void {
     this.firstJoints ??= joints;
-    const second = this.begin(joints.header);
+    const second = this.begin("joints", joints.header);
     const count = this.layout?.counts.joints ?? 0;
     if (!second) return;
     if (joints.measured_depth.length !== count) return this.forget();
@@ -152,7 +155,7 @@ export class Trace {
 
   takeWhirl(whirl: WhirlState): void {
     this.firstWhirl ??= whirl;
-    const second = this.begin(whirl.header);
+    const second = this.begin("whirl", whirl.header);
     if (!second) return;
     if (whirl.measured_depth.length !== this.layout?.counts.watched) return this.forget();
     second.setAll("whirl_kind", whirl.kind);
@@ -165,7 +168,7 @@ export class Trace {
   takeShape(shape: MarkerArray): void {
     this.firstShape ??= shape;
     const header = shape.markers[0]?.header;
-    const second = header ? this.begin(header) : null;
+    const second = header ? this.begin("shape", header) : null;
     const { geometry, layout } = this;
     if (!second || !geometry || !layout || !header) return;
     const stations = layout.counts.stations;
@@ -181,13 +184,16 @@ export class Trace {
   }
 
   /** Takes note of a message's time; gives the running second once the tool is known. */
-  private begin(header: Header): Second | null {
+  private begin(topic: string, header: Header): Second | null {
     const time = stamp(header);
     if (!this.layout) this.build();
     const second = this.second;
     if (!second) return null;
-    const back = this.newest - time;
-    if (back > (this.source.isBag ? BAG_BACK : SET_BACK) || (this.source.isBag && -back > BAG_AHEAD)) this.rewind(time);
+    const isElsewhere = this.source.isBag
+      ? this.newest - time > BAG_BACK || time - this.newest > BAG_AHEAD
+      : (this.heard.get(topic) ?? time) - time > SET_BACK;
+    if (isElsewhere) this.rewind(time);
+    this.heard.set(topic, time);
     this.newest = Number.isNaN(this.newest) ? time : Math.max(this.newest, time);
     const number = Math.floor(time);
     if (Number.isNaN(this.secondNumber)) this.secondNumber = number;
@@ -198,6 +204,7 @@ export class Trace {
   /** Time went back, or a bag was brought elsewhere: what is at hand belongs to another time. */
   private rewind(time: number): void {
     this.newest = time;
+    this.heard.clear();
     this.secondNumber = Math.floor(time);
     this.second?.clear();
     this.joints.clear();
@@ -229,6 +236,7 @@ export class Trace {
     this.firstContacts = this.firstJoints = this.firstWhirl = null;
     this.firstShape = null;
     this.newest = this.secondNumber = NaN;
+    this.heard.clear();
     this.hourRevision++;
     this.onBreak();
   }
