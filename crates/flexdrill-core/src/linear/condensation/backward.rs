@@ -4,7 +4,6 @@ use nalgebra::Matrix6;
 
 use super::forward::{CondensedElimination, Mode};
 use super::guide_contact::expand;
-use super::guide_contact_lanes::{LANES, expand_lanes};
 use super::joint_reduction::PLACES;
 use super::pivots::{halves_mut, load};
 use super::span::{End, scatter};
@@ -96,7 +95,7 @@ impl CondensedElimination {
                     .substructure
                     .expand::<V>(&ends.values(&ends.guide, rhs), clamped);
                 scatter(clamped, first + 6, span.inner, rhs);
-            } else if !self.grouped[k] {
+            } else {
                 let values = ends.values(&ends.guide, rhs);
                 let (mut top, mut bottom) = ([0.0; 6], [0.0; 6]);
                 top.copy_from_slice(&values[..6]);
@@ -106,35 +105,6 @@ impl CondensedElimination {
                     let at = first + 12 * node + 6;
                     rhs[at..at + 6].copy_from_slice(&x[..6]);
                 });
-            }
-        }
-        for g in 0..self.groups.len() {
-            self.recover_group::<V>(system, g, rhs);
-        }
-    }
-
-    /// Guides that were eliminated together.
-    #[inline(always)]
-    fn recover_group<V: Vector>(&mut self, system: &CondensedSystem, g: usize, rhs: &mut [f64]) {
-        let group = &self.groups[g];
-        let nodes = system.guides[group.guide].substructure.nodes();
-        let (mut top, mut bottom) = ([[0.0; LANES]; 6], [[0.0; LANES]; 6]);
-        for (lane, &k) in group.spans.iter().enumerate() {
-            let ends = End::of(system, k);
-            for i in 0..6 {
-                top[i][lane] = rhs[ends.guide[0] + i];
-                bottom[i][lane] = rhs[ends.guide[1] + i];
-            }
-        }
-        let inner = &mut self.lane_values[..nodes];
-        let solved = &self.solved_lanes[g * self.longest..g * self.longest + nodes];
-        expand_lanes::<V>(solved, &top, &bottom, inner);
-        for (lane, &k) in group.spans.iter().enumerate().take(group.count) {
-            let first = system.layout().offset(system.spans[k].first) + 6;
-            for (node, inner) in inner.iter().enumerate() {
-                for (to, from) in rhs[first + 12 * node..first + 12 * node + 6].iter_mut().zip(inner) {
-                    *to = from[lane];
-                }
             }
         }
     }

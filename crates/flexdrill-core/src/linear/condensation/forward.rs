@@ -2,7 +2,6 @@
 //! up.
 
 use super::guide_contact::{InterfaceMatrices, Solved, six};
-use super::guide_contact_lanes::{self, Group, LANES, SolvedLanes};
 use super::increment::{add_block, add_contact, add_guide, add_joint, take};
 use super::joint_reduction::active;
 use super::pivots::{self, halves_mut};
@@ -43,19 +42,7 @@ pub struct CondensedElimination {
     pub(super) room: usize,
     /// Right-hand sides inside a span.
     pub(super) forces: Vec<f64>,
-    /// Spans whose guides are eliminated together; those of [`Mode::GuideContact`] that are in no group are eliminated
-    /// alone.
-    pub(super) groups: Vec<Group>,
-    pub(super) grouped: Vec<bool>,
-    /// Per kind of guide, the group that clamped has room.
-    pub(super) unfilled: Vec<Option<usize>>,
-    /// Inner nodes of the longest span.
-    pub(super) longest: usize,
-    /// Right-hand sides, and later displacements, inside the spans of a group, by node.
-    pub(super) lane_values: Vec<[[f64; LANES]; 6]>,
-    /// Guides eliminated together: `longest` nodes per group.
-    pub(super) solved_lanes: Vec<SolvedLanes>,
-    /// Guides eliminated alone, by station.
+    /// Guides eliminated anew, by station.
     pub(super) solved: Vec<Solved>,
     /// What the guides of the spans put on their ends in this iteration, where eliminated anew.
     pub(super) condensed: Vec<InterfaceMatrices>,
@@ -121,12 +108,6 @@ impl CondensedElimination {
             guides: vec![0.0; room * spans],
             room,
             forces: vec![0.0; room],
-            groups: Vec::with_capacity(spans),
-            grouped: vec![false; spans],
-            unfilled: vec![None; spans],
-            longest,
-            lane_values: vec![[[0.0; LANES]; 6]; longest],
-            solved_lanes: vec![guide_contact_lanes::NOTHING; longest * spans],
             solved: vec![[[0.0; 8]; COLUMNS]; stations],
             condensed: vec![InterfaceMatrices::NOTHING; spans],
             swept: Vec::with_capacity(stations),
@@ -135,16 +116,15 @@ impl CondensedElimination {
         }
     }
 
-    /// Spans of the last solution as (without contact inside, with the guide eliminated alone, with others, open).
+    /// Spans of the last solution as (without contact inside, with the guide eliminated anew, open).
     #[cfg(test)]
-    pub fn span_counts(&self) -> [usize; 4] {
-        let mut counts = [0; 4];
-        for (mode, &grouped) in self.modes.iter().zip(&self.grouped) {
+    pub fn span_counts(&self) -> [usize; 3] {
+        let mut counts = [0; 3];
+        for mode in &self.modes {
             counts[match mode {
                 Mode::Free => 0,
-                Mode::GuideContact if !grouped => 1,
-                Mode::GuideContact => 2,
-                Mode::PipeContact => 3,
+                Mode::GuideContact => 1,
+                Mode::PipeContact => 2,
             }] += 1;
         }
         counts

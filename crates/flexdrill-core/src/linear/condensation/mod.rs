@@ -3,9 +3,8 @@
 //! Between its joints a link is linear, and so is the guide between two joint stations; their matrices last as long as
 //! the step size does. So the inner stations of every span are eliminated once per step size ([`substructure`]), and an
 //! iteration works on joints only ([`forward`]): 34 blocks of 16 for the paper's tool instead of 170 stations. Where
-//! the guide touches the wall inside a span, the guide's inner stations are eliminated anew ([`guide_contact`], several
-//! spans at once in [`guide_contact_lanes`]); where the pipe touches the guide there, the span's stations take part in
-//! the sweep one by one. See `docs/solver.md`.
+//! the guide touches the wall inside a span, the guide's inner stations are eliminated anew ([`guide_contact`]); where the
+//! pipe touches the guide there, the span's stations take part in the sweep one by one. See `docs/solver.md`.
 //!
 //! Order inside a block of 16: rotations of the end above (0..3), its displacement (3..6), rotations of the start below
 //! (6..9), guide (9..15), rotational multiplier (15). The displacement of the start below and the translational
@@ -15,7 +14,6 @@
 mod backward;
 mod forward;
 mod guide_contact;
-mod guide_contact_lanes;
 mod increment;
 mod joint_reduction;
 mod pivots;

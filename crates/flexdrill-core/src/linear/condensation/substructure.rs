@@ -131,11 +131,6 @@ impl Substructure {
         })
     }
 
-    /// Number of inner nodes, six unknowns each.
-    pub fn nodes(&self) -> usize {
-        self.chain.diagonal.len()
-    }
-
     /// From the forces inside, `forces` (filled up with zeros): what they put on the ends (top, bottom), and in
     /// `clamped` the inner displacements while the ends do not move.
     #[inline(always)]
