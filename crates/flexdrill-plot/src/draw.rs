@@ -10,7 +10,7 @@ use plotters::prelude::*;
 use plotters::style::register_font;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::panel::{Figure, Legend, Line, Mark, Panel};
+use super::panel::{BAR, Figure, Legend, Line, Mark, Panel};
 
 /// Units of the drawing per unit of its stated size.
 pub(crate) const SCALE: u32 = 4;
@@ -141,6 +141,15 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .y_label_area_size(LEFT * SCALE)
         .build_cartesian_2d(x[0]..x[1], y_from..y_to)?;
     let grey = RGBColor(110, 110, 110);
+    // Names stand at whole numbers; between them there is nothing to say.
+    let at_x = |x: &f64| {
+        if panel.names.is_empty() {
+            return tick(x);
+        }
+        let whole = (x - x.round()).abs() < 1e-9 && *x > -0.5;
+        let name = whole.then(|| panel.names.get(x.round() as usize)).flatten();
+        name.cloned().unwrap_or_default()
+    };
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
@@ -149,7 +158,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .set_all_tick_mark_size((4 * SCALE) as i32)
         .x_labels(((plot_width / f64::from(SCALE) / 50.0) as usize).clamp(5, 10))
         .y_labels(((plot_height / f64::from(SCALE) / 45.0) as usize).clamp(4, 9))
-        .x_label_formatter(&tick)
+        .x_label_formatter(&at_x)
         .y_label_formatter(&tick)
         .label_style(font(TEXT - 1))
         .axis_desc_style(font(TEXT))
@@ -175,6 +184,14 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
             Mark::Area => {
                 let corners: Vec<_> = points().collect();
                 chart.draw_series(std::iter::once(Polygon::new(corners, color.filled())))?;
+            }
+            Mark::Bars => {
+                let half = 0.5 * BAR;
+                chart.draw_series(
+                    points().map(|(x, y)| Rectangle::new([(x - half, 0.0), (x + half, y)], color.filled())),
+                )?;
+                let value = font(TEXT - 2).pos(Pos::new(HPos::Center, VPos::Bottom));
+                chart.draw_series(points().map(|(x, y)| Text::new(format!("{y:.1}"), (x, y), value.clone())))?;
             }
             Mark::Dots => {
                 chart.draw_series(points().map(|at| Circle::new(at, 3 * SCALE, color.filled())))?;
@@ -227,7 +244,9 @@ fn legend<'a>(area: &Area<'a>, kind: Legend, named: &[(usize, &Line)]) -> Result
                 area.draw(&PathElement::new([(x, y), (x + s(9), y)], style))?;
                 area.draw(&PathElement::new([(x + s(14), y), (x + s(23), y)], style))?;
             }
-            Mark::Area => area.draw(&Rectangle::new([(x, y - s(6)), (x + s(22), y + s(6))], color.filled()))?,
+            Mark::Area | Mark::Bars => {
+                area.draw(&Rectangle::new([(x, y - s(6)), (x + s(22), y + s(6))], color.filled()))?
+            }
             Mark::Dots => area.draw(&Circle::new((x + s(11), y), 3 * SCALE, color.filled()))?,
             Mark::Diamond => {
                 let (c, r) = (x + s(11), s(6));

@@ -13,6 +13,9 @@ pub struct Line {
     pub color: Option<usize>,
 }
 
+/// Width of a bar in x.
+pub const BAR: f64 = 0.27;
+
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Mark {
@@ -31,6 +34,8 @@ pub enum Mark {
     Diamond,
     /// What the points enclose, pale.
     Area,
+    /// A bar from zero per point, [`BAR`] wide, with its value.
+    Bars,
 }
 
 /// Where the legend stands.
@@ -60,6 +65,8 @@ pub struct Panel {
     pub down: bool,
     /// Range of x, if not that of the data.
     pub x_range: Option<[f64; 2]>,
+    /// What stands at x = 0, 1, ... instead of numbers.
+    pub names: Vec<String>,
     /// y begins at zero.
     pub from_zero: bool,
     /// Where the legend stands.
@@ -105,6 +112,14 @@ impl Panel {
     #[must_use]
     pub fn over(mut self, low: f64, high: f64) -> Self {
         self.x_range = Some([low, high]);
+        self
+    }
+
+    /// With names at x = 0, 1, ... instead of numbers, and half a unit on both sides.
+    #[must_use]
+    pub fn named(mut self, names: Vec<String>) -> Self {
+        self.x_range = Some([-0.5, names.len() as f64 - 0.5]);
+        self.names = names;
         self
     }
 
@@ -179,6 +194,12 @@ impl Line {
     #[must_use]
     pub fn area(self) -> Self {
         self.marked(Mark::Area)
+    }
+
+    /// As bars.
+    #[must_use]
+    pub fn bars(self) -> Self {
+        self.marked(Mark::Bars)
     }
 
     /// In a colour of the palette.

@@ -1,0 +1,68 @@
+//! Draws the figure of the README: how much faster than real time each case runs, by version, from `benches/speed.csv`.
+//!
+//!     cargo run --release --example speed_figure -- docs/images/speed.svg
+//!
+//! The rows of one processor are drawn, the last one named in the file. Each is a factor that `flexdrill bench --cases
+//! real-time` of that commit printed.
+
+use anyhow::{Context as _, ensure};
+use flexdrill_plot::{BAR, Figure, Line, Panel, svg};
+
+/// A measured factor.
+#[derive(serde::Deserialize)]
+struct Row {
+    version: String,
+    processor: String,
+    case: String,
+    factor: f64,
+}
+
+fn main() -> anyhow::Result<()> {
+    let to = std::env::args()
+        .nth(1)
+        .context("say where to write it: cargo run --example speed_figure -- FILE")?;
+    let from = "benches/speed.csv";
+    let mut rows: Vec<Row> = csv::Reader::from_path(from)?
+        .deserialize()
+        .collect::<Result<_, _>>()
+        .with_context(|| format!("{from}: a row that cannot be read"))?;
+    let processor = rows.last().context("no rows")?.processor.clone();
+    rows.retain(|row| row.processor == processor);
+    let (mut versions, mut cases) = (Vec::<&str>::new(), Vec::<&str>::new());
+    for row in &rows {
+        for (list, name) in [(&mut versions, &row.version), (&mut cases, &row.case)] {
+            if !list.contains(&name.as_str()) {
+                list.push(name);
+            }
+        }
+    }
+    ensure!(
+        rows.len() == versions.len() * cases.len(),
+        "{from}: not every version has every case on {processor}"
+    );
+    let mut panel = Panel::new(
+        format!("Times faster than real time, one core of {processor}, step 0.5 ms"),
+        "",
+        "real-time factor",
+    )
+    .named(cases.iter().map(|case| (*case).to_owned()).collect())
+    .from_zero();
+    let middle = 0.5 * (versions.len() as f64 - 1.0);
+    for (v, version) in versions.iter().enumerate() {
+        let points = rows.iter().filter(|row| row.version == *version).filter_map(|row| {
+            let case = cases.iter().position(|case| *case == row.case)? as f64;
+            Some((case + (v as f64 - middle) * (BAR + 0.03), row.factor))
+        });
+        panel = panel.line(Line::new(*version, points.collect()).bars());
+    }
+    let figure = Figure {
+        name: "speed",
+        title: String::new(),
+        caption: String::new(),
+        height: 330,
+        columns: 1,
+        panels: vec![panel],
+    };
+    std::fs::write(&to, svg(&figure)?).with_context(|| format!("{to}: cannot be written"))?;
+    Ok(())
+}
