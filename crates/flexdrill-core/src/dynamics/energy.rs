@@ -51,7 +51,7 @@ pub struct EnergyPoint {
     /// Value of each point load (N, N m).
     loads: Vec<f64>,
     /// Kinetic, elastic, geometric, contact and stop energy (J).
-    stored: f64,
+    pub(crate) stored: f64,
     /// Part of `stored` that is kinetic.
     pub(crate) kinetic: f64,
     /// Part of `stored` in the geometric stiffness.

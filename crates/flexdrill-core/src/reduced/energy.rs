@@ -60,6 +60,12 @@ fn add(values: &mut [f64], [top, bottom]: [usize; 2], force: &EndColumn) {
 /// One in the lanes of a top end's forces.
 static FORCES: [f64; 8] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0];
 
+/// One in the lane of the pipe's spin, at a span's top and bottom end.
+static SPIN: [[f64; 8]; 2] = [
+    [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+];
+
 /// Forces of the spans and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
 struct SpanEnergies<'a> {
     by: &'a mut Reduced,
@@ -100,10 +106,18 @@ impl Kernel for SpanEnergies<'_> {
                 let beyond = V::splat(in_use - by.stretched[l][body][TENSION]);
                 let tension_in_use = V::splat(in_use);
                 // Two lanes of each hold other unknowns; forces are zero there.
-                let (q, v) = (
+                let (mut q, v) = (
                     around::<V>(&state.q, ends(l, body)),
                     around::<V>(&state.v, ends(l, body)),
                 );
+                if body == 0 {
+                    // Turning as a whole strains nothing; but hundreds of turns times the rounding of the forces would be
+                    // as large as what the steps make up.
+                    let spin = V::splat(-state.q[ends(l, 0)[0] + 3]);
+                    for half in 0..2 {
+                        q[half] = q[half].plus_product(V::load(&SPIN[half]), spin);
+                    }
+                }
                 // The residual's linear forces are elastic ones, damping and inertia together.
                 let linear: [V; 2] = load(&by.linear[l][body]);
                 let mut damped = zero;
