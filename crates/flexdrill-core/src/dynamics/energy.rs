@@ -19,6 +19,7 @@ use crate::model::{Model, Places};
 use crate::reduced::span_works;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
+use crate::tool::description::Direction;
 
 /// Forces of a span on its ends, pipe and guide: six numbers of the top end, two zeros, six of the bottom end, two zeros.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -199,6 +200,9 @@ impl EnergyPoint {
     }
 }
 
+/// One in the lane of a node's spin.
+static SPIN: [f64; 8] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+
 /// Forces of the elements and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
 struct ElementEnergies<'a> {
     point: &'a mut EnergyPoint,
@@ -228,14 +232,21 @@ impl Kernel for ElementEnergies<'_> {
         for (element, &tension) in model.elements.list.iter().zip(tensions) {
             let forms = &model.elements.kinds[element.kind as usize];
             let nodes = [element.nodes[0] as usize, element.nodes[1] as usize];
-            let q = forms.to_element::<V>([load(&state.q, nodes[0]), load(&state.q, nodes[1])]);
+            let mut q = forms.to_element::<V>([load(&state.q, nodes[0]), load(&state.q, nodes[1])]);
+            // Turning as a whole strains nothing; but hundreds of turns times the rounding of the forces would be as large
+            // as what the steps make up.
+            let spin = V::splat(-lane(q[0], Direction::Psi as usize));
+            q = [
+                q[0].plus_product(V::load(&SPIN), spin),
+                q[1].plus_product(V::load(&SPIN), spin),
+            ];
             let v = forms.to_element::<V>([load(&state.v, nodes[0]), load(&state.v, nodes[1])]);
             let a = forms.to_element::<V>([load(&state.a, nodes[0]), load(&state.a, nodes[1])]);
             let bent = forms.stiffness.product(q);
             let moving = forms.mass.product(v);
             let stiff = forms.stiffness.product(v);
             // Along its axis an element is a spring by itself: its force is that on the lower node.
-            let beyond = V::splat(tension - first(bent[1]));
+            let beyond = V::splat(tension - lane(bent[1], 0));
             let tension = V::splat(tension);
             let mut stretched = forms.geometric.product(q);
             let mut damped = [zero; 2];
@@ -270,12 +281,12 @@ fn sum<V: Vector>(lanes: V) -> f64 {
     out[..6].iter().sum()
 }
 
-/// The first lane.
+/// One lane.
 #[inline(always)]
-fn first<V: Vector>(lanes: V) -> f64 {
+fn lane<V: Vector>(lanes: V, k: usize) -> f64 {
     let mut out = [0.0; 8];
     lanes.store(&mut out);
-    out[0]
+    out[k]
 }
 
 /// dq . (f0 + f1) / 2 for the forces of both ends of a step.

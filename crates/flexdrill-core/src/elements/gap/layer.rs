@@ -81,7 +81,6 @@ impl Layer {
         let Some(to) = self.touches.get_mut(self.stations.len().saturating_sub(1) / 8) else {
             return;
         };
-
         let mut velocity = [Eight::<V>::of(0.0); 6];
         for (x, lanes) in velocity.iter_mut().zip(&self.velocity) {
             *x = Eight::load(lanes);
