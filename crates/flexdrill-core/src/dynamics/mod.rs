@@ -17,6 +17,7 @@ pub(crate) mod station_equations;
 pub(crate) mod stepper;
 pub(crate) mod sub_steps;
 pub(crate) mod tangent;
+pub(crate) mod tolerances;
 pub(crate) mod track;
 pub(crate) mod view;
 

@@ -5,63 +5,13 @@ use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
+use crate::dynamics::tolerances::Accuracy;
 use crate::elements::bit::BitTorque;
 use crate::linear::Singular;
 use crate::model::Model;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 use crate::tool::description::Body;
-
-/// When an iterate is accepted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerances {
-    /// Largest unbalanced force on a node at rest (N).
-    pub force: f64,
-    /// Largest unbalanced moment on a node at rest (N m).
-    pub moment: f64,
-    /// The same in motion, as a part of the weight of both pipes, and at most this force (N).
-    pub moving_force: (f64, f64),
-    /// Moment per force in motion (m).
-    pub moving_moment: f64,
-    /// Largest opening of a joint (m) and largest value of a rotational row (-).
-    pub constraint: f64,
-    /// Corrections after which a sub-step counts as not converged.
-    pub max_iterations: u32,
-}
-
-impl Default for Tolerances {
-    /// 10 mN and 1 mN m at rest: a millionth of a weight on bit of 10 kN and a hundred-thousandth of its torque, five
-    /// orders above the rounding of the stiffest element. In motion 1 N and 0.1 N m: a hundredth of the RMS forces of
-    /// the contacts, below what the step itself leaves, and statistics do not tell it from a hundredth of it; lighter
-    /// tools than one of 2 kN have smaller forces. Rows to 1e-10 m, a tenth of what is promised.
-    fn default() -> Self {
-        Self {
-            force: 1e-2,
-            moment: 1e-3,
-            moving_force: (5e-4, 1.0),
-            moving_moment: 0.1,
-            constraint: 1e-10,
-            max_iterations: 15,
-        }
-    }
-}
-
-impl Tolerances {
-    /// Largest unbalanced force on a node of `model` in motion (N).
-    pub(crate) fn moving_force(&self, model: &Model) -> f64 {
-        let (part, most) = self.moving_force;
-        (part * model.mass() * 9.81).clamp(self.force.min(most), most)
-    }
-}
-
-/// How closely a step's equations are to be solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Accuracy {
-    /// As the static start needs it.
-    Rest,
-    /// As motion needs it.
-    Motion,
-}
 
 /// What a step is taken by.
 #[derive(Debug, Clone, Copy)]
@@ -72,13 +22,15 @@ pub(crate) struct Stride {
     pub h: f64,
     /// How far ahead the axial forces are foreseen (s): the step size in motion, 0 for those of the step's start.
     pub foresight: f64,
+    /// Part of the foreseen axial forces that counts, 0 to 1.
+    pub foreseen_part: f64,
     /// How closely it is solved.
     pub accuracy: Accuracy,
 }
 
 /// The equations of a step in some numbering of the unknowns, with the room that Newton's iteration needs.
 pub(crate) trait Equations {
-    /// Begins a step: axial forces of `to` are those foreseen from `from`.
+    /// Begins a step: axial forces of `to` are those foreseen from `from`, limits those of its size.
     fn begin(&mut self, model: &Model, stride: Stride, from: &State, to: &mut State);
     /// Evaluates the residual at `to`, Eq. 35, after `iterations` corrections by
     /// [`Equations::solve`] with `factors`.

@@ -1,10 +1,11 @@
 //! The start: the tool as given, or at rest under gravity and weight on bit.
 
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::newton::{self, Accuracy, Stride};
+use crate::dynamics::newton::{self, Stride};
 use crate::dynamics::outcome::StepFailure;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::stepper::Stepper;
+use crate::dynamics::tolerances::Accuracy;
 use crate::linear::Singular;
 
 /// Why the tool could not be started.
@@ -102,6 +103,8 @@ impl Stepper {
                 scheme: Scheme::newmark(1.0),
                 h,
                 foresight: 0.0,
+                // All of those of the start: at rest they are those of the end too, and the tangent knows of no others.
+                foreseen_part: 1.0,
                 accuracy: Accuracy::Rest,
             };
             let most = newton.tolerances.max_iterations;

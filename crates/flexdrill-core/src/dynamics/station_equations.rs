@@ -3,9 +3,10 @@
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{Accuracy, Equations, LARGEST_DISPLACEMENT, Stride, Tolerances, correct, worst};
+use crate::dynamics::newton::{Equations, LARGEST_DISPLACEMENT, Stride, correct, worst};
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
+use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
 use crate::elements::bit::BitTorque;
 use crate::elements::joint::rotation::LARGEST_TILT;
 use crate::linear::{CondensedElimination, CondensedSystem, LinearSolver, Singular};
@@ -24,10 +25,7 @@ pub struct StationEquations {
     /// Solves with the condensed tangent: steps in motion.
     condensed: Option<CondensedTangents>,
     correction: Vec<f64>,
-    /// One over the limit on the residual at rest, per unknown; zero where there is no equation.
-    rest_weights: Vec<f64>,
-    /// The same in motion.
-    moving_weights: Vec<f64>,
+    limits: Limits,
     multiplier: Vec<bool>,
     /// 0 for multipliers, else 1.
     moving: Vec<f64>,
@@ -93,8 +91,7 @@ impl StationEquations {
             tolerances,
             condensed: None,
             correction: vec![0.0; n],
-            rest_weights: inverse(&limits),
-            moving_weights: inverse(&moving_limits),
+            limits: Limits::new(inverse(&limits), inverse(&moving_limits)),
             moving: multiplier.iter().map(|&m| if m { 0.0 } else { 1.0 }).collect(),
             multiplier,
             foreseen: (vec![0.0; model.pipe.len()], vec![0.0; model.guide.len()]),
@@ -175,7 +172,7 @@ impl StationEquations {
         };
         self.assembler.bit.begin();
         self.assembler.residual(model, state, conditions);
-        let mut best = worst(&self.assembler.residual, &self.rest_weights);
+        let mut best = worst(&self.assembler.residual, self.limits.weights(Accuracy::Rest));
         for _ in 0..self.tolerances.max_iterations {
             scratch.copy_from(state);
             if self.solve(model, scratch, conditions, factors).is_err() {
@@ -184,7 +181,7 @@ impl StationEquations {
             correct(self, scratch, conditions, factors, model.bit_spin());
             scratch.update_axial(model);
             self.assembler.residual(model, scratch, conditions);
-            let ratio = worst(&self.assembler.residual, &self.rest_weights);
+            let ratio = worst(&self.assembler.residual, self.limits.weights(Accuracy::Rest));
             if ratio.is_nan() || ratio >= best || out_of_range(model, scratch).is_some() {
                 return;
             }
@@ -199,7 +196,8 @@ impl Equations for StationEquations {
         to.predict_axial(model, from, stride.foresight);
         self.foreseen.0.copy_from_slice(&to.pipe_axial);
         self.foreseen.1.copy_from_slice(&to.guide_axial);
-        self.foreseen_part = stride.scheme.foreseen_part();
+        self.foreseen_part = stride.foreseen_part;
+        self.limits.for_step(stride.h);
     }
 
     fn residual(&mut self, model: &Model, to: &mut State, conditions: &Conditions, _: TangentFactors, _: u32) {
@@ -240,10 +238,7 @@ impl Equations for StationEquations {
     }
 
     fn weights(&self, accuracy: Accuracy) -> &[f64] {
-        match accuracy {
-            Accuracy::Rest => &self.rest_weights,
-            Accuracy::Motion => &self.moving_weights,
-        }
+        self.limits.weights(accuracy)
     }
 
     fn correction(&self) -> (&[f64], &[f64]) {

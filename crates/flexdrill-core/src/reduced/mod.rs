@@ -33,7 +33,7 @@ mod tests;
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::Tolerances;
+use crate::dynamics::tolerances::{Limits, Tolerances};
 use crate::elements::joint::Joint;
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
@@ -94,8 +94,7 @@ pub(crate) struct Reduced {
     pub(crate) weight: Vec<f64>,
     /// Rows of each node that are equations, 1 or 0; `None` where all are.
     rows: Vec<Option<[f64; NODE]>>,
-    rest_weights: Vec<f64>,
-    moving_weights: Vec<f64>,
+    limits: Limits,
     moving: Vec<f64>,
     operators: Vec<Operator>,
     /// Residual with its reactions.
@@ -174,8 +173,7 @@ impl Reduced {
             places,
             weight,
             rows,
-            rest_weights: limits(force, moment),
-            moving_weights: limits(moving_force, moving_moment),
+            limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
             moving: (0..unknowns)
                 .map(|unknown| if unknown % NODE == MULTIPLIER { 0.0 } else { 1.0 })
                 .collect(),

@@ -8,9 +8,10 @@ use super::{BOTTOM, GUIDE, Link, MULTIPLIER, NODE, Reduced, SINGLE_CORRECTIONS, 
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{Accuracy, Equations, LARGEST_DISPLACEMENT, Stride, correct, worst};
+use crate::dynamics::newton::{Equations, LARGEST_DISPLACEMENT, Stride, correct, worst};
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
+use crate::dynamics::tolerances::Accuracy;
 use crate::elements::bit::BitTorque;
 use crate::elements::joint::rotation::LARGEST_TILT;
 use crate::linear::{JointIncrement, Singular, add_joint, sixteen, take};
@@ -299,7 +300,7 @@ impl ReducedEquations<'_> {
         self.reduced.iterations = SINGLE_CORRECTIONS;
         self.assembler.bit.begin();
         self.evaluate(model, state, conditions, false);
-        let mut best = worst(&self.reduced.residual, &self.reduced.rest_weights);
+        let mut best = worst(&self.reduced.residual, self.reduced.limits.weights(Accuracy::Rest));
         // Geometric stiffness is not in the tangent, so that this converges linearly.
         for _ in 0..20 {
             scratch.copy_from(state);
@@ -309,7 +310,7 @@ impl ReducedEquations<'_> {
             let spin = self.reduced.places.bit_spin;
             correct(self, scratch, conditions, factors, spin);
             self.evaluate(model, scratch, conditions, false);
-            let ratio = worst(&self.reduced.residual, &self.reduced.rest_weights);
+            let ratio = worst(&self.reduced.residual, self.reduced.limits.weights(Accuracy::Rest));
             if ratio.is_nan() || ratio >= best {
                 return;
             }
@@ -355,8 +356,8 @@ impl ReducedEquations<'_> {
 
 impl Equations for ReducedEquations<'_> {
     fn begin(&mut self, _: &Model, stride: Stride, from: &State, _: &mut State) {
-        self.reduced
-            .foresee(from, stride.foresight, stride.scheme.foreseen_part());
+        self.reduced.foresee(from, stride.foresight, stride.foreseen_part);
+        self.reduced.limits.for_step(stride.h);
     }
 
     fn residual(
@@ -397,10 +398,7 @@ impl Equations for ReducedEquations<'_> {
     }
 
     fn weights(&self, accuracy: Accuracy) -> &[f64] {
-        match accuracy {
-            Accuracy::Rest => &self.reduced.rest_weights,
-            Accuracy::Motion => &self.reduced.moving_weights,
-        }
+        self.reduced.limits.weights(accuracy)
     }
 
     fn correction(&self) -> (&[f64], &[f64]) {

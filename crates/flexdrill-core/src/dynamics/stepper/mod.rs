@@ -8,13 +8,14 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::newton::{self, Accuracy, Stride, Tolerances};
+use crate::dynamics::newton::{self, Stride};
 use crate::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::{State, translation};
 use crate::dynamics::station_equations::StationEquations;
 use crate::dynamics::sub_steps::{SubSteps, most_attempts};
+use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::dynamics::track::Track;
 use crate::dynamics::view::{BottomMotion, Shown, StateView};
 #[cfg(feature = "reference")]
@@ -441,6 +442,7 @@ impl Stepper {
             scheme: self.scheme,
             h: step,
             foresight: step,
+            foreseen_part: self.scheme.foreseen_part(),
             accuracy: Accuracy::Motion,
         };
         let stride = (stride, self.newton.tolerances.max_iterations);

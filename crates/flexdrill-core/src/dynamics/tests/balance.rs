@@ -3,10 +3,10 @@
 
 use crate::Instructions;
 use crate::dynamics::energy::joint_violation;
-use crate::dynamics::newton::Tolerances;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::{SolverKind, Stepper};
+use crate::dynamics::tolerances::Tolerances;
 use crate::tool::{Body, Direction, JointKind, LoadHistory, Location, PointLoad, ToolDescription};
 use nalgebra::Vector3;
 

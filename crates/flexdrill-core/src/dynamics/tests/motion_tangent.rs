@@ -3,10 +3,10 @@
 //! right-hand side.
 
 use crate::dynamics::assembly::Assembler;
-use crate::dynamics::newton::Tolerances;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::{SolverKind, Stepper};
+use crate::dynamics::tolerances::Tolerances;
 use crate::linear::{CondensedElimination, CondensedSystem};
 use crate::model::Model;
 use crate::simd::Instructions;

@@ -4,10 +4,10 @@
 use crate::Instructions;
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::Tolerances;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::{SolverKind, Stepper};
+use crate::dynamics::tolerances::Tolerances;
 use crate::model::Model;
 use crate::support::{Random, small};
 use crate::tool::{Body, JointKind, Location, PointMass, ToolDescription, WobPath};
