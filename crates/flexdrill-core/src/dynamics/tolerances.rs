@@ -23,8 +23,9 @@ pub struct Tolerances {
 impl Default for Tolerances {
     /// 10 mN and 1 mN m at rest: a millionth of a weight on bit of 10 kN and a hundred-thousandth of its torque, five
     /// orders above the rounding of the stiffest element. In motion 1 N and 0.1 N m: a hundredth of the RMS forces of
-    /// the contacts, below what the step itself leaves, and statistics do not tell it from a hundredth of it; lighter
-    /// tools than one of 2 kN have smaller forces. Rows to 1e-10 m, a tenth of what is promised.
+    /// the contacts, below what a step of [`WHOLE_STEP`] itself leaves, and its statistics do not tell it from a
+    /// hundredth of it; lighter tools than one of 2 kN have smaller forces. Rows to 1e-10 m, a tenth of what is
+    /// promised.
     fn default() -> Self {
         Self {
             force: 1e-2,
