@@ -42,7 +42,6 @@ fn quality(quality: &ModelQuality) -> Finding {
         evidence: sentence(&quality.to_string()),
         cause: match quality.cause {
             Some(QualityCause::NumericalDamping) => "The scheme itself damps the motion.",
-            Some(QualityCause::AxialForce) => "Axial forces change too much within a step.",
             Some(QualityCause::EnergyError) | None => {
                 "Collisions are too short for the step, or axial forces change too much within it."
             }

@@ -13,7 +13,7 @@ use crate::dynamics::contacts::{inner_forces, outer_force};
 use crate::dynamics::outcome::EnergyAudit;
 #[cfg(test)]
 use crate::dynamics::state::joint_rotations;
-use crate::dynamics::state::{State, motion};
+use crate::dynamics::state::{Bow, State, motion};
 use crate::elements::element_form::{add, load};
 use crate::model::{Model, Places};
 use crate::reduced::span_works;
@@ -49,6 +49,8 @@ pub struct EnergyPoint {
     /// Geometric stiffness, damping and inertia of the spans of tools over their joints; in the vectors above are then
     /// those of point masses only.
     pub(crate) spans: Vec<SpanForces>,
+    /// How the contacts and the weight bow each span of tools over their joints: what the next step counts with.
+    pub(crate) bow: Vec<Bow>,
     /// Value of each point load (N, N m).
     loads: Vec<f64>,
     /// Kinetic, elastic, geometric, contact and stop energy (J).
@@ -78,6 +80,7 @@ impl EnergyPoint {
             inertia: vec![0.0; unknowns],
             on_top: vec![[0.0; 3]; spans],
             spans: vec![SpanForces::default(); spans],
+            bow: vec![[[0.0; 16]; 2]; spans],
             loads: vec![0.0; model.loads.len()],
             stored: 0.0,
             kinetic: 0.0,
@@ -98,6 +101,7 @@ impl EnergyPoint {
             && self.inertia.len() == other.inertia.len()
             && self.on_top.len() == other.on_top.len()
             && self.spans.len() == other.spans.len()
+            && self.bow.len() == other.bow.len()
             && self.loads.len() == other.loads.len()
     }
 
@@ -109,6 +113,7 @@ impl EnergyPoint {
         self.inertia.copy_from_slice(&other.inertia);
         self.on_top.copy_from_slice(&other.on_top);
         self.spans.copy_from_slice(&other.spans);
+        self.bow.copy_from_slice(&other.bow);
         self.loads.copy_from_slice(&other.loads);
         let Self {
             stored,
@@ -395,7 +400,6 @@ impl EnergyAudit {
         let taken = self.bit + self.friction + self.contact_damping + self.rayleigh_damping + self.numerical_damping;
         self.error = worked_in - taken - self.stored;
         let foresight = self.axial_foresight - foresight_before;
-        self.foresight_magnitude += foresight.abs();
         self.against_laws += (self.error - error_before - foresight).abs();
     }
 }

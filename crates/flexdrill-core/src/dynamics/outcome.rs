@@ -129,8 +129,6 @@ pub struct EnergyAudit {
     pub axial_foresight: f64,
     /// Magnitudes of `error` less `axial_foresight`, sub-step by sub-step: what cancels over time counts here.
     pub against_laws: f64,
-    /// Magnitudes of `axial_foresight`, sub-step by sub-step.
-    pub foresight_magnitude: f64,
     /// Change of kinetic plus elastic plus contact energy since the start.
     pub stored: f64,
     /// Work in, less energy out, less stored: zero for an exact integration.

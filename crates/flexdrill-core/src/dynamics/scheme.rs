@@ -206,6 +206,7 @@ mod tests {
                 scheme_step: 0.0,
                 pipe_axial: vec![],
                 guide_axial: vec![],
+                bow: vec![],
                 time: 0.0,
                 drive_angle: 0.0,
             };

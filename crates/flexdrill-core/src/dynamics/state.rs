@@ -10,6 +10,10 @@ use crate::model::Model;
 /// A node's six values.
 pub type NodeVector = SVector<f64, 6>;
 
+/// How far a span bows between its ends under what acts inside it: lateral deflection (m) of each station but the first
+/// in its station's frame, y in 0..8 and z in 8..16, of pipe and guide.
+pub type Bow = [[f64; 16]; 2];
+
 /// State at one instant, in the model's numbering: q_rd of Eq. 19 station by station, with the multipliers. Multiplier
 /// slots of `q` hold scaled multipliers; their velocity and acceleration are zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,6 +33,8 @@ pub struct State {
     pub pipe_axial: Vec<f64>,
     /// The same for the guide.
     pub guide_axial: Vec<f64>,
+    /// Per span of tools over their joints: see [`Bow`].
+    pub bow: Vec<Bow>,
     /// Model time (s).
     pub time: f64,
     /// Angle of the drive (rad) as prescribed at this time.
@@ -47,6 +53,7 @@ impl State {
             scheme_step: 0.0,
             pipe_axial: vec![0.0; model.pipe.len()],
             guide_axial: vec![0.0; model.guide.len()],
+            bow: Vec::new(),
             time: 0.0,
             drive_angle: 0.0,
         }
@@ -61,6 +68,7 @@ impl State {
         self.scheme_step = other.scheme_step;
         self.pipe_axial.copy_from_slice(&other.pipe_axial);
         self.guide_axial.copy_from_slice(&other.guide_axial);
+        self.bow.copy_from_slice(&other.bow);
         self.time = other.time;
         self.drive_angle = other.drive_angle;
     }

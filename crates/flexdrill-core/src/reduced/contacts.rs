@@ -179,11 +179,15 @@ impl Kernel for Search<'_> {
             self.found::<V>((0, 0), [inner.into(), guide.into()], closed);
         }
         let (nodes, _) = self.state.q.as_chunks();
+        let state = self.state;
         for l in 0..self.by.links.len() {
             let link = &self.by.links[l];
             let kind = &self.by.kinds[link.kind];
             let pipe = product::<V>(&kind.lateral[0], &at_ends(nodes, l, 0));
             let guide = product::<V>(&kind.lateral[1], &at_ends(nodes, l, 1));
+            let [bow_of_pipe, bow_of_guide]: [[V; 2]; 2] = [load(&state.bow[l][0]), load(&state.bow[l][1])];
+            let pipe = [pipe[0].plus(bow_of_pipe[0]), pipe[1].plus(bow_of_pipe[1])];
+            let guide = [guide[0].plus(bow_of_guide[0]), guide[1].plus(bow_of_guide[1])];
             let y = V::load(&link.offset[0]).plus(pipe[0].minus(guide[0]));
             let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
             let square = |y: V, z: V| y.times(y).plus_product(z, z);

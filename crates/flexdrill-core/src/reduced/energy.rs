@@ -43,6 +43,7 @@ impl Reduced {
             model,
             assembler,
         });
+        self.bow_spans(&mut point.bow, model, assembler);
         point.finish(stored, &self.places, model, conditions, assembler, &self.residual);
     }
 }

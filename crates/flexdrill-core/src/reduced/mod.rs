@@ -17,6 +17,7 @@
 //! inner stations vibrate faster than a step can follow, see [`Reduced::of`]; other tools are computed station by
 //! station.
 
+mod bow;
 mod contacts;
 mod energy;
 mod numbering;

@@ -95,6 +95,7 @@ impl Reduced {
             scheme_step: 0.0,
             pipe_axial: vec![0.0; spans],
             guide_axial: vec![0.0; spans],
+            bow: vec![[[0.0; 16]; 2]; spans],
             time: 0.0,
             drive_angle: 0.0,
         }

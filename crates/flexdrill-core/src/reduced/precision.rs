@@ -5,6 +5,7 @@ use std::ops::AddAssign;
 use super::residual::{load, store};
 use super::slaving::LinkMatrices;
 use super::{GUIDE, NODE, U};
+use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 use crate::simd::vector::Vector;
 
@@ -15,6 +16,8 @@ pub(super) trait Precision: Copy + AddAssign + 'static {
     type Lanes<V: Vector>: Lanes<Self>;
     /// Rounded to this precision.
     fn of(x: f64) -> Self;
+    /// One in the places of the guide, zero elsewhere.
+    fn guide() -> &'static [Self; NODE];
     /// What local forces at the stations of a span put on its nodes.
     fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>];
 }
@@ -28,6 +31,8 @@ pub(super) trait Lanes<S>: Copy {
     fn times(self, other: Self) -> Self;
     /// self + a b, rounded once where the machine does that.
     fn plus_product(self, a: Self, b: Self) -> Self;
+    /// The last eight before the first eight.
+    fn swapped(self) -> Self;
 }
 
 /// What each of six local forces of a gap at a station puts on the unknowns of the nodes [above, below] of its span:
@@ -38,6 +43,8 @@ pub(super) trait Lanes<S>: Copy {
 pub(super) struct OnNodes<S> {
     pub inner: [[[S; NODE]; 6]; 2],
     pub outer: [[[S; NODE]; 6]; 2],
+    /// `outer` of both nodes in one: what the node below gets is eight places higher up.
+    pub outer_joined: [[S; NODE]; 6],
 }
 
 impl<S: Precision> OnNodes<S> {
@@ -59,9 +66,15 @@ impl<S: Precision> OnNodes<S> {
                 })
             })
         };
+        let outer: [[[S; NODE]; 6]; 2] = layer(0.0, 1.0, radii[1]);
+        let mut outer_joined = outer[0];
+        for (joined, below) in outer_joined.iter_mut().zip(&outer[1]) {
+            (GUIDE..GUIDE + 6).for_each(|i| joined[i - 8] = below[i]);
+        }
         Self {
             inner: layer(1.0, -1.0, radii[0]),
-            outer: layer(0.0, 1.0, radii[1]),
+            outer,
+            outer_joined,
         }
     }
 }
@@ -73,6 +86,12 @@ impl Precision for f64 {
     #[inline(always)]
     fn of(x: f64) -> Self {
         x
+    }
+
+    #[inline(always)]
+    fn guide() -> &'static [Self; NODE] {
+        static ROWS: Aligned<[f64; NODE]> = Aligned(GUIDE_ROWS);
+        &ROWS
     }
 
     #[inline(always)]
@@ -88,6 +107,19 @@ impl Precision for f32 {
     #[inline(always)]
     fn of(x: f64) -> Self {
         x as Self
+    }
+
+    #[inline(always)]
+    fn guide() -> &'static [Self; NODE] {
+        static ROWS: Aligned<[f32; NODE]> = Aligned({
+            let (mut rows, mut i) = ([0.0; NODE], 0);
+            while i < NODE {
+                rows[i] = GUIDE_ROWS[i] as f32;
+                i += 1;
+            }
+            rows
+        });
+        &ROWS
     }
 
     #[inline(always)]
@@ -133,6 +165,11 @@ impl<V: Vector> Lanes<f64> for Double<V> {
             self.0[1].plus_product(a.0[1], b.0[1]),
         ])
     }
+
+    #[inline(always)]
+    fn swapped(self) -> Self {
+        Self([self.0[1], self.0[0]])
+    }
 }
 
 /// Sixteen numbers of single precision.
@@ -169,4 +206,17 @@ impl<S: Single> Lanes<f32> for Rounded<S> {
     fn plus_product(self, a: Self, b: Self) -> Self {
         Self(self.0.plus_product(a.0, b.0))
     }
+
+    #[inline(always)]
+    fn swapped(self) -> Self {
+        Self(self.0.taken(&SWAPPED))
+    }
 }
+
+/// One in the places of the guide.
+const GUIDE_ROWS: [f64; NODE] = [
+    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0,
+];
+
+/// Places of the last eight before those of the first eight.
+static SWAPPED: Aligned<[i32; NODE]> = Aligned([8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7]);

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::precision::OnNodes;
 use super::{EndColumn, ends};
+use crate::dynamics::state::Bow;
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
 
@@ -32,9 +33,14 @@ pub(super) struct LinkMatrices {
     pub on_nodes_single: Vec<OnNodes<f32>>,
     /// Displacements of the inner nodes in their own frames, columns of a node one after the other.
     pub inner: Vec<Aligned<[[[f64; 8]; 12]; 2]>>,
+    /// Lateral deflection of the inner stations, as `lateral`, by a local force at each of them while the ends stand
+    /// still.
+    pub bow: Vec<Aligned<[[EndColumn; 6]; 2]>>,
     /// Slowest frequency of pipe or guide while the ends stand still (rad/s).
     pub slowest: f64,
     slaved: [DMatrix<f64>; 2],
+    /// K_ii^-1 of pipe and guide.
+    compliance: [DMatrix<f64>; 2],
 }
 
 /// A span.
@@ -48,6 +54,8 @@ pub(super) struct Link {
     pub clearance_squared: Aligned<[f64; 8]>,
     /// What the pipe's weight puts on its top end (N), along the axes of the link above.
     pub weight_on_top: [f64; 3],
+    /// Lateral deflection of the inner stations under the weight of pipe and guide (m), as [`LinkMatrices::lateral`].
+    pub sag: Aligned<Bow>,
 }
 
 /// All spans, like ones with the same matrices. `None` if a span's inner stiffness or mass is singular.
@@ -68,6 +76,7 @@ pub(super) fn links(model: &Model) -> Option<(Vec<LinkMatrices>, Vec<Link>)> {
             offset: Aligned([[0.0; 8]; 2]),
             clearance_squared: Aligned([f64::MAX; 8]),
             weight_on_top: [0.0; 3],
+            sag: Aligned([[0.0; 16]; 2]),
         };
         for i in 0..per {
             let station = &model.stations[l * per + i + 1];
@@ -95,7 +104,13 @@ pub(super) fn weights(model: &Model, kinds: &[LinkMatrices], links: &mut [Link],
                 let mut part = weight.rows_mut(6 * e, 12);
                 part += element;
             }
-            let on_ends = kinds[link.kind].slaved[body].tr_mul(&weight);
+            let kind = &kinds[link.kind];
+            let on_ends = kind.slaved[body].tr_mul(&weight);
+            let sag = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
+            for i in 1..per {
+                let at = local_lateral(model, l * per + i, body) * sag.rows(6 * (i - 1), 6);
+                (link.sag[body][i - 1], link.sag[body][8 + i - 1]) = (at[0], at[1]);
+            }
             if body == 0 {
                 link.weight_on_top = [on_ends[0], on_ends[1], on_ends[2]];
             }
@@ -128,11 +143,12 @@ impl LinkMatrices {
             }
         }
         let mut slowest = f64::INFINITY;
-        let mut slaved: [DMatrix<f64>; 2] = [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)];
-        for (slaved, [stiffness, mass, _]) in slaved.iter_mut().zip(&matrices) {
-            let (made, frequency) = guyan(stiffness, mass)?;
-            *slaved = made;
-            slowest = slowest.min(frequency);
+        let empty = || [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)];
+        let (mut slaved, mut compliance): ([DMatrix<f64>; 2], [DMatrix<f64>; 2]) = (empty(), empty());
+        for (body, [stiffness, mass, _]) in matrices.iter().enumerate() {
+            let made = Guyan::of(stiffness, mass)?;
+            (slaved[body], compliance[body]) = (made.slaved, made.compliance);
+            slowest = slowest.min(made.slowest);
         }
         // The pipe's top end: the displacement is that of the end above the joint, in its frame. Its bottom end: rotations
         // before displacements.
@@ -172,12 +188,8 @@ impl LinkMatrices {
         let mut lateral = [[[0.0; 16]; 12]; 2];
         let (mut motion, mut force) = (Vec::new(), Vec::new());
         for i in 0..=per {
-            let station = &model.stations[first + i];
-            let mut local = DMatrix::<f64>::zeros(6, 6);
             // At the span's top it is the span above that meets the gap, but for the first station.
-            local.view_mut((0, 0), (3, 3)).copy_from(&station.pipe_to_station);
-            (3..6).for_each(|k| local[(k, k)] = station.pipe_radius);
-            let maps = [local * slaved[0].rows(6 * i, 6), slaved[1].rows(6 * i, 6).clone_owned()];
+            let maps: [_; 2] = std::array::from_fn(|body| local(model, first + i, body) * slaved[body].rows(6 * i, 6));
             let mut by_columns = [[[0.0; 8]; 12]; 2];
             let mut by_rows = [[[0.0; 16]; 6]; 2];
             for (body, map) in maps.iter().enumerate() {
@@ -206,6 +218,19 @@ impl LinkMatrices {
                 }))
             })
             .collect();
+        let bow = (1..per).map(|i| {
+            Aligned(std::array::from_fn(|body| {
+                let bent = compliance[body].columns(6 * (i - 1), 6) * local(model, first + i, body).transpose();
+                let mut columns = [[0.0; 16]; 6];
+                for at in 1..per {
+                    let lateral = local_lateral(model, first + at, body) * bent.rows(6 * (at - 1), 6);
+                    for (k, column) in columns.iter_mut().enumerate() {
+                        (column[at - 1], column[8 + at - 1]) = (lateral[(0, k)], lateral[(1, k)]);
+                    }
+                }
+                columns
+            }))
+        });
         Some(Self {
             stiffness: both(0),
             mass: both(1),
@@ -217,8 +242,10 @@ impl LinkMatrices {
             on_nodes_single: force.iter().map(|rows| OnNodes::of(rows, model.guide_radii)).collect(),
             force,
             inner,
+            bow: bow.collect(),
             slowest,
             slaved,
+            compliance,
         })
     }
 
@@ -245,6 +272,23 @@ impl LinkMatrices {
             .zip(&other.motion)
             .all(|(a, b)| near(a.as_flattened().as_flattened(), b.as_flattened().as_flattened()))
     }
+}
+
+/// From a node's displacements to the local motion at a station: the pipe's in the station's frame, rotations times its
+/// radius; the guide's.
+fn local(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
+    let mut local = DMatrix::identity(6, 6);
+    if body == 0 {
+        let station = &model.stations[station];
+        local.view_mut((0, 0), (3, 3)).copy_from(&station.pipe_to_station);
+        (3..6).for_each(|k| local[(k, k)] = station.pipe_radius);
+    }
+    local
+}
+
+/// Its lateral rows.
+fn local_lateral(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
+    local(model, station, body).rows(1, 2).clone_owned()
 }
 
 /// Lane of the geometric stiffness, free of forces, that gives the axial force (N) beside them.
@@ -278,32 +322,50 @@ fn end_column(of: impl Fn(usize) -> f64) -> EndColumn {
     column
 }
 
-/// Displacements of all nodes by those of the two ends, twelve columns, and the slowest inner frequency (rad/s).
-fn guyan(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<(DMatrix<f64>, f64)> {
-    let n = stiffness.nrows();
-    let mut out = DMatrix::zeros(n, 12);
-    for i in 0..6 {
-        (out[(i, i)], out[(n - 6 + i, 6 + i)]) = (1.0, 1.0);
+/// A span's inner nodes, their ends held (Guyan).
+struct Guyan {
+    /// Displacements of all nodes by those of the two ends, twelve columns.
+    slaved: DMatrix<f64>,
+    /// K_ii^-1.
+    compliance: DMatrix<f64>,
+    /// Slowest inner frequency (rad/s).
+    slowest: f64,
+}
+
+impl Guyan {
+    fn of(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Self> {
+        let n = stiffness.nrows();
+        let mut slaved = DMatrix::zeros(n, 12);
+        for i in 0..6 {
+            (slaved[(i, i)], slaved[(n - 6 + i, 6 + i)]) = (1.0, 1.0);
+        }
+        let inner = n - 12;
+        if inner == 0 {
+            return Some(Self {
+                slaved,
+                compliance: DMatrix::zeros(0, 0),
+                slowest: f64::INFINITY,
+            });
+        }
+        let part = |matrix: &DMatrix<f64>| matrix.view((6, 6), (inner, inner)).clone_owned();
+        let factor = part(mass).cholesky()?.l();
+        let mut to_ends = DMatrix::zeros(inner, 12);
+        to_ends
+            .view_mut((0, 0), (inner, 6))
+            .copy_from(&stiffness.view((6, 0), (inner, 6)));
+        to_ends
+            .view_mut((0, 6), (inner, 6))
+            .copy_from(&stiffness.view((6, n - 6), (inner, 6)));
+        let inside = part(stiffness).cholesky()?;
+        slaved.view_mut((6, 0), (inner, 12)).copy_from(&-inside.solve(&to_ends));
+        // L^-1 K L^-T of K x = omega^2 L L^T x.
+        let left = factor.solve_lower_triangular(&part(stiffness))?;
+        let both = factor.solve_lower_triangular(&left.transpose())?;
+        let symmetric = 0.5 * (&both + both.transpose());
+        Some(Self {
+            slaved,
+            compliance: inside.inverse(),
+            slowest: symmetric.symmetric_eigenvalues().min().max(0.0).sqrt(),
+        })
     }
-    let inner = n - 12;
-    if inner == 0 {
-        return Some((out, f64::INFINITY));
-    }
-    let part = |matrix: &DMatrix<f64>| matrix.view((6, 6), (inner, inner)).clone_owned();
-    let factor = part(mass).cholesky()?.l();
-    let mut to_ends = DMatrix::zeros(inner, 12);
-    to_ends
-        .view_mut((0, 0), (inner, 6))
-        .copy_from(&stiffness.view((6, 0), (inner, 6)));
-    to_ends
-        .view_mut((0, 6), (inner, 6))
-        .copy_from(&stiffness.view((6, n - 6), (inner, 6)));
-    let slaved = -part(stiffness).cholesky()?.solve(&to_ends);
-    out.view_mut((6, 0), (inner, 12)).copy_from(&slaved);
-    // L^-1 K L^-T of K x = omega^2 L L^T x.
-    let left = factor.solve_lower_triangular(&part(stiffness))?;
-    let both = factor.solve_lower_triangular(&left.transpose())?;
-    let symmetric = 0.5 * (&both + both.transpose());
-    let slowest = symmetric.symmetric_eigenvalues().min();
-    Some((out, slowest.max(0.0).sqrt()))
 }

@@ -2,7 +2,7 @@
 //! the blocks of both its ends and to what couples them.
 
 use super::precision::{Lanes, Precision};
-use super::{BOTTOM, NODE, Reduced, TOP, span_of};
+use super::{BOTTOM, GUIDE, NODE, Reduced, TOP, span_of};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
@@ -130,22 +130,93 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
 
     #[inline(always)]
     fn run<V: Vector>(self) {
+        let mut on_guide = OnGuide::<S>::new();
         let layers = [(&self.assembler.inner, true), (&self.assembler.outer, false)];
         for (layer, inner) in layers {
             for (station, touch) in layer.iter() {
                 let (l, i) = span_of(station, self.reduced.per);
-                let rows = &S::on_nodes(&self.reduced.kinds[self.reduced.links[l].kind])[i];
+                let on_nodes = &S::on_nodes(&self.reduced.kinds[self.reduced.links[l].kind])[i];
                 let place = Place {
                     l,
                     at: [i == 0, i == self.reduced.per],
-                    rows: if inner { &rows.inner } else { &rows.outer },
+                    rows: if inner { &on_nodes.inner } else { &on_nodes.outer },
                 };
                 let tangent = touch.tangent(self.factors.stiffness, self.factors.damping);
                 if inner {
                     place.add::<V, true>(self.to, &tangent);
-                } else {
+                } else if place.at[0] || place.at[1] {
                     place.add::<V, false>(self.to, &tangent);
+                } else {
+                    if on_guide.span != l {
+                        on_guide.put::<V>(self.to);
+                        on_guide.span = l;
+                    }
+                    on_guide.add::<V>(&factors::<V, S>(&on_nodes.outer_joined, &tangent));
                 }
+            }
+        }
+        on_guide.put::<V>(self.to);
+    }
+}
+
+/// What outer contacts inside a span add to the guide's unknowns of both its ends, gathered before it is put where it
+/// belongs: columns of the top end, then of the bottom end; rows as [`OnNodes::outer_joined`].
+struct OnGuide<S> {
+    span: usize,
+    any: bool,
+    columns: Aligned<[[S; NODE]; 12]>,
+}
+
+impl<S: Precision> OnGuide<S> {
+    fn new() -> Self {
+        Self {
+            span: 0,
+            any: false,
+            columns: Aligned([[S::ZERO; NODE]; 12]),
+        }
+    }
+
+    #[inline(always)]
+    fn add<V: Vector>(&mut self, contact: &Factors<S::Lanes<V>, S>) {
+        if !self.any {
+            self.any = true;
+            *self.columns = [[S::ZERO; NODE]; 12];
+        }
+        for c in 0..6 {
+            add_product::<V, S>(&mut self.columns[c], &contact.on, &contact.by, GUIDE + c);
+            add_product::<V, S>(&mut self.columns[6 + c], &contact.on, &contact.by, GUIDE - 8 + c);
+        }
+    }
+
+    #[inline(always)]
+    fn put<V: Vector>(&mut self, to: &mut Additions<S>) {
+        if !self.any {
+            return;
+        }
+        self.any = false;
+        let l = self.span;
+        let rows = S::Lanes::<V>::load(S::guide());
+        let coupling = to.coupling(l, Crossing::Guide);
+        for c in 0..6 {
+            let (top, bottom) = (
+                S::Lanes::<V>::load(&self.columns[c]),
+                S::Lanes::<V>::load(&self.columns[6 + c]),
+            );
+            let (upper, lower) = (&mut coupling.upper[6 + c], &mut coupling.lower[6 + c]);
+            S::Lanes::<V>::load(upper).plus_product(bottom, rows).store(upper);
+            S::Lanes::<V>::load(lower)
+                .plus_product(top.swapped(), rows)
+                .store(lower);
+        }
+        for (node, first) in [(l, 0), (l + 1, 6)] {
+            let block = to.block(node);
+            for c in 0..6 {
+                let mut column = S::Lanes::<V>::load(&self.columns[first + c]);
+                if first == 6 {
+                    column = column.swapped();
+                }
+                let to = &mut block[GUIDE + c];
+                S::Lanes::<V>::load(to).plus_product(column, rows).store(to);
             }
         }
     }
@@ -167,45 +238,51 @@ struct Factors<L, S> {
     by: Aligned<[[S; NODE]; 4]>,
 }
 
+/// [`GapTangent`] on nodes, by what local forces put on them.
+#[inline(always)]
+fn factors<V: Vector, S: Precision>(rows: &[[S; NODE]; 6], tangent: &GapTangent) -> Factors<S::Lanes<V>, S> {
+    let of = |x: f64| S::Lanes::<V>::splat(S::of(x));
+    let mut row = [S::Lanes::<V>::splat(S::ZERO); 6];
+    for (row, from) in row.iter_mut().zip(rows) {
+        *row = S::Lanes::<V>::load(from);
+    }
+    let (y, z, minus_y, minus_z) = (
+        of(tangent.direction[0]),
+        of(tangent.direction[1]),
+        of(-tangent.direction[0]),
+        of(-tangent.direction[1]),
+    );
+    let normal = row[1].times(y).plus_product(row[2], z);
+    let tangential = row[2].times(y).plus_product(row[1], minus_z);
+    let around = tangential.plus(row[3]);
+    let along = row[0].plus_product(row[4], z).plus_product(row[5], minus_y);
+    let tilt = row[4].times(y).plus_product(row[5], z);
+    let ([a, b, c], by) = (tangent.by_normal, tangent.by_tangent);
+    let mut out = Aligned([[S::ZERO; NODE]; 4]);
+    for (to, from) in out.iter_mut().zip([normal, tangential, around, along]) {
+        from.store(to);
+    }
+    Factors {
+        on: [
+            normal
+                .times(of(a))
+                .plus_product(around, of(b))
+                .plus_product(along, of(c)),
+            (normal.times(of(by[0])).plus_product(tangential, of(by[1])))
+                .plus_product(tilt, of(by[4]))
+                .plus(around.times(of(by[2])).plus_product(along, of(by[3]))),
+            around.times(of(tangent.by_around)),
+            along.times(of(tangent.by_along)),
+        ],
+        by: out,
+    }
+}
+
 impl<S: Precision> Place<'_, S> {
     /// [`GapTangent`] on a node.
     #[inline(always)]
     fn factors<V: Vector>(&self, end: usize, tangent: &GapTangent) -> Factors<S::Lanes<V>, S> {
-        let of = |x: f64| S::Lanes::<V>::splat(S::of(x));
-        let mut row = [S::Lanes::<V>::splat(S::ZERO); 6];
-        for (row, from) in row.iter_mut().zip(&self.rows[end]) {
-            *row = S::Lanes::<V>::load(from);
-        }
-        let (y, z, minus_y, minus_z) = (
-            of(tangent.direction[0]),
-            of(tangent.direction[1]),
-            of(-tangent.direction[0]),
-            of(-tangent.direction[1]),
-        );
-        let normal = row[1].times(y).plus_product(row[2], z);
-        let tangential = row[2].times(y).plus_product(row[1], minus_z);
-        let around = tangential.plus(row[3]);
-        let along = row[0].plus_product(row[4], z).plus_product(row[5], minus_y);
-        let tilt = row[4].times(y).plus_product(row[5], z);
-        let ([a, b, c], by) = (tangent.by_normal, tangent.by_tangent);
-        let mut out = Aligned([[S::ZERO; NODE]; 4]);
-        for (to, from) in out.iter_mut().zip([normal, tangential, around, along]) {
-            from.store(to);
-        }
-        Factors {
-            on: [
-                normal
-                    .times(of(a))
-                    .plus_product(around, of(b))
-                    .plus_product(along, of(c)),
-                (normal.times(of(by[0])).plus_product(tangential, of(by[1])))
-                    .plus_product(tilt, of(by[4]))
-                    .plus(around.times(of(by[2])).plus_product(along, of(by[3]))),
-                around.times(of(tangent.by_around)),
-                along.times(of(tangent.by_along)),
-            ],
-            by: out,
-        }
+        factors::<V, S>(&self.rows[end], tangent)
     }
 
     /// Adds a contact: to the guide's unknowns, and with `INNER` to those of the pipe.

@@ -1,13 +1,14 @@
 //! The reduced equations are those of the whole tool seen through the slaving: residual, tangent and solution.
 
 use faer::prelude::Solve;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::{MULTIPLIER, NODE, Reduced, equations};
 use crate::Instructions;
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
@@ -267,6 +268,71 @@ fn what_is_computed_station_by_station() {
     let model = Model::new(&ToolDescription::paper()).unwrap();
     let reduced = Reduced::of(&model, &Tolerances::default(), Instructions::best()).unwrap();
     assert!(reduced.holds_for(5e-4));
+}
+
+#[test]
+fn spans_bow_as_the_whole_tool_does_with_its_joints_held() {
+    let mut tool = small(4, 5);
+    tool.guide_bending_factor = 0.05;
+    let model = Model::new(&tool).unwrap();
+    let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
+    let reduced = Reduced::of(&model, &Tolerances::default(), Instructions::PORTABLE).unwrap();
+    let elastic = TangentFactors {
+        stiffness: 1.0,
+        damping: 0.0,
+        mass: 0.0,
+    };
+    let system = Assembler::new(&model, Instructions::PORTABLE).step_constant(&model, &conditions, elastic);
+    let mut whole = DMatrix::zeros(model.unknowns(), model.unknowns());
+    system.for_each_entry(|row, column, value| whole[(row, column)] += value);
+    for (l, i, local) in [(0, 1, 1), (1, 2, 2), (3, 4, 4), (2, 3, 5)] {
+        let first = l * reduced.per;
+        for body in 0..2 {
+            let at = |i: usize| {
+                let station = &model.stations[first + i];
+                if body == 0 { station.pipe_above } else { station.guide }
+            };
+            let inner: Vec<usize> = (1..reduced.per).flat_map(|i| at(i)..at(i) + 6).collect();
+            let stiffness = DMatrix::from_fn(inner.len(), inner.len(), |r, c| whole[(inner[r], inner[c])]);
+            // A unit force in the station's frame; a couple at the pipe acts at its radius.
+            let station = &model.stations[first + i];
+            let frame = |k: usize| {
+                if body == 0 {
+                    station.pipe_to_station.row(k).transpose()
+                } else {
+                    Matrix3::identity().column(k).into()
+                }
+            };
+            let mut force = DVector::zeros(inner.len());
+            let place = 6 * (i - 1);
+            if local < 3 {
+                force.rows_mut(place, 3).copy_from(&frame(local));
+            } else {
+                force[place + local] = if body == 0 { station.pipe_radius } else { 1.0 };
+            }
+            let bowed = stiffness.cholesky().unwrap().solve(&force);
+            let got = &reduced.kinds[reduced.links[l].kind].bow[i - 1][body][local];
+            let scale = got.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            assert!(scale > 0.0);
+            for other in 1..reduced.per {
+                let station = &model.stations[first + other];
+                let node = bowed.fixed_rows::<3>(6 * (other - 1)).clone_owned();
+                let lateral = if body == 0 {
+                    station.pipe_to_station * node
+                } else {
+                    node
+                };
+                for (lane, expected) in [(other - 1, lateral.y), (8 + other - 1, lateral.z)] {
+                    // Both solve the same matrix, whose entries differ by rounding.
+                    assert!(
+                        (got[lane] - expected).abs() < 1e-9 * scale,
+                        "span {l}, station {i}, body {body}: {} at {other} against {expected}",
+                        got[lane]
+                    );
+                }
+            }
+        }
+    }
 }
 
 #[test]

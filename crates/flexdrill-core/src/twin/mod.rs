@@ -16,8 +16,7 @@ mod validation;
 
 pub use checkpoint::CheckpointError;
 pub use quality::{
-    AXIAL_COUNTS_FROM, AXIAL_FORCE_BOUND, ENERGY_ERROR_BOUNDS, ModelQuality, NUMERICAL_COUNTS_FROM,
-    NUMERICAL_DAMPING_BOUNDS, QualityCause, QualityLevel,
+    ENERGY_ERROR_BOUNDS, ModelQuality, NUMERICAL_COUNTS_FROM, NUMERICAL_DAMPING_BOUNDS, QualityCause, QualityLevel,
 };
 pub use readings::StationGeometry;
 pub use run::{Frame, Run, RunInputs};

@@ -31,13 +31,6 @@ pub const NUMERICAL_DAMPING_BOUNDS: [f64; 2] = [0.22, 0.285];
 /// more damps the motion itself.
 pub const NUMERICAL_COUNTS_FROM: f64 = 0.7;
 
-/// Work of foreseen axial forces beyond the true ones over what was taken from vibration, from which the motion is poor if
-/// the energy error comes to [`AXIAL_COUNTS_FROM`] too. A compressed pipe has both; a light load has many collisions, whose
-/// errors are as large, and right ripple.
-pub const AXIAL_FORCE_BOUND: f64 = 0.20;
-/// See [`AXIAL_FORCE_BOUND`].
-pub const AXIAL_COUNTS_FROM: f64 = 0.53;
-
 /// Power below which nothing vibrates that could be judged (W).
 const STILL: f64 = 0.1;
 
@@ -95,8 +88,6 @@ pub enum QualityCause {
     /// Steps do work that no law accounts for: collisions are too short for the step, or axial forces change too much
     /// within it.
     EnergyError,
-    /// Axial forces change too much within a step.
-    AxialForce,
     /// The scheme itself damps too much of the motion.
     NumericalDamping,
 }
@@ -134,7 +125,6 @@ impl fmt::Display for ModelQuality {
         };
         let what = match cause {
             QualityCause::EnergyError => "energy errors of the steps come to",
-            QualityCause::AxialForce => "foreseen axial forces do wrongly",
             QualityCause::NumericalDamping => "numerical damping is",
         };
         write!(
@@ -154,8 +144,6 @@ struct Block {
     duration: f64,
     /// Magnitudes of the steps' work against the laws (J).
     error: f64,
-    /// Of which by foreseen axial forces (J).
-    axial: f64,
     /// Taken by contact, Rayleigh and numerical damping (J).
     taken: f64,
     /// Taken by numerical damping (J).
@@ -181,7 +169,6 @@ impl QualityWatch {
         let block = &mut self.blocks[self.current];
         block.duration += dt;
         block.error += audit.against_laws - before.against_laws;
-        block.axial += audit.foresight_magnitude - before.foresight_magnitude;
         block.taken += taken(audit) - taken(&before);
         block.numerical += audit.numerical_damping - before.numerical_damping;
         // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
@@ -200,21 +187,14 @@ impl QualityWatch {
         for block in &self.blocks {
             sum.duration += block.duration;
             sum.error += block.error;
-            sum.axial += block.axial;
             sum.taken += block.taken;
             sum.numerical += block.numerical;
         }
         let taken = sum.taken.max(STILL * sum.duration);
-        let (error, axial, numerical) = (sum.error / taken, sum.axial / taken, sum.numerical / taken);
+        let (error, numerical) = (sum.error / taken, sum.numerical / taken);
         let shares = |factor: f64| {
-            let counts = error >= AXIAL_COUNTS_FROM * factor;
             [
                 (QualityCause::EnergyError, error, ENERGY_ERROR_BOUNDS),
-                (
-                    QualityCause::AxialForce,
-                    if counts { axial } else { 0.0 },
-                    [AXIAL_FORCE_BOUND; 2],
-                ),
                 (
                     QualityCause::NumericalDamping,
                     if numerical >= NUMERICAL_COUNTS_FROM * error * factor {
@@ -242,7 +222,7 @@ impl QualityWatch {
         if level != level_before {
             self.better = 0;
         }
-        // The cause is the share that comes nearest to its bound of this level, or lies furthest beyond it.
+        // The cause is the share that comes nearest to its bound of this level, or lies further beyond it.
         let bound = |bounds: [f64; 2]| {
             if level == QualityLevel::Poor {
                 bounds[1]
@@ -250,12 +230,12 @@ impl QualityWatch {
                 bounds[0]
             }
         };
-        let [mut first, others @ ..] = shares(LEFT_BELOW);
-        for other in others {
-            if other.1 / bound(other.2) > first.1 / bound(first.2) {
-                first = other;
-            }
-        }
+        let [error_share, damping_share] = shares(LEFT_BELOW);
+        let first = if damping_share.1 / bound(damping_share.2) > error_share.1 / bound(error_share.2) {
+            damping_share
+        } else {
+            error_share
+        };
         let (cause, value, bounds) = first;
         self.quality = ModelQuality {
             level,
@@ -377,41 +357,6 @@ mod tests {
         );
         // 400 W of drive, and nothing gained or lost in sum: the audit since the start sees nothing.
         assert!(fed.audit.error.abs() < 1e-6 * fed.audit.drive);
-    }
-
-    #[test]
-    fn foreseen_axial_forces_count_as_errors() {
-        let mut watch = QualityWatch::default();
-        let mut audit = EnergyAudit::default();
-        for _ in 0..(11.0 / DT) as u32 {
-            audit.against_laws += 0.502 * TAKEN * DT;
-            audit.foresight_magnitude += 0.502 * TAKEN * DT;
-            audit.contact_damping += TAKEN * DT;
-            watch.push(DT, &audit);
-        }
-        assert_eq!(watch.quality().level, QualityLevel::Degraded);
-        assert_eq!(watch.quality().cause, Some(QualityCause::EnergyError));
-    }
-
-    #[test]
-    fn axial_forces_make_a_doubtful_motion_poor() {
-        let level = |axial: f64, error: f64| {
-            let mut fed = Fed::new();
-            for _ in 0..(11.0 / DT) as u32 {
-                fed.audit.foresight_magnitude += axial * TAKEN * DT;
-                fed.run(DT, error, 0.1);
-            }
-            (fed.level(), fed.watch.quality().cause)
-        };
-        assert_eq!(level(0.25, 0.57), (QualityLevel::Poor, Some(QualityCause::AxialForce)));
-        assert_eq!(
-            level(0.09, 0.57),
-            (QualityLevel::Degraded, Some(QualityCause::EnergyError))
-        );
-        assert_eq!(
-            level(0.25, 0.502),
-            (QualityLevel::Degraded, Some(QualityCause::EnergyError))
-        );
     }
 
     #[test]

@@ -102,8 +102,9 @@ impl Simulation {
         } else {
             stepper.start_as_given(load, settings.time_step)?;
         }
-        stepper.prepare(settings.time_step);
+        // Station by station, as it was found: over the joints inner stations are shown as they are slaved only.
         let start = stepper.state().clone();
+        stepper.prepare(settings.time_step);
         let observer = Observer::new(stepper.model(), settings);
         let mut simulation = Self {
             settings: settings.clone(),

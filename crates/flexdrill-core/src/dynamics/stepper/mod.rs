@@ -272,6 +272,7 @@ impl Stepper {
             let track = &mut self.track;
             shown.get_mut().copy_from(state);
             reduced.numbering.gather(state, &mut track.state);
+            reduced.take_bows(&self.model, state, &mut track.state);
             let mut equations = reduced::equations(reduced, &mut self.newton.assembler);
             let (to, scratch) = (&mut track.state, &mut track.trial);
             // The stations' balance is not quite the joints'.
@@ -457,6 +458,7 @@ impl Stepper {
         let (from, to, energy) = (&track.state, &mut track.trial, &mut track.trial_energy);
         let (places, weight) = if let (true, Some((reduced, _))) = (self.over_joints, reduced) {
             let mut equations = reduced::equations(reduced, &mut newton.assembler);
+            to.bow.copy_from_slice(&track.energy.bow);
             let made = newton::step(&mut equations, model, stride, &conditions, from, to);
             newton.assembler.stopwatch.lap(Phase::Assembly);
             iterations = made?;

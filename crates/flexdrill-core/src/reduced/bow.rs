@@ -1,0 +1,104 @@
+//! How spans bow between their ends: the static deflection of inner stations under contacts and weight, the ends held,
+//! w = K_ii^-1 f_i.
+//!
+//! The slaving says how inner stations follow the ends, and puts what acts on them on the ends. What is left of the static
+//! solution is this deflection, which opens and closes gaps: a soft guide gives way by a micrometre under some hundred
+//! newtons, as much as a contact spring of 1e7 N/m gives way under ten. A step counts with the deflection that the forces
+//! at its start make. That is as good as solving for it, since a span inside is so much stiffer than a contact: what the
+//! lag leaves out is their ratio times the change of the force.
+
+use super::contacts::{at_radius, plus_rows};
+use super::residual::{load, store};
+use super::{EndColumn, Reduced, at_ends, span_of};
+use crate::dynamics::assembly::Assembler;
+use crate::dynamics::state::{Bow, State, translation};
+use crate::model::Model;
+use crate::simd::Kernel;
+use crate::simd::vector::Vector;
+
+impl Reduced {
+    /// How the spans are bowed in `full`, whose ends are those of `to`.
+    pub(crate) fn take_bows(&self, model: &Model, full: &State, to: &mut State) {
+        let (nodes, _) = to.q.as_chunks();
+        for (l, (bow, link)) in to.bow.iter_mut().zip(&self.links).enumerate() {
+            for (body, bow) in bow.iter_mut().enumerate() {
+                *bow = [0.0; 16];
+                let [top, bottom] = at_ends(nodes, l, body);
+                for i in 1..self.per {
+                    let station = &model.stations[l * self.per + i];
+                    let at = if body == 0 {
+                        station.pipe_to_station * translation(&full.q, station.pipe_above)
+                    } else {
+                        translation(&full.q, station.guide)
+                    };
+                    for (lane, at) in [(i - 1, at.y), (8 + i - 1, at.z)] {
+                        let columns = self.kinds[link.kind].lateral[body].iter();
+                        let slaved = columns
+                            .zip(top.iter().chain(&bottom))
+                            .map(|(column, x)| column[lane] * x);
+                        bow[lane] = at - slaved.sum::<f64>();
+                    }
+                }
+            }
+        }
+    }
+
+    /// How the spans bow under the contacts of the last residual and under their weight, into `to`.
+    pub(super) fn bow_spans(&self, to: &mut [Bow], model: &Model, assembler: &Assembler) {
+        self.instructions.run(Bows {
+            by: self,
+            to,
+            model,
+            assembler,
+        });
+    }
+
+    /// Deflections by local forces at station `i` of span `l`, of pipe and guide; `None` at a span's end.
+    #[inline(always)]
+    fn bow(&self, l: usize, i: usize) -> Option<&[[EndColumn; 6]; 2]> {
+        let bow = &self.kinds[self.links[l].kind].bow;
+        bow.get(i.checked_sub(1)?).map(|bow| &**bow)
+    }
+}
+
+struct Bows<'a> {
+    by: &'a Reduced,
+    to: &'a mut [Bow],
+    model: &'a Model,
+    assembler: &'a Assembler,
+}
+
+impl Kernel for Bows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self {
+            by,
+            to,
+            model,
+            assembler,
+        } = self;
+        let [inner_radius, outer_radius] = model.guide_radii;
+        to.iter_mut().zip(&by.links).for_each(|(to, link)| *to = *link.sag);
+        for (station, touch) in assembler.inner.iter() {
+            let (l, i) = span_of(station, by.per);
+            if let Some([by_pipe, by_guide]) = by.bow(l, i) {
+                let on_pipe = touch.force();
+                let mut on_guide = at_radius(&on_pipe, inner_radius);
+                on_guide.iter_mut().for_each(|x| *x = -*x);
+                let [pipe, guide] = &mut to[l];
+                store(plus_rows::<V>(load(pipe), by_pipe, &on_pipe), pipe);
+                store(plus_rows::<V>(load(guide), by_guide, &on_guide), guide);
+            }
+        }
+        for (station, touch) in assembler.outer.iter() {
+            let (l, i) = span_of(station, by.per);
+            if let Some([_, by_guide]) = by.bow(l, i) {
+                let on_guide = at_radius(&touch.force(), outer_radius);
+                let guide = &mut to[l][1];
+                store(plus_rows::<V>(load(guide), by_guide, &on_guide), guide);
+            }
+        }
+    }
+}
