@@ -1,6 +1,6 @@
 //! How far the motion can be trusted, judged from the energy audit over the last seconds.
 //!
-//! What a collision, a coarse step or a foreseen axial force does wrongly is work that no law accounts for. It is
+//! What a step does wrongly in a collision, or where axial forces change within it, is work that no law accounts for. It is
 //! compared with what contacts, Rayleigh and numerical damping take in the same time, not with the drive's work, most
 //! of which goes into the rock: vibration is what errors feed, and what damping ends. Bounds come from runs against an
 //! eighth of the step (`docs/measurements.md`).
