@@ -70,6 +70,10 @@ type EndForces = [EndColumn; 2];
 /// Least product of a span's slowest inner frequency, its ends clamped (rad/s), and the step (s). What a step resolves
 /// is slower than 1 / h; inner stations answer it quasi-statically to 1 / 8^2.
 const LEAST_FREQUENCY: f64 = 8.0;
+/// Most that a span may give way inside, ends held, under the force by which its contacts ask for a deflection, over that
+/// deflection. Bowed by the forces of the step before, a span comes to rest where this is below 1; a quarter leaves that
+/// much of how far a force changes in a step.
+const MOST_GIVE: f64 = 0.25;
 
 /// Corrections of a step that are solved in single precision; a step that needs more is solved in double from there on.
 const SINGLE_CORRECTIONS: u32 = 6;
@@ -84,6 +88,8 @@ pub(crate) struct Reduced {
     instructions: Instructions,
     /// Inner frequency of the slowest span (rad/s).
     slowest: f64,
+    /// See [`MOST_GIVE`].
+    give: f64,
     nodes: usize,
     /// Elements, and so stations but the first, per span.
     per: usize,
@@ -137,6 +143,8 @@ impl Reduced {
         let spans = nodes - 1;
         let (kinds, mut links) = slaving::links(model)?;
         let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
+        let contacts = [&model.description.inner, &model.description.outer].map(|gap| gap.stiffness);
+        let give = kinds.iter().map(|kind| kind.give(contacts)).fold(0.0, f64::max);
         let held = numbering.without_equation(model, &places)?;
         let mut rows = vec![None; nodes];
         for &unknown in &held {
@@ -166,6 +174,7 @@ impl Reduced {
         Some(Self {
             instructions,
             slowest,
+            give,
             nodes,
             per,
             kinds,
@@ -197,9 +206,10 @@ impl Reduced {
         })
     }
 
-    /// Whether inner stations are fast enough to be slaved in steps of size `h` (s).
+    /// Whether inner stations are fast enough to be slaved in steps of size `h` (s), and spans stiff enough to be bowed by
+    /// the forces of the step before.
     pub(crate) fn holds_for(&self, h: f64) -> bool {
-        self.slowest * h >= LEAST_FREQUENCY
+        self.slowest * h >= LEAST_FREQUENCY && self.give <= MOST_GIVE
     }
 
     /// Number of unknowns.

@@ -249,6 +249,22 @@ impl LinkMatrices {
         })
     }
 
+    /// Largest deflection that contacts of these stiffnesses (N/m; pipe-guide, guide-wall) make between the ends for a
+    /// deflection of 1 in either direction at all inner stations: a bound on what is left of it from step to step.
+    pub fn give(&self, [inner, outer]: [f64; 2]) -> f64 {
+        let mut give = 0.0_f64;
+        for lane in 0..16 {
+            let sum = |body: usize| {
+                self.bow
+                    .iter()
+                    .map(|at| at[body][1][lane].abs() + at[body][2][lane].abs())
+                    .sum::<f64>()
+            };
+            give = give.max(inner * (sum(0) + sum(1)) + outer * sum(1));
+        }
+        give
+    }
+
     /// Whether `other` is the same but for rounding.
     fn is_close(&self, other: &Self) -> bool {
         let near = |a: &[f64], b: &[f64]| {

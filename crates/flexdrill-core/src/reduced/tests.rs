@@ -260,14 +260,32 @@ fn what_is_computed_station_by_station() {
             directions: vec![Direction::V],
         })));
     }
+}
+
+#[test]
+fn spans_that_are_too_long_or_too_soft_are_computed_station_by_station() {
+    let holds_for = |tool: &ToolDescription, h: f64| {
+        let model = Model::new(tool).unwrap();
+        let reduced = Reduced::of(&model, &Tolerances::default(), Instructions::PORTABLE).unwrap();
+        println!("frequency {:.3} give {:.4}", reduced.slowest * 5e-4, reduced.give);
+        reduced.holds_for(h)
+    };
+    let default = ToolDescription::paper();
+    assert!(holds_for(&default, 5e-4));
     // Links of a metre vibrate too slowly for steps of half a millisecond: (4.73 / l)^2 sqrt(EI / rho A) is 2000 rad/s.
-    let slow = ToolDescription::paper().with_mesh(5, 5);
-    let model = Model::new(&slow).unwrap();
-    let reduced = Reduced::of(&model, &Tolerances::default(), Instructions::best()).unwrap();
-    assert!(!reduced.holds_for(5e-4) && reduced.holds_for(1e-2));
-    let model = Model::new(&ToolDescription::paper()).unwrap();
-    let reduced = Reduced::of(&model, &Tolerances::default(), Instructions::best()).unwrap();
-    assert!(reduced.holds_for(5e-4));
+    let mut long = default.clone().with_mesh(5, 5);
+    (long.inner.stiffness, long.outer.stiffness) = (1e5, 2e5);
+    assert!(!holds_for(&long, 5e-4) && holds_for(&long, 1e-2));
+    // With contacts of their usual stiffness they give way too much under them, whatever the step.
+    assert!(!holds_for(&default.clone().with_mesh(5, 5), 1e-2));
+    // A soft guide on hard rock.
+    let mut soft = default.clone();
+    soft.guide_bending_factor = 0.05;
+    assert!(holds_for(&soft, 5e-4));
+    soft.outer.stiffness = 5e8;
+    assert!(!holds_for(&soft, 5e-4));
+    soft.guide_bending_factor = 1.0;
+    assert!(holds_for(&soft, 5e-4));
 }
 
 #[test]
