@@ -335,7 +335,8 @@ fn the_tool_whirls_forward_with_little_friction_and_no_level_rises() {
 fn the_tool_whirls_backward_with_much_friction_and_that_is_critical() {
     let run = tool_run(120.0, 0.7);
     println!("friction 0.7, 120 r/min: {}", table(&run));
-    let thrown: Vec<&Watched> = run.places.iter().filter(|place| place.counted < -1.5).collect();
+    // A place that is thrown for a part of the time only is counted less.
+    let thrown: Vec<&Watched> = run.places.iter().filter(|place| place.counted < -2.0).collect();
     assert!(thrown.len() >= 10, "{}", table(&run));
     assert!(thrown.iter().all(|place| place.duty < 0.15), "{}", table(&run));
     assert!(thrown.iter().all(|place| place.backward > 0.6), "{}", table(&run));
