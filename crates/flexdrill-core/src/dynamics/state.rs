@@ -10,8 +10,7 @@ use crate::model::Model;
 /// A node's six values.
 pub type NodeVector = SVector<f64, 6>;
 
-/// How far a span bows between its ends under what acts inside it: lateral deflection (m) of each station but the first
-/// in its station's frame, y in 0..8 and z in 8..16, of pipe and guide.
+/// How far a span bows, see [`State::bow`].
 pub type Bow = [[f64; 16]; 2];
 
 /// State at one instant, in the model's numbering: q_rd of Eq. 19 station by station, with the multipliers. Multiplier
@@ -33,7 +32,8 @@ pub struct State {
     pub pipe_axial: Vec<f64>,
     /// The same for the guide.
     pub guide_axial: Vec<f64>,
-    /// Per span of tools over their joints: see [`Bow`].
+    /// How far each span of tools over their joints bows between its ends under what acts inside it: lateral deflection
+    /// (m) of each station but the first in its station's frame, y in 0..8 and z in 8..16, of pipe and guide.
     pub bow: Vec<Bow>,
     /// Model time (s).
     pub time: f64,
