@@ -2,10 +2,9 @@
 //! w = K_ii^-1 f_i.
 //!
 //! The slaving says how inner stations follow the ends, and puts what acts on them on the ends. What is left of the static
-//! solution is this deflection, which opens and closes gaps: a soft guide gives way by a micrometre under some hundred
-//! newtons, as much as a contact spring of 1e7 N/m gives way under ten. A step counts with the deflection that the forces
-//! at its start make. That is as good as solving for it, since a span inside is so much stiffer than a contact: what the
-//! lag leaves out is their ratio times the change of the force.
+//! solution is this deflection, which opens and closes gaps: with a soft guide by enough to change the force on the wall
+//! by 1 %. A step counts with the deflection that the forces at its start make. That is as good as solving for it, since
+//! a span inside is so much stiffer than a contact: what the lag leaves out is their ratio times the change of the force.
 
 use super::contacts::{at_radius, plus_rows};
 use super::residual::{load, store};

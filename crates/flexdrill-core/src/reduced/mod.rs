@@ -70,9 +70,9 @@ type EndForces = [EndColumn; 2];
 /// Least product of a span's slowest inner frequency, its ends clamped (rad/s), and the step (s). What a step resolves
 /// is slower than 1 / h; inner stations answer it quasi-statically to 1 / 8^2.
 const LEAST_FREQUENCY: f64 = 8.0;
-/// Most that a span may give way inside, ends held, under the force by which its contacts ask for a deflection, over that
-/// deflection. Bowed by the forces of the step before, a span comes to rest where this is below 1; a quarter leaves that
-/// much of how far a force changes in a step.
+/// Most that a span may bow, its ends held, under what its contacts push back with when all its inner stations are
+/// displaced by 1: the largest row sum of K_ii^-1 times the contacts' stiffness. As spans are bowed by the forces of the
+/// step before, an error of the bow shrinks by this from step to step, and would grow above 1.
 const MOST_GIVE: f64 = 0.25;
 
 /// Corrections of a step that are solved in single precision; a step that needs more is solved in double from there on.
