@@ -97,18 +97,26 @@ impl Kernel for Search<'_> {
             let (lateral, clearance) = (inner_lateral(station, state), station.inner_clearance);
             if lateral.norm_squared() > clearance * clearance {
                 let velocity = inner_velocity(model, station, state);
-                inner.push::<V>(&conditions.inner, s, lateral.into(), clearance, &velocity.into());
+                inner.push::<V>(&conditions.inner, s, lateral.into(), clearance, six::<V>(&velocity));
             }
             let clearance = model.outer_clearance;
             let lateral = Vector2::new(state.q[station.guide + 1], state.q[station.guide + 2]);
             if lateral.norm_squared() > clearance * clearance {
                 let velocity = outer_velocity(model, station, state);
-                outer.push::<V>(&conditions.outer, s, lateral.into(), clearance, &velocity.into());
+                outer.push::<V>(&conditions.outer, s, lateral.into(), clearance, six::<V>(&velocity));
             }
         }
         inner.finish::<V>(&conditions.inner);
         outer.finish::<V>(&conditions.outer);
     }
+}
+
+/// Local motion in the first six lanes.
+#[inline(always)]
+fn six<V: Vector>(motion: &GapVector) -> V {
+    let mut lanes = [0.0; 8];
+    lanes[..6].copy_from_slice(motion.as_slice());
+    V::load(&lanes)
 }
 
 /// Adds a force at a node.

@@ -15,17 +15,18 @@ impl Assembler {
     pub(super) fn joint_forces(&mut self, model: &Model, state: &State) {
         self.translational_rows(model, state);
         let mut residual = std::mem::take(&mut self.residual);
-        self.rotational_rows(&mut residual, &model.places.joints, model, state);
+        self.rotational_rows(&mut residual, &model.places.joints, model, state, |_| true);
         self.residual = residual;
     }
 
-    /// Rotational rows and stops, in the numbering of `places`.
+    /// Rotational rows and stops, in the numbering of `places`, of joints whose unknowns are `wanted`.
     pub(crate) fn rotational_rows(
         &mut self,
         residual: &mut [f64],
         places: &[JointPlaces],
         model: &Model,
         state: &State,
+        wanted: impl Fn(usize) -> bool,
     ) {
         self.instructions.run(RotationalRows {
             residual,
@@ -33,6 +34,7 @@ impl Assembler {
             places,
             scale: model.moment_scale,
             state,
+            wanted,
         });
     }
 
@@ -62,27 +64,33 @@ impl Assembler {
         factors: TangentFactors,
     ) {
         let mut joints = std::mem::take(&mut self.increment.joints);
-        self.joint_tangents((places, model, state), factors, |joint, tangent| {
-            let to = &mut joints[joint];
-            for (l, column) in to.rotations.iter_mut().enumerate() {
-                for (k, x) in column.iter_mut().enumerate() {
-                    *x = tangent.rotation(l, k);
+        self.joint_tangents(
+            (places, model, state),
+            factors,
+            |_| true,
+            |joint, tangent| {
+                let to = &mut joints[joint];
+                for (l, column) in to.rotations.iter_mut().enumerate() {
+                    for (k, x) in column.iter_mut().enumerate() {
+                        *x = tangent.rotation(l, k);
+                    }
                 }
-            }
-            for (r, row) in to.rows.iter_mut().enumerate().take(tangent.group.rows().len()) {
-                for (k, x) in row.iter_mut().enumerate() {
-                    *x = tangent.row(r, k);
+                for (r, row) in to.rows.iter_mut().enumerate().take(tangent.group.rows().len()) {
+                    for (k, x) in row.iter_mut().enumerate() {
+                        *x = tangent.row(r, k);
+                    }
                 }
-            }
-        });
+            },
+        );
         self.increment.joints = joints;
     }
 
-    /// Hands the tangent of every joint with its number to `take`.
+    /// Hands the tangent of every joint that is `wanted` with its number to `take`.
     pub(crate) fn joint_tangents(
         &self,
         (places, model, state): (&[JointPlaces], &Model, &State),
         factors: TangentFactors,
+        wanted: impl Fn(usize) -> bool,
         take: impl FnMut(usize, &JointTangent<'_>),
     ) {
         self.instructions.run(RotationalTangents {
@@ -91,6 +99,7 @@ impl Assembler {
             scale: model.moment_scale,
             state,
             factors,
+            wanted,
             take,
         });
     }
@@ -162,15 +171,16 @@ fn multipliers(places: &[JointPlaces], scale: f64, state: &State, rows: usize) -
 }
 
 /// Rotational rows and stops, eight joints at a time.
-struct RotationalRows<'a> {
+struct RotationalRows<'a, W> {
     residual: &'a mut [f64],
     groups: &'a mut [JointGroup],
     places: &'a [JointPlaces],
     scale: f64,
     state: &'a State,
+    wanted: W,
 }
 
-impl Kernel for RotationalRows<'_> {
+impl<W: Fn(usize) -> bool> Kernel for RotationalRows<'_, W> {
     type Output = ();
 
     #[inline(always)]
@@ -181,11 +191,15 @@ impl Kernel for RotationalRows<'_> {
             places,
             scale,
             state,
+            wanted,
         } = self;
         for (g, group) in groups.iter_mut().enumerate() {
             let first = 8 * g;
             let places = &places[first..];
             let count = places.len().min(8);
+            if !places[..count].iter().any(|joint| wanted(joint.above)) {
+                continue;
+            }
             let (mut q, mut rate) = ([Lane::default(); 6], [Lane::default(); 6]);
             for lane in 0..8 {
                 let joint = &places[lane.min(count - 1)];
@@ -200,6 +214,9 @@ impl Kernel for RotationalRows<'_> {
             let lambda = multipliers(places, scale, state, group.rows().len());
             let moments = group.evaluate::<V>(&q, &rate, &lambda);
             for (lane, joint) in places.iter().enumerate().take(8) {
+                if !wanted(joint.above) {
+                    continue;
+                }
                 let (above, below) = (joint.above..joint.above + 3, joint.below..joint.below + 3);
                 for (k, r) in residual[above].iter_mut().enumerate() {
                     *r += moments[k][lane];
@@ -216,16 +233,17 @@ impl Kernel for RotationalRows<'_> {
 }
 
 /// Derivatives of the moments of rotational rows and stops, eight joints at a time.
-struct RotationalTangents<'a, F> {
+struct RotationalTangents<'a, W, F> {
     groups: &'a [JointGroup],
     places: &'a [JointPlaces],
     scale: f64,
     state: &'a State,
     factors: TangentFactors,
+    wanted: W,
     take: F,
 }
 
-impl<F: FnMut(usize, &JointTangent<'_>)> Kernel for RotationalTangents<'_, F> {
+impl<W: Fn(usize) -> bool, F: FnMut(usize, &JointTangent<'_>)> Kernel for RotationalTangents<'_, W, F> {
     type Output = ();
 
     #[inline(always)]
@@ -236,12 +254,16 @@ impl<F: FnMut(usize, &JointTangent<'_>)> Kernel for RotationalTangents<'_, F> {
             scale,
             state,
             factors,
+            wanted,
             mut take,
         } = self;
         let mut rotations = [[Lane::default(); 6]; 6];
         for (g, group) in groups.iter().enumerate() {
             let first = 8 * g;
             let count = (places.len() - first).min(8);
+            if !(first..first + count).any(&wanted) {
+                continue;
+            }
             let lambda = multipliers(&places[first..], scale, state, group.rows().len());
             group.tangent::<V>(&lambda, factors.stiffness, factors.damping, &mut rotations);
             for lane in 0..count {
@@ -251,7 +273,9 @@ impl<F: FnMut(usize, &JointTangent<'_>)> Kernel for RotationalTangents<'_, F> {
                     scale,
                     lane,
                 };
-                take(first + lane, &tangent);
+                if wanted(first + lane) {
+                    take(first + lane, &tangent);
+                }
             }
         }
     }

@@ -21,38 +21,45 @@ impl Assembler {
             state,
             conditions,
         });
-        mass_forces(&mut self.residual, &model.places, model, state, conditions);
+        mass_forces(&mut self.residual, &model.places, model, (state, conditions), |_| true);
         self.stopwatch.lap(Phase::Assembly);
         self.contact_forces(model, state, conditions);
         self.stopwatch.lap(Phase::Contact);
         self.joint_forces(model, state);
         let mut residual = std::mem::take(&mut self.residual);
-        self.end_forces(&mut residual, &model.places, model, state, conditions);
+        self.end_forces(&mut residual, &model.places, model, (state, conditions), |_| true);
         self.residual = residual;
     }
 
-    /// Axial tie, weight on bit, the rock's torque and loads, in the numbering of `places`.
+    /// Axial tie, weight on bit, the rock's torque and loads, in the numbering of `places`, on nodes whose unknowns are
+    /// `wanted`.
     pub(crate) fn end_forces(
         &mut self,
         residual: &mut [f64],
         places: &Places,
         model: &Model,
-        state: &State,
-        conditions: &Conditions,
+        (state, conditions): (&State, &Conditions),
+        wanted: impl Fn(usize) -> bool,
     ) {
-        if let Some(tie) = places.tie {
+        if let Some(tie) = places.tie.filter(|&tie| wanted(tie)) {
             let scale = model.force_scale;
             residual[places.pipe_end] += scale * state.q[tie];
             residual[places.guide_end] -= scale * state.q[tie];
             residual[tie] = scale * (state.q[places.pipe_end] - state.q[places.guide_end]);
         }
-        residual[places.guide_end] += conditions.weight_on_bit;
+        if wanted(places.guide_end) {
+            residual[places.guide_end] += conditions.weight_on_bit;
+        }
         let spin = places.bit_spin;
-        self.bit
-            .evaluate(conditions.bit_torque, state.v[spin], conditions.bit_slip_rate);
-        residual[spin] += self.bit.torque;
+        if wanted(spin) {
+            self.bit
+                .evaluate(conditions.bit_torque, state.v[spin], conditions.bit_slip_rate);
+            residual[spin] += self.bit.torque;
+        }
         for (load, &unknown) in model.loads.iter().zip(&places.loads) {
-            residual[unknown] -= load.load.history.at(conditions.time);
+            if wanted(unknown) {
+                residual[unknown] -= load.load.history.at(conditions.time);
+            }
         }
     }
 
@@ -64,16 +71,17 @@ impl Assembler {
     }
 }
 
-/// Adds the forces of point masses, in the numbering of `places`.
+/// Adds the forces of point masses, in the numbering of `places`, on nodes whose unknowns are `wanted`.
 pub(crate) fn mass_forces(
     residual: &mut [f64],
     places: &Places,
     model: &Model,
-    state: &State,
-    conditions: &Conditions,
+    (state, conditions): (&State, &Conditions),
+    wanted: impl Fn(usize) -> bool,
 ) {
     let alpha = conditions.rayleigh.alpha;
-    for (point, places) in model.masses.iter().zip(&places.masses) {
+    let masses = model.masses.iter().zip(&places.masses);
+    for (point, places) in masses.filter(|(_, places)| wanted(places[0])) {
         for (k, inertia) in point.body.diagonal().into_iter().enumerate() {
             let u = places[k];
             let gravity = if k < 3 { point.gravity[k] } else { 0.0 };

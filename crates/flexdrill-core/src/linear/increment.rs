@@ -4,7 +4,7 @@
 use super::system::{BlockSystem, Layout};
 
 /// What touches at a station, and with it which unknowns its contact couples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Touching {
     /// Nothing: the station's contact block counts as zero, whatever it holds.
     Nothing,

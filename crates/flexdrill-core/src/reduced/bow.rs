@@ -8,7 +8,7 @@
 
 use super::contacts::{at_radius, plus_rows};
 use super::residual::{load, store};
-use super::{EndColumn, Reduced, at_ends, span_of};
+use super::{EndColumn, Reduced, at_ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::state::{Bow, State, translation};
 use crate::model::Model;
@@ -81,7 +81,7 @@ impl Kernel for Bows<'_> {
         let [inner_radius, outer_radius] = model.guide_radii;
         to.iter_mut().zip(&by.links).for_each(|(to, link)| *to = *link.sag);
         for (station, touch) in assembler.inner.iter() {
-            let (l, i) = span_of(station, by.per);
+            let (l, i) = by.stations[station];
             if let Some([by_pipe, by_guide]) = by.bow(l, i) {
                 let on_pipe = touch.force();
                 let mut on_guide = at_radius(&on_pipe, inner_radius);
@@ -92,7 +92,7 @@ impl Kernel for Bows<'_> {
             }
         }
         for (station, touch) in assembler.outer.iter() {
-            let (l, i) = span_of(station, by.per);
+            let (l, i) = by.stations[station];
             if let Some([_, by_guide]) = by.bow(l, i) {
                 let on_guide = at_radius(&touch.force(), outer_radius);
                 let guide = &mut to[l][1];

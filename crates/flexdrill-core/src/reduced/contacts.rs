@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 
 use super::residual::{load, plus_column, product, store};
-use super::{EndColumn, Reduced, at_ends, span_of};
+use super::{EndColumn, EndForces, Reduced, at_ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
@@ -22,7 +22,9 @@ impl Reduced {
         state: &State,
         conditions: &Conditions,
     ) {
-        self.any.fill(false);
+        for (any, moved) in self.any.iter_mut().zip(&self.reach.spans) {
+            *any &= !moved;
+        }
         let instructions = self.instructions;
         instructions.run(Search {
             by: self,
@@ -30,6 +32,7 @@ impl Reduced {
             model,
             state,
             conditions,
+            arms: model.guide_radii.map(|r| Aligned([1.0, 1.0, 1.0, r, r, r, 0.0, 0.0])),
         });
     }
 
@@ -59,6 +62,8 @@ struct Search<'a> {
     model: &'a Model,
     state: &'a State,
     conditions: &'a Conditions,
+    /// Per layer, what the guide's motions count with in the gap: those of the rotations with its radius.
+    arms: [Aligned<[f64; 8]>; 2],
 }
 
 /// A local force's lanes with those of the rotations times a radius.
@@ -95,27 +100,22 @@ impl Search<'_> {
             model,
             state,
             conditions,
+            arms,
         } = self;
         let station = l * by.per + i;
-        let [inner_radius, outer_radius] = model.guide_radii;
-        let (mut lanes, mut guide) = (Aligned([0.0; 8]), Aligned([0.0; 8]));
-        by.local::<V>(&state.v, l, i, 1).store(&mut guide);
-        let guide = [guide[0], guide[1], guide[2], guide[3], guide[4], guide[5]];
+        let guide = by.local::<V>(&state.v, l, i, 1);
         by.any[l] = true;
         if closed[0] {
-            by.local::<V>(&state.v, l, i, 0).store(&mut lanes);
-            let mut velocity = at_radius(&guide, inner_radius);
-            for (x, pipe) in velocity.iter_mut().zip(*lanes) {
-                *x = pipe - *x;
-            }
+            let pipe = by.local::<V>(&state.v, l, i, 0);
+            let velocity = pipe.minus_product(guide, V::load(&arms[0]));
             let clearance = model.stations[station].inner_clearance;
             let layer = &mut assembler.inner;
-            layer.push::<V>(&conditions.inner, station, lateral[0], clearance, &velocity);
+            layer.push::<V>(&conditions.inner, station, lateral[0], clearance, velocity);
         }
         if closed[1] {
-            let velocity = at_radius(&guide, outer_radius);
+            let velocity = guide.times(V::load(&arms[1]));
             let layer = &mut assembler.outer;
-            layer.push::<V>(&conditions.outer, station, lateral[1], model.outer_clearance, &velocity);
+            layer.push::<V>(&conditions.outer, station, lateral[1], model.outer_clearance, velocity);
         }
     }
 
@@ -126,13 +126,14 @@ impl Search<'_> {
             by, assembler, model, ..
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
-        for (touched, any) in by.touched.iter_mut().zip(&by.any) {
-            if *any {
+        for (touched, (any, moved)) in by.touched.iter_mut().zip(by.any.iter().zip(&by.reach.spans)) {
+            if *any && *moved {
                 **touched = [[0.0; 16]; 2];
             }
         }
-        for (station, touch) in assembler.inner.iter() {
-            let (l, i) = span_of(station, by.per);
+        let moved = |station: usize| by.reach.spans[by.stations[station].0];
+        for (station, touch) in assembler.inner.among(moved) {
+            let (l, i) = by.stations[station];
             let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
             let force = touch.force();
             let [pipe, guide] = &mut by.touched[l].0;
@@ -144,14 +145,60 @@ impl Search<'_> {
                 guide,
             );
         }
-        for (station, touch) in assembler.outer.iter() {
-            let (l, i) = span_of(station, by.per);
+        let mut sum = OnSpan::<V>::new();
+        for (station, touch) in assembler.outer.among(moved) {
+            let (l, i) = by.stations[station];
+            if l != sum.span {
+                sum.take_from(&mut by.touched, l);
+            }
             let rows = &by.kinds[by.links[l].kind].force[i][1];
-            let mut force = at_radius(&touch.force(), outer_radius);
-            force.iter_mut().for_each(|x| *x = -*x);
-            let guide = &mut by.touched[l][1];
-            store(plus_rows::<V>(load(guide), rows, &force), guide);
+            sum.add(rows, &at_radius(&touch.force(), outer_radius));
         }
+        sum.take_from(&mut by.touched, 0);
+    }
+}
+
+/// The sum of what contacts of the guide with the wall put on the ends of one span after the other.
+pub(super) struct OnSpan<V> {
+    pub span: usize,
+    even: [V; 2],
+    odd: [V; 2],
+}
+
+impl<V: Vector> OnSpan<V> {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        let zero = [V::splat(0.0); 2];
+        Self {
+            span: 0,
+            even: zero,
+            odd: zero,
+        }
+    }
+
+    /// Adds what a local force puts there.
+    #[inline(always)]
+    pub(super) fn add(&mut self, rows: &[EndColumn; 6], force: &[f64; 6]) {
+        for k in 0..3 {
+            self.even = plus_column(self.even, &rows[2 * k], V::splat(force[2 * k]));
+            self.odd = plus_column(self.odd, &rows[2 * k + 1], V::splat(force[2 * k + 1]));
+        }
+    }
+
+    /// Gives the sum, and goes on with another span.
+    #[inline(always)]
+    pub(super) fn next(&mut self, span: usize) -> [V; 2] {
+        let sum = [self.even[0].plus(self.odd[0]), self.even[1].plus(self.odd[1])];
+        *self = Self { span, ..Self::new() };
+        sum
+    }
+
+    /// Takes the sum off the guide's forces, and goes on with another span.
+    #[inline(always)]
+    fn take_from(&mut self, forces: &mut [Aligned<EndForces>], span: usize) {
+        let guide = &mut forces[self.span][1];
+        let (before, sum) = (load::<V>(guide), self.next(span));
+        store([before[0].minus(sum[0]), before[1].minus(sum[1])], guide);
     }
 }
 
@@ -160,8 +207,19 @@ impl Kernel for Search<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(mut self) {
-        self.assembler.inner.clear();
-        self.assembler.outer.clear();
+        let per = self.by.per;
+        if self.by.reach.whole {
+            self.assembler.inner.clear();
+            self.assembler.outer.clear();
+        } else {
+            for l in 0..self.by.links.len() {
+                if self.by.reach.spans[l] {
+                    let stations = per * l + usize::from(l > 0)..per * (l + 1) + 1;
+                    self.assembler.inner.open(stations.clone());
+                    self.assembler.outer.open(stations);
+                }
+            }
+        }
         let outer_squared = self.model.outer_clearance * self.model.outer_clearance;
         // The first station belongs to no span's lanes; its pipe lies on the bore's axis.
         let top = &self.model.stations[0];
@@ -175,12 +233,15 @@ impl Kernel for Search<'_> {
             inner.norm_squared() > top.inner_clearance * top.inner_clearance,
             guide.norm_squared() > outer_squared,
         ];
-        if closed[0] | closed[1] {
+        if (closed[0] | closed[1]) && self.by.reach.spans[0] {
             self.found::<V>((0, 0), [inner.into(), guide.into()], closed);
         }
         let (nodes, _) = self.state.q.as_chunks();
         let state = self.state;
         for l in 0..self.by.links.len() {
+            if !self.by.reach.spans[l] {
+                continue;
+            }
             let link = &self.by.links[l];
             let kind = &self.by.kinds[link.kind];
             let pipe = product::<V>(&kind.lateral[0], &at_ends(nodes, l, 0));

@@ -1,9 +1,9 @@
 //! The energy audit's point over the joints: elements and friction; the rest is shared with the whole tool.
 
-use super::contacts::{at_radius, plus_rows};
+use super::contacts::{OnSpan, at_radius, plus_rows};
 use super::residual::{around, load, product, store};
 use super::slaving::TENSION;
-use super::{EndColumn, Reduced, at_ends, ends, span_of};
+use super::{EndColumn, Reduced, at_ends, ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{EnergyPoint, SpanForces};
@@ -216,7 +216,7 @@ impl Kernel for Friction<'_> {
         } = self;
         let mut stored = 0.0;
         for (station, touch) in assembler.inner.iter() {
-            let (l, i) = span_of(station, by.per);
+            let (l, i) = by.stations[station];
             let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
             let force = touch.friction_force();
             let mut on = on_ends::<V>(on_pipe, &force);
@@ -227,14 +227,23 @@ impl Kernel for Friction<'_> {
             stored += touch.energy;
             point.contact_dissipation += touch.dissipation;
         }
+        let mut sum = OnSpan::<V>::new();
+        let mut on = [0.0; 16];
         for (station, touch) in assembler.outer.iter() {
-            let (l, i) = span_of(station, by.per);
+            let (l, i) = by.stations[station];
+            if l != sum.span {
+                let span = sum.span;
+                store(sum.next(l), &mut on);
+                add(&mut point.friction, ends(span, 1), &on);
+            }
             let rows = &by.kinds[by.links[l].kind].force[i][1];
-            let force = at_radius(&touch.friction_force(), model.guide_radii[1]);
-            add(&mut point.friction, ends(l, 1), &on_ends::<V>(rows, &force));
+            sum.add(rows, &at_radius(&touch.friction_force(), model.guide_radii[1]));
             stored += touch.energy;
             point.contact_dissipation += touch.dissipation;
         }
+        let span = sum.span;
+        store(sum.next(span), &mut on);
+        add(&mut point.friction, ends(span, 1), &on);
         stored
     }
 }

@@ -23,6 +23,7 @@ mod energy;
 mod numbering;
 mod operator;
 mod precision;
+mod reach;
 mod residual;
 mod single;
 mod slaving;
@@ -34,14 +35,14 @@ mod tests;
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::tolerances::{Limits, Tolerances};
+use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
 use crate::elements::joint::Joint;
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::simd::aligned::Aligned;
 
 use operator::Operator;
-use residual::NodeForces;
+use reach::Reach;
 use single::SingleSweep;
 use slaving::{Link, LinkMatrices};
 use solve::Sweep;
@@ -93,6 +94,8 @@ pub(crate) struct Reduced {
     nodes: usize,
     /// Elements, and so stations but the first, per span.
     per: usize,
+    /// Span and number in it of each station.
+    stations: Vec<(usize, usize)>,
     kinds: Vec<LinkMatrices>,
     links: Vec<Link>,
     pub(crate) numbering: Numbering,
@@ -111,9 +114,6 @@ pub(crate) struct Reduced {
     linear: Vec<Aligned<EndForces>>,
     stretched: Vec<Aligned<EndForces>>,
     touched: Vec<Aligned<EndForces>>,
-    /// What spans put on the node above them, and on that below, by nodes.
-    on_above: Vec<NodeForces>,
-    on_below: Vec<NodeForces>,
     /// Whether `touched` holds anything, per span.
     any: Vec<bool>,
     foreseen: Vec<[f64; 2]>,
@@ -124,6 +124,10 @@ pub(crate) struct Reduced {
     single_sweep: SingleSweep,
     /// Corrections made in this step.
     iterations: u32,
+    /// What the present one reaches.
+    reach: Reach,
+    /// How closely the step is solved.
+    accuracy: Accuracy,
     correction: Vec<f64>,
 }
 
@@ -177,6 +181,7 @@ impl Reduced {
             give,
             nodes,
             per,
+            stations: (0..=spans * per).map(|station| span_of(station, per)).collect(),
             kinds,
             links,
             numbering,
@@ -192,8 +197,6 @@ impl Reduced {
             linear: vec![Aligned([[0.0; 16]; 2]); spans],
             stretched: vec![Aligned([[0.0; 16]; 2]); spans],
             touched: vec![Aligned([[0.0; 16]; 2]); spans],
-            on_above: vec![Aligned([0.0; 24]); nodes],
-            on_below: vec![Aligned([0.0; 24]); nodes],
             any: vec![false; spans],
             foreseen: vec![[0.0; 2]; spans],
             foreseen_part: 0.0,
@@ -202,6 +205,8 @@ impl Reduced {
             sweep: Sweep::new(nodes),
             single_sweep: SingleSweep::new(nodes),
             iterations: 0,
+            reach: Reach::new(nodes),
+            accuracy: Accuracy::Rest,
             correction: vec![0.0; unknowns],
         })
     }
@@ -269,7 +274,6 @@ fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
 }
 
 /// Span and number in it of a station, of spans of so many stations.
-#[inline(always)]
 fn span_of(station: usize, per: usize) -> (usize, usize) {
     match station.checked_sub(1) {
         Some(before) => (before / per, before % per + 1),

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{GUIDE, MULTIPLIER, NODE, Reduced, U, ends, span_of};
+use super::{GUIDE, MULTIPLIER, NODE, Reduced, U, ends};
 use crate::dynamics::state::State;
 use crate::model::{Model, Places};
 use crate::simd::Kernel;
@@ -133,7 +133,7 @@ impl Reduced {
     /// What `values` in the reduced numbering mean for the translation of the pipe at `station`, in the pipe's own axes;
     /// at a joint of the end above.
     pub(crate) fn pipe_translation(&self, values: &[f64], station: usize) -> Vector3<f64> {
-        let (l, i) = span_of(station, self.per);
+        let (l, i) = self.stations[station];
         let node = |k: usize| Vector3::new(values[NODE * k + U], values[NODE * k + U + 1], values[NODE * k + U + 2]);
         if station == 0 {
             return node(0);

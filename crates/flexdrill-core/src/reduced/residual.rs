@@ -55,6 +55,9 @@ impl Reduced {
         (operator, keep_axial): (Option<usize>, bool),
     ) {
         assembler.stopwatch.lap(Phase::Other);
+        if operator.is_none() {
+            self.reach.set_whole();
+        }
         let instructions = self.instructions;
         instructions.run(Spans {
             by: self,
@@ -68,9 +71,10 @@ impl Reduced {
         instructions.run(Gather { by: self, state: to });
         assembler.stopwatch.lap(Phase::Contact);
         let mut residual = std::mem::take(&mut self.residual);
-        mass_forces(&mut residual, &self.places, model, to, conditions);
-        assembler.rotational_rows(&mut residual, &self.places.joints, model, to);
-        assembler.end_forces(&mut residual, &self.places, model, to, conditions);
+        let felt = |unknown: usize| self.reach.felt[unknown / NODE];
+        mass_forces(&mut residual, &self.places, model, (to, conditions), felt);
+        assembler.rotational_rows(&mut residual, &self.places.joints, model, to, felt);
+        assembler.end_forces(&mut residual, &self.places, model, (to, conditions), felt);
         self.residual = residual;
     }
 }
@@ -132,44 +136,63 @@ impl Kernel for Gather<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self { by, state } = self;
-        let (above, below) = (&mut by.on_above, &mut by.on_below);
-        for l in 0..by.links.len() {
-            for (body, (top, bottom)) in [(U, 0), (GUIDE, GUIDE)].into_iter().enumerate() {
-                let axial = if body == 0 {
-                    state.pipe_axial[l]
-                } else {
-                    state.guide_axial[l]
-                };
-                let mut sum = plus_column(load(&by.linear[l][body]), &by.stretched[l][body], V::splat(axial));
-                if by.any[l] {
-                    let touched: [V; 2] = load(&by.touched[l][body]);
-                    sum = [sum[0].plus(touched[0]), sum[1].plus(touched[1])];
-                }
-                // The pipe first: what its two lanes without a force leave, the guide's overwrite; those of the guide are
-                // beyond the node.
-                put(sum[0], &mut above[l], top);
-                put(sum[1], &mut below[l + 1], bottom);
-            }
-        }
-        let (nodes, _) = by.residual.as_chunks_mut::<NODE>();
+        let (residual, _) = by.residual.as_chunks_mut::<NODE>();
         let (weights, _) = by.weight.as_chunks::<NODE>();
-        let parts = by.on_above.iter().zip(&by.on_below);
-        for ((node, weight), (above, below)) in nodes.iter_mut().zip(weights).zip(parts) {
-            let (weight, above, below): ([V; 2], [V; 2], [V; 2]) =
-                (load(weight), load(first(above)), load(first(below)));
-            store(
-                [
-                    above[0].plus(below[0]).minus(weight[0]),
-                    above[1].plus(below[1]).minus(weight[1]),
-                ],
-                node,
-            );
+        let (nodes, felt) = (residual.len(), &by.reach.felt);
+        // What the spans below and above put on the nodes of a block, and on the first one of the next.
+        let mut above = [NodeForces::default(); BLOCK];
+        let mut below = [NodeForces::default(); BLOCK + 1];
+        for start in (0..nodes).step_by(BLOCK) {
+            below[0] = below[BLOCK];
+            for l in start..(start + BLOCK).min(nodes) {
+                if l + 1 == nodes {
+                    above[l - start] = NodeForces::default();
+                    break;
+                }
+                if !(felt[l] || felt[l + 1]) {
+                    continue;
+                }
+                for (body, (top, bottom)) in [(U, 0), (GUIDE, GUIDE)].into_iter().enumerate() {
+                    let axial = if body == 0 {
+                        state.pipe_axial[l]
+                    } else {
+                        state.guide_axial[l]
+                    };
+                    let mut sum = plus_column(load(&by.linear[l][body]), &by.stretched[l][body], V::splat(axial));
+                    if by.any[l] {
+                        let touched: [V; 2] = load(&by.touched[l][body]);
+                        sum = [sum[0].plus(touched[0]), sum[1].plus(touched[1])];
+                    }
+                    // The pipe first: what its two lanes without a force leave, the guide's overwrite; those of the guide
+                    // are beyond the node.
+                    put(sum[0], &mut above[l - start], top);
+                    put(sum[1], &mut below[l - start + 1], bottom);
+                }
+            }
+            let forces = above.iter().zip(&below);
+            for (l, (above, below)) in (start..nodes).zip(forces) {
+                if felt[l] {
+                    let (weight, above, below): ([V; 2], [V; 2], [V; 2]) =
+                        (load(&weights[l]), load(first(above)), load(first(below)));
+                    store(
+                        [
+                            above[0].plus(below[0]).minus(weight[0]),
+                            above[1].plus(below[1]).minus(weight[1]),
+                        ],
+                        &mut residual[l],
+                    );
+                }
+            }
         }
     }
 }
 
+/// Nodes whose forces are gathered before they are summed: numbers that are written in vectors are read in others, which
+/// waits for the memory where it follows at once.
+const BLOCK: usize = 8;
+
 /// Forces on a node, and room that a vector of eight at the guide reaches into.
-pub(super) type NodeForces = Aligned<[f64; 24]>;
+type NodeForces = Aligned<[f64; 24]>;
 
 /// The node itself.
 #[inline(always)]
@@ -250,7 +273,11 @@ impl Spans<'_> {
         let operator = &by.operators[operator].spans;
         let (corrections, _) = by.correction.as_chunks();
         let forces = by.linear.iter_mut().zip(&mut by.stretched);
-        for ((link, nodes), (linear, stretched)) in by.links.iter().zip(corrections.windows(2)).zip(forces) {
+        let nodes = corrections.windows(2).zip(&by.reach.spans);
+        for ((link, (nodes, moved)), (linear, stretched)) in by.links.iter().zip(nodes).zip(forces) {
+            if !moved {
+                continue;
+            }
             let (columns, geometric) = (&operator[link.kind], &by.kinds[link.kind].geometric);
             for body in 0..2 {
                 let sums = [load(&linear[body]), load(&stretched[body])];

@@ -1,9 +1,10 @@
 //! Newton's equations over the joints, and their solution: blocks of 16 eliminated from the top down.
 
 use super::operator::{Block, Operator};
+use super::reach::WHOLE_CORRECTIONS;
 use super::residual::{load, plus_column, store};
 use super::single::SingleElimination;
-use super::tangent::{Additions, Crossing};
+use super::tangent::Additions;
 use super::{BOTTOM, GUIDE, Link, MULTIPLIER, NODE, Reduced, SINGLE_CORRECTIONS, TOP, U};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
@@ -14,7 +15,7 @@ use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
 use crate::elements::bit::BitTorque;
 use crate::elements::joint::rotation::LARGEST_TILT;
-use crate::linear::{JointIncrement, Singular, add_joint, sixteen, take};
+use crate::linear::{JointIncrement, Singular, Touching, add_joint, sixteen, take};
 use crate::model::Model;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
@@ -54,11 +55,17 @@ impl Elimination<'_> {
     #[inline(always)]
     fn block<V: Vector>(&self, k: usize) -> Block {
         let mut block = self.operator.blocks[self.operator.block_of[k]];
-        if self.additions.touched[k] {
-            for (to, from) in block.iter_mut().zip(self.additions.blocks[k].iter()) {
-                let (a, b): ([V; 2], [V; 2]) = (load(to), load(from));
-                store([a[0].plus(b[0]), a[1].plus(b[1])], to);
-            }
+        let columns = match self.additions.nodes[k] {
+            Touching::Nothing => 0..0,
+            Touching::Guide => GUIDE..MULTIPLIER,
+            Touching::Both => 0..NODE,
+        };
+        for (to, from) in block[columns.clone()]
+            .iter_mut()
+            .zip(&self.additions.blocks[k][columns])
+        {
+            let (a, b): ([V; 2], [V; 2]) = (load(to), load(from));
+            store([a[0].plus(b[0]), a[1].plus(b[1])], to);
         }
         if let Some(joint) = k.checked_sub(1).and_then(|joint| self.joints.get(joint)) {
             add_joint(&mut block, joint);
@@ -68,13 +75,13 @@ impl Elimination<'_> {
 
     /// Coupling of span `l`: (rows of the node above, rows of the node below), and what crosses.
     #[inline(always)]
-    fn coupling<V: Vector>(&self, l: usize, upper: &mut [[f64; NODE]], lower: &mut [[f64; NODE]; 12]) -> Crossing {
+    fn coupling<V: Vector>(&self, l: usize, upper: &mut [[f64; NODE]], lower: &mut [[f64; NODE]; 12]) -> Touching {
         let base = &self.operator.couplings[self.links[l].kind];
         upper[..12].copy_from_slice(&base.upper);
         *lower = base.lower;
-        let crossing = self.additions.crossing[l];
-        if crossing != Crossing::Nothing {
-            let first = if crossing == Crossing::Guide { 6 } else { 0 };
+        let touching = self.additions.spans[l];
+        if touching != Touching::Nothing {
+            let first = if touching == Touching::Guide { 6 } else { 0 };
             let added = &self.additions.couplings[l];
             for c in first..12 {
                 for (to, from) in [(&mut upper[c], &added.upper[c]), (&mut lower[c], &added.lower[c])] {
@@ -90,7 +97,7 @@ impl Elimination<'_> {
         if let Some(rows) = &self.rows[l + 1] {
             lower.iter_mut().for_each(|column| keep(column, rows));
         }
-        crossing
+        touching
     }
 }
 
@@ -134,10 +141,10 @@ impl Kernel for Elimination<'_> {
                 break;
             }
             let mut columns = [[0.0; NODE]; COLUMNS];
-            let crossing = self.coupling::<V>(k, &mut columns, &mut lower);
+            let touching = self.coupling::<V>(k, &mut columns, &mut lower);
             columns[12] = right;
             // The pipe's columns begin at the displacement, the guide's at the guide but where they cross.
-            let crossed = crossing == Crossing::Both;
+            let crossed = touching == Touching::Both;
             let active = |row: usize| match row {
                 0..U => 0,
                 U..GUIDE if !crossed => 6,
@@ -182,18 +189,27 @@ impl Kernel for Elimination<'_> {
 impl Reduced {
     /// Solves for the correction in single precision; `false` where its pivots do not do.
     fn correct_in_single(&mut self, operator: usize) -> bool {
-        self.correction
-            .iter_mut()
-            .zip(&self.residual)
-            .for_each(|(c, r)| *c = -r);
-        self.instructions.run(SingleElimination {
+        if !self.reach.whole {
+            self.correction.fill(0.0);
+        }
+        for window in &self.reach.windows {
+            let unknowns = NODE * window.first..NODE * (window.last + 1);
+            let residual = &self.residual[unknowns.clone()];
+            let values = self.correction[unknowns].iter_mut().zip(residual);
+            values.for_each(|(c, r)| *c = -r);
+        }
+        let solved = self.instructions.run(SingleElimination {
             sweep: &mut self.single_sweep,
             operator: &self.operators[operator],
             additions: &self.single_additions,
             links: &self.links,
             rows: &self.rows,
+            windows: &mut self.reach.windows,
+            weights: self.limits.weights(self.accuracy),
             values: &mut self.correction,
-        })
+        });
+        self.reach.moved();
+        solved
     }
 
     /// Solves for the correction.
@@ -236,6 +252,7 @@ impl Reduced {
         let Some(operator) = self.operator(factors, conditions) else {
             return Err(Singular { station: 0, pivot: 0.0 });
         };
+        self.reach.set_whole();
         let mut additions = std::mem::take(&mut self.additions);
         additions.linearise(self, assembler, model, state, (conditions, factors));
         self.additions = additions;
@@ -259,7 +276,9 @@ impl Reduced {
         additions.linearise(self, assembler, model, state, (conditions, factors));
         self.single_additions = additions;
         let (places, sweep) = (&self.places.joints, &mut self.single_sweep);
-        assembler.joint_tangents((places, model, state), factors, |joint, tangent| {
+        let nodes = &self.reach.nodes;
+        let wanted = |joint: usize| nodes[joint + 1];
+        assembler.joint_tangents((places, model, state), factors, wanted, |joint, tangent| {
             sweep.join(joint, tangent);
         });
         assembler.stopwatch.lap(Phase::Assembly);
@@ -356,6 +375,7 @@ impl ReducedEquations<'_> {
 
 impl Equations for ReducedEquations<'_> {
     fn begin(&mut self, _: &Model, stride: Stride, from: &State, _: &mut State) {
+        self.reduced.accuracy = stride.accuracy;
         self.reduced.foresee(from, stride.foresight, stride.foreseen_part);
         self.reduced.limits.for_step(stride.h);
     }
@@ -382,6 +402,12 @@ impl Equations for ReducedEquations<'_> {
         factors: TangentFactors,
     ) -> Result<(), Singular> {
         let (reduced, assembler) = (&mut *self.reduced, &mut *self.assembler);
+        if reduced.iterations < WHOLE_CORRECTIONS {
+            reduced.reach.set_whole();
+        } else {
+            let weights = reduced.limits.weights(reduced.accuracy);
+            reduced.reach.set_windows(&reduced.residual, weights);
+        }
         let single = reduced.iterations < SINGLE_CORRECTIONS
             && reduced.solve_in_single(assembler, model, to, (conditions, factors));
         let solved = if single {

@@ -2,27 +2,17 @@
 //! the blocks of both its ends and to what couples them.
 
 use super::precision::{Lanes, Precision};
-use super::{BOTTOM, GUIDE, NODE, Reduced, TOP, span_of};
+use super::{BOTTOM, GUIDE, MULTIPLIER, NODE, Reduced, TOP};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, motion};
 use crate::elements::gap::GapTangent;
+use crate::linear::Touching;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
-
-/// What contacts inside a span add to its coupling.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Crossing {
-    /// Nothing.
-    Nothing,
-    /// The guide with itself.
-    Guide,
-    /// Pipe and guide with each other.
-    Both,
-}
 
 /// What is added to a span's coupling, as [`super::operator::Coupling`].
 #[derive(Debug, Clone, Copy)]
@@ -35,12 +25,12 @@ pub(super) struct AddedCoupling<S> {
 /// Additions of one iteration.
 #[derive(Default)]
 pub(super) struct Additions<S> {
-    /// Per node, of use where `touched`.
+    /// Per node, and whose columns are of use: the guide's, or all.
     pub blocks: Vec<Aligned<[[S; NODE]; NODE]>>,
-    pub touched: Vec<bool>,
-    /// Per span, of use where something crosses.
+    pub nodes: Vec<Touching>,
+    /// Per span, likewise.
     pub couplings: Vec<AddedCoupling<S>>,
-    pub crossing: Vec<Crossing>,
+    pub spans: Vec<Touching>,
 }
 
 impl<S: Precision> Additions<S> {
@@ -51,31 +41,44 @@ impl<S: Precision> Additions<S> {
         };
         Self {
             blocks: vec![Aligned([[S::ZERO; NODE]; NODE]); nodes],
-            touched: vec![false; nodes],
+            nodes: vec![Touching::Nothing; nodes],
             couplings: vec![coupling; nodes - 1],
-            crossing: vec![Crossing::Nothing; nodes - 1],
+            spans: vec![Touching::Nothing; nodes - 1],
         }
     }
 
-    /// A node's block, to be added to.
+    /// A node's block, to be added to in the columns of what is `touching`.
     #[inline(always)]
-    fn block(&mut self, node: usize) -> &mut [[S; NODE]; NODE] {
-        let block = &mut self.blocks[node];
-        if !self.touched[node] {
-            self.touched[node] = true;
-            **block = [[S::ZERO; NODE]; NODE];
+    fn block(&mut self, node: usize, touching: Touching) -> &mut [[S; NODE]; NODE] {
+        let (block, before) = (&mut self.blocks[node], self.nodes[node]);
+        if touching > before {
+            if before == Touching::Nothing {
+                block[GUIDE..MULTIPLIER].fill([S::ZERO; NODE]);
+            }
+            if touching == Touching::Both {
+                block[..GUIDE].fill([S::ZERO; NODE]);
+                block[MULTIPLIER] = [S::ZERO; NODE];
+            }
+            self.nodes[node] = touching;
         }
         block
     }
 
-    /// A span's coupling, to be added to.
+    /// A span's coupling, likewise.
     #[inline(always)]
-    fn coupling(&mut self, span: usize, crossing: Crossing) -> &mut AddedCoupling<S> {
-        let coupling = &mut self.couplings[span];
-        if self.crossing[span] == Crossing::Nothing {
-            (coupling.upper, coupling.lower) = ([[S::ZERO; NODE]; 12], [[S::ZERO; NODE]; 12]);
+    fn coupling(&mut self, span: usize, touching: Touching) -> &mut AddedCoupling<S> {
+        let (coupling, before) = (&mut self.couplings[span], self.spans[span]);
+        if touching > before {
+            for columns in [&mut coupling.upper, &mut coupling.lower] {
+                if before == Touching::Nothing {
+                    columns[6..].fill([S::ZERO; NODE]);
+                }
+                if touching == Touching::Both {
+                    columns[..6].fill([S::ZERO; NODE]);
+                }
+            }
+            self.spans[span] = touching;
         }
-        self.crossing[span] = self.crossing[span].max(crossing);
         coupling
     }
 
@@ -88,8 +91,8 @@ impl<S: Precision> Additions<S> {
         state: &State,
         (conditions, factors): (&Conditions, TangentFactors),
     ) {
-        self.touched.fill(false);
-        self.crossing.fill(Crossing::Nothing);
+        self.nodes.fill(Touching::Nothing);
+        self.spans.fill(Touching::Nothing);
         reduced.instructions.run(Contacts {
             to: self,
             reduced,
@@ -97,7 +100,8 @@ impl<S: Precision> Additions<S> {
             factors,
         });
         let spin = reduced.places.bit_spin;
-        self.block(spin / NODE)[spin % NODE][spin % NODE] += S::of(factors.damping * assembler.bit.slope);
+        self.block(spin / NODE, Touching::Both)[spin % NODE][spin % NODE] +=
+            S::of(factors.damping * assembler.bit.slope);
         for (point, places) in model.masses.iter().zip(&reduced.places.masses) {
             if !point.body.is_coupled() {
                 continue;
@@ -108,7 +112,7 @@ impl<S: Precision> Additions<S> {
                 point.gravity.into(),
                 [factors.stiffness, factors.damping, factors.mass],
             );
-            let block = self.block(places[0] / NODE);
+            let block = self.block(places[0] / NODE, Touching::Both);
             for (&j, from) in places.iter().zip(&tangent) {
                 for (&i, x) in places.iter().zip(from) {
                     block[j % NODE][i % NODE] += S::of(*x);
@@ -133,8 +137,9 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
         let mut on_guide = OnGuide::<S>::new();
         let layers = [(&self.assembler.inner, true), (&self.assembler.outer, false)];
         for (layer, inner) in layers {
-            for (station, touch) in layer.iter() {
-                let (l, i) = span_of(station, self.reduced.per);
+            let (stations, spans) = (&self.reduced.stations, &self.reduced.reach.spans);
+            for (station, touch) in layer.among(|station| spans[stations[station].0]) {
+                let (l, i) = stations[station];
                 let on_nodes = &S::on_nodes(&self.reduced.kinds[self.reduced.links[l].kind])[i];
                 let place = Place {
                     l,
@@ -196,7 +201,7 @@ impl<S: Precision> OnGuide<S> {
         self.any = false;
         let l = self.span;
         let rows = S::Lanes::<V>::load(S::guide());
-        let coupling = to.coupling(l, Crossing::Guide);
+        let coupling = to.coupling(l, Touching::Guide);
         for c in 0..6 {
             let (top, bottom) = (
                 S::Lanes::<V>::load(&self.columns[c]),
@@ -209,7 +214,7 @@ impl<S: Precision> OnGuide<S> {
                 .store(lower);
         }
         for (node, first) in [(l, 0), (l + 1, 6)] {
-            let block = to.block(node);
+            let block = to.block(node, Touching::Guide);
             for c in 0..6 {
                 let mut column = S::Lanes::<V>::load(&self.columns[first + c]);
                 if first == 6 {
@@ -289,12 +294,16 @@ impl<S: Precision> Place<'_, S> {
     #[inline(always)]
     fn add<V: Vector, const INNER: bool>(&self, to: &mut Additions<S>, tangent: &GapTangent) {
         // The guide's columns come last in every list of twelve.
-        let first = if INNER { 0 } else { 6 };
+        let (first, touching) = if INNER {
+            (0, Touching::Both)
+        } else {
+            (6, Touching::Guide)
+        };
         // A station at a node moves with that node only.
         for (end, columns) in [&TOP, &BOTTOM].into_iter().enumerate() {
             if self.at[end] {
                 let node = self.factors::<V>(end, tangent);
-                let block = to.block(self.l + end);
+                let block = to.block(self.l + end, touching);
                 for &j in &columns[first..] {
                     add_product::<V, S>(&mut block[j], &node.on, &node.by, j);
                 }
@@ -303,15 +312,15 @@ impl<S: Precision> Place<'_, S> {
         }
         let above = self.factors::<V>(0, tangent);
         let below = self.factors::<V>(1, tangent);
-        let block = to.block(self.l);
+        let block = to.block(self.l, touching);
         for &j in &TOP[first..] {
             add_product::<V, S>(&mut block[j], &above.on, &above.by, j);
         }
-        let block = to.block(self.l + 1);
+        let block = to.block(self.l + 1, touching);
         for &j in &BOTTOM[first..] {
             add_product::<V, S>(&mut block[j], &below.on, &below.by, j);
         }
-        let coupling = to.coupling(self.l, if INNER { Crossing::Both } else { Crossing::Guide });
+        let coupling = to.coupling(self.l, touching);
         for c in first..12 {
             add_product::<V, S>(&mut coupling.upper[c], &above.on, &below.by, BOTTOM[c]);
             add_product::<V, S>(&mut coupling.lower[c], &below.on, &above.by, TOP[c]);

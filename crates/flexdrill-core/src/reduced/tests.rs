@@ -9,9 +9,11 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
 use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::newton::{Equations, correct};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
+use crate::elements::gap::Layer;
 use crate::model::Model;
 use crate::tool::description::LiveParameters;
 use crate::tool::{
@@ -122,7 +124,7 @@ fn check(tool: &ToolDescription, h: f64, seed: u64) {
         reduced.show(&model, (&state, &vec![[0.0; 3]; reduced.spans()]), &mut full);
         let mut whole = Assembler::new(&model, instructions);
         whole.residual(&model, &full, &conditions);
-        let inside = |layer: &crate::elements::gap::Layer| {
+        let inside = |layer: &Layer| {
             layer
                 .iter()
                 .filter(|(station, _)| model.stations[*station].joint.is_none())
@@ -392,5 +394,99 @@ fn turning_as_a_whole_changes_no_energy() {
                 "{instructions}: {before} J, turned {after} J"
             );
         }
+    }
+}
+
+/// Station and force of each contact, in the order of the stations.
+fn contacts(layer: &Layer) -> Vec<(usize, [f64; 6])> {
+    let mut contacts: Vec<_> = layer.iter().map(|(station, touch)| (station, touch.force())).collect();
+    contacts.sort_by_key(|(station, _)| *station);
+    contacts
+}
+
+#[test]
+fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
+    let tool = small(40, 2);
+    let model = Model::new(&tool).unwrap();
+    let factors = Scheme::generalised_alpha(0.45).factors(5e-4);
+    let mut conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
+    conditions.bit_torque = 90.0;
+    let by = (&conditions, factors);
+    for instructions in Instructions::available() {
+        let mut reduced = Reduced::of(&model, &Tolerances::default(), instructions).unwrap();
+        let mut assembler = Assembler::new(&model, instructions);
+        let mut state = lively(&reduced, 8);
+        clean(&reduced, &mut state);
+        reduced.prepare(&model, &conditions, factors);
+        equations(&mut reduced, &mut assembler).evaluate(&model, &mut state, &conditions, false);
+        assert!(reduced.solve_in_single(&mut assembler, &model, &state, by));
+
+        // All below a node is out of balance: the elimination above is that of before, the solution that of the whole.
+        let residual = reduced.residual.clone();
+        let (first, bottom) = (25, reduced.nodes - 1);
+        reduced.residual[..NODE * first].fill(0.0);
+        reduced.solve(&mut assembler, &model, &state, by).unwrap();
+        let expected = reduced.correction.clone();
+        let weights = reduced.limits.weights(Accuracy::Rest).to_vec();
+        reduced.reach.set_windows(&reduced.residual, &weights);
+        assert!(reduced.solve_in_single(&mut assembler, &model, &state, by));
+        let [window] = reduced.reach.windows[..] else {
+            panic!("{:?}", reduced.reach.windows)
+        };
+        assert_eq!((window.first, window.last), (first, bottom));
+        assert!(window.top < first, "nothing follows above");
+        for place in 0..NODE {
+            let at =
+                |values: &[f64]| DVector::from_iterator(bottom + 1, values.iter().skip(place).step_by(NODE).copied());
+            let (got, expected) = (at(&reduced.correction), at(&expected));
+            let apart = (&got - &expected).amax() / expected.amax().max(f64::MIN_POSITIVE);
+            // As single precision is held to the whole tool's above.
+            assert!(apart < 1e-3, "{instructions}: unknowns {place} are {apart:e} apart");
+        }
+
+        // Two nodes out of balance.
+        reduced.residual.copy_from_slice(&residual);
+        reduced.foreseen_part = 0.0;
+        let mut weights = vec![0.0; residual.len()];
+        [12, 30].map(|node| weights[NODE * node..NODE * (node + 1)].fill(1.0));
+        reduced.reach.set_windows(&residual, &weights);
+        assert!(reduced.solve_in_single(&mut assembler, &model, &state, by));
+        assert_eq!(reduced.reach.windows.len(), 2);
+        let spin = reduced.places.bit_spin;
+        let moved: Vec<bool> = reduced
+            .correction
+            .chunks_exact(NODE)
+            .map(|node| node.iter().any(|dq| *dq != 0.0))
+            .collect();
+        let mut newton = equations(&mut reduced, &mut assembler);
+        correct(&mut newton, &mut state, &conditions, factors, spin);
+        newton.residual(&model, &mut state, &conditions, factors, 3);
+        let kept = moved.iter().filter(|moved| !**moved).count();
+        assert!(kept >= 5, "all but {kept} of the nodes move");
+        for (node, felt) in reduced.reach.felt.iter().enumerate() {
+            let neighbours = &moved[node.saturating_sub(1)..(node + 2).min(bottom + 1)];
+            assert_eq!(*felt, neighbours.contains(&true), "node {node}");
+            let range = NODE * node..NODE * (node + 1);
+            assert!(
+                *felt || reduced.residual[range.clone()] == residual[range],
+                "node {node}"
+            );
+        }
+        let (got, touching) = (
+            reduced.residual.clone(),
+            [contacts(&assembler.inner), contacts(&assembler.outer)],
+        );
+        equations(&mut reduced, &mut assembler).evaluate(&model, &mut state, &conditions, false);
+        let scale = reduced.residual.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        for (unknown, (got, expected)) in got.iter().zip(&reduced.residual).enumerate() {
+            // Rounding of stiffness times displacement, which cancel to the residual.
+            assert!(
+                (got - expected).abs() < 1e-9 * scale,
+                "{instructions}: residual {unknown} is {got} against {expected}, scale {scale:e}"
+            );
+        }
+        // The same numbers: what did not move was not looked at, what did was evaluated anew.
+        assert_eq!(touching, [contacts(&assembler.inner), contacts(&assembler.outer)]);
+        assert!(touching.iter().all(|layer| layer.len() > 8));
     }
 }

@@ -1,5 +1,7 @@
 //! All contacts of a layer: the law of the gap over eight touching stations at a time.
 
+use std::ops::Range;
+
 use super::{GapLaw, Touch};
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
@@ -8,41 +10,68 @@ use crate::simd::vector::Vector;
 /// What touches in a layer, at the last residual.
 #[derive(Debug)]
 pub struct Layer {
-    /// Touching stations, in the order in which they were found.
-    stations: Vec<usize>,
+    /// Stations found to touch since the layer was cleared, in this order.
+    found: Vec<Found>,
     /// Their contacts, eight to a group. Lanes beyond the last are of no use.
     touches: Vec<Touch<Lane>>,
-    /// Per station one more than its place in `stations`, or 0 where the gap is open.
+    /// Per station one more than its place in `found`, or 0 where it has none.
     places: Vec<usize>,
-    /// Motion of the stations of the group that is not full yet; lanes beyond hold that of others.
+    /// Whether some stations only are looked at again, so that contacts keep their places.
+    again: bool,
+    /// Places of those that wait to be evaluated.
+    waiting: [usize; 8],
+    count: usize,
+    /// Their places in the gap, and the velocity of each in its first six lanes; what is beyond is of others.
     lateral: [Lane; 2],
     clearance: Lane,
-    velocity: [Lane; 6],
+    velocities: [Lane; 8],
+}
+
+/// A station with a place.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    station: usize,
+    /// Whether its gap is still closed.
+    closed: bool,
 }
 
 impl Layer {
     /// Room for so many stations.
     pub(crate) fn new(stations: usize) -> Self {
         Self {
-            stations: Vec::with_capacity(stations),
+            found: Vec::with_capacity(stations),
             touches: vec![Touch::default(); stations.div_ceil(8)],
             places: vec![0; stations],
+            again: false,
+            waiting: [0; 8],
+            count: 0,
             // Any distance but zero will do.
             lateral: [Aligned([1.0; 8]); 2],
             clearance: Lane::default(),
-            velocity: [Lane::default(); 6],
+            velocities: [Lane::default(); 8],
         }
     }
 
     /// Opens all gaps.
     pub(crate) fn clear(&mut self) {
-        for &station in &self.stations {
-            self.places[station] = 0;
+        for found in &self.found {
+            self.places[found.station] = 0;
         }
-        self.stations.clear();
+        self.found.clear();
+        self.again = false;
     }
 
-    /// Adds the closed gap of a station with its motion, see [`GapLaw::touch`]; what touches is known after
+    /// Opens the gaps of some stations, which are looked at again; the others stay as they are.
+    pub(crate) fn open(&mut self, stations: Range<usize>) {
+        self.again = true;
+        for place in &self.places[stations] {
+            if let Some(place) = place.checked_sub(1) {
+                self.found[place].closed = false;
+            }
+        }
+    }
+
+    /// Adds the closed gap of a station with its motion, velocity in six lanes, see [`GapLaw::touch`]; what touches is known after
     /// [`Layer::finish`].
     #[inline(always)]
     pub(crate) fn push<V: Vector>(
@@ -51,19 +80,29 @@ impl Layer {
         station: usize,
         lateral: [f64; 2],
         clearance: f64,
-        velocity: &[f64; 6],
+        velocity: V,
     ) {
-        let lane = self.stations.len() % 8;
+        let known = if self.again { self.places[station] } else { 0 };
+        let place = match known.checked_sub(1) {
+            Some(place) => {
+                self.found[place].closed = true;
+                place
+            }
+            None => {
+                self.found.push(Found { station, closed: true });
+                self.places[station] = self.found.len();
+                self.found.len() - 1
+            }
+        };
+        let lane = self.count;
         for (lanes, x) in self.lateral.iter_mut().zip(lateral) {
             lanes[lane] = x;
         }
         self.clearance[lane] = clearance;
-        for (lanes, x) in self.velocity.iter_mut().zip(velocity) {
-            lanes[lane] = *x;
-        }
-        self.stations.push(station);
-        self.places[station] = self.stations.len();
-        if lane == 7 {
+        velocity.store(&mut self.velocities[lane]);
+        self.waiting[lane] = place;
+        self.count += 1;
+        if self.count == 8 {
             self.evaluate::<V>(law);
         }
     }
@@ -71,44 +110,63 @@ impl Layer {
     /// Evaluates what is left of the last group.
     #[inline(always)]
     pub(crate) fn finish<V: Vector>(&mut self, law: &GapLaw) {
-        if !self.stations.len().is_multiple_of(8) {
+        if self.count > 0 {
             self.evaluate::<V>(law);
         }
     }
 
     #[inline(always)]
     fn evaluate<V: Vector>(&mut self, law: &GapLaw) {
-        let Some(to) = self.touches.get_mut(self.stations.len().saturating_sub(1) / 8) else {
-            return;
-        };
         let mut velocity = [Eight::<V>::of(0.0); 6];
-        for (x, lanes) in velocity.iter_mut().zip(&self.velocity) {
-            *x = Eight::load(lanes);
+        for (k, x) in velocity.iter_mut().enumerate() {
+            let mut lanes = Lane::default();
+            for (to, from) in lanes.iter_mut().zip(&self.velocities) {
+                *to = from[k];
+            }
+            *x = Eight::load(&lanes);
         }
         let lateral = [Eight::load(&self.lateral[0]), Eight::load(&self.lateral[1])];
-        law.touch(lateral, Eight::load(&self.clearance), &velocity).store(to);
+        let touch = law.touch(lateral, Eight::load(&self.clearance), &velocity);
+        if self.again {
+            let mut lanes = Touch::default();
+            touch.store(&mut lanes);
+            for (lane, &place) in self.waiting[..self.count].iter().enumerate() {
+                self.touches[place / 8].put(place % 8, &lanes.lane(lane));
+            }
+        } else {
+            touch.store(&mut self.touches[self.waiting[0] / 8]);
+        }
+        self.count = 0;
     }
 
     /// How many gaps are closed.
     #[cfg(test)]
     pub(crate) fn count(&self) -> usize {
-        self.stations.len()
+        self.found.iter().filter(|found| found.closed).count()
     }
 
     /// The contact at a station, or `None` where the gap is open.
     #[inline(always)]
     pub fn get(&self, station: usize) -> Option<Touch> {
         let place = self.places.get(station)?.checked_sub(1)?;
-        Some(self.touches[place / 8].lane(place % 8))
+        self.found[place]
+            .closed
+            .then(|| self.touches[place / 8].lane(place % 8))
     }
 
     /// Touching stations with their contacts.
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = (usize, Touch)> + '_ {
+        self.among(|_| true)
+    }
+
+    /// Those of them that are `wanted`.
+    #[inline(always)]
+    pub(crate) fn among(&self, wanted: impl Fn(usize) -> bool) -> impl Iterator<Item = (usize, Touch)> {
         let touch = |place: usize| self.touches[place / 8].lane(place % 8);
-        self.stations
-            .iter()
-            .enumerate()
-            .map(move |(place, &station)| (station, touch(place)))
+        let found = self.found.iter().enumerate();
+        found
+            .filter(move |(_, found)| found.closed && wanted(found.station))
+            .map(move |(place, found)| (found.station, touch(place)))
     }
 }

@@ -191,6 +191,27 @@ impl Touch<Lane> {
             friction_by: [two(&self.friction_by[0]), two(&self.friction_by[1])],
         }
     }
+
+    /// Writes the touch in a lane.
+    #[inline(always)]
+    fn put(&mut self, k: usize, from: &Touch) {
+        let two = |x: &mut [Lane; 2], from: &[f64; 2]| (x[0][k], x[1][k]) = (from[0], from[1]);
+        self.normal[k] = from.normal;
+        self.tangential[k] = from.tangential;
+        self.axial[k] = from.axial;
+        self.energy[k] = from.energy;
+        self.dissipation[k] = from.dissipation;
+        self.friction_power[k] = from.friction_power;
+        two(&mut self.direction, &from.direction);
+        self.curvature[k] = from.curvature;
+        for (x, from) in self.normal_by.iter_mut().zip(&from.normal_by) {
+            x[k] = *from;
+        }
+        two(&mut self.sliding_by, &from.sliding_by);
+        for (x, from) in self.friction_by.iter_mut().zip(&from.friction_by) {
+            two(x, from);
+        }
+    }
 }
 
 impl<N: Number> Touch<N> {

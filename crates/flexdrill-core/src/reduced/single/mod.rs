@@ -7,9 +7,11 @@
 mod block;
 
 use super::operator::Operator;
-use super::tangent::{Additions, Crossing};
-use super::{Link, MULTIPLIER, NODE};
+use super::reach::Window;
+use super::tangent::Additions;
+use super::{GUIDE, Link, MULTIPLIER, NODE};
 use crate::dynamics::joints::JointTangent;
+use crate::linear::Touching;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
@@ -19,6 +21,8 @@ use block::{Inverse, ONLY, begin, eliminate, eliminate_last};
 
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
+/// Part of the limit on a residual below which what a window leaves out above it is small.
+const LEFT_OUT: f32 = 0.2;
 /// Largest square of a multiplier.
 const LARGEST_SQUARE: f32 = 1e6;
 
@@ -104,6 +108,10 @@ pub(super) struct SingleElimination<'a> {
     pub additions: &'a Additions<f32>,
     pub links: &'a [Link],
     pub rows: &'a [Option<[f64; NODE]>],
+    /// What is solved for. How far up each moves the tool is put down there; the rest does not move.
+    pub windows: &'a mut [Window],
+    /// One over the limits of the residual.
+    pub weights: &'a [f64],
     /// The right-hand side, which becomes the solution.
     pub values: &'a mut [f64],
 }
@@ -151,18 +159,25 @@ impl SingleElimination<'_> {
     /// Node `k` without what comes from above, its early pairs taken out of all but the last: into `a` and its columns.
     /// Gives the inverse of their pivots and the squares of the multipliers.
     #[inline(always)]
-    fn begin<S: Single>(&mut self, k: usize, a: &mut [Column; NODE]) -> (Inverse<S>, S) {
+    fn begin<S: Single>(&mut self, k: usize, last: bool, a: &mut [Column; NODE]) -> (Inverse<S>, S) {
         let single = &self.operator.single;
         let zero = S::splat(0.0);
         let mut inverse = Inverse { own: zero, mate: zero };
         let constant = &single.blocks[self.operator.block_of[k]];
-        if self.additions.touched[k] {
-            for ((to, from), added) in a.iter_mut().zip(constant.iter()).zip(self.additions.blocks[k].iter()) {
+        let touching = self.additions.nodes[k];
+        let added = &self.additions.blocks[k];
+        if touching == Touching::Both {
+            for ((to, from), added) in a.iter_mut().zip(constant.iter()).zip(added.iter()) {
                 S::load(from).plus(S::load(added)).store(to);
             }
         } else {
             for (to, from) in a.iter_mut().zip(constant.iter()) {
                 S::load(from).store(to);
+            }
+            if touching == Touching::Guide {
+                for (to, added) in a[GUIDE..MULTIPLIER].iter_mut().zip(&added[GUIDE..]) {
+                    S::load(to).plus(S::load(added)).store(to);
+                }
             }
         }
         if let Some(joint) = k.checked_sub(1).and_then(|joint| self.sweep.joints.get(joint)) {
@@ -183,15 +198,15 @@ impl SingleElimination<'_> {
         }
         let b = &mut self.sweep.columns[k];
         right.store(&mut b[12]);
-        if k + 1 == self.rows.len() {
+        if last {
             return (inverse, zero);
         }
-        let (crossing, upper) = (self.additions.crossing[k], &single.upper[self.links[k].kind]);
+        let (touching, upper) = (self.additions.spans[k], &single.upper[self.links[k].kind]);
         for (to, from) in b.iter_mut().zip(upper.iter()) {
             S::load(from).store(to);
         }
-        if crossing != Crossing::Nothing {
-            let first = if crossing == Crossing::Guide { 6 } else { 0 };
+        if touching != Touching::Nothing {
+            let first = if touching == Touching::Guide { 6 } else { 0 };
             let added = &self.additions.couplings[k].upper;
             for (to, from) in b[first..12].iter_mut().zip(&added[first..]) {
                 S::load(to).plus(S::load(from)).store(to);
@@ -203,7 +218,7 @@ impl SingleElimination<'_> {
                 S::load(column).times(keep).store(column);
             }
         }
-        let squares = if crossing == Crossing::Both {
+        let squares = if touching == Touching::Both {
             begin::<S, true>(a, b, &mut inverse)
         } else {
             begin::<S, false>(a, b, &mut inverse)
@@ -215,12 +230,12 @@ impl SingleElimination<'_> {
     #[inline(always)]
     fn carry<S: Single>(&self, k: usize, carry: &mut [Column; COLUMNS]) {
         let (single, kind) = (&self.operator.single, self.links[k].kind);
-        let crossing = self.additions.crossing[k];
+        let touching = self.additions.spans[k];
         let added = &self.additions.couplings[k].lower;
         let b = &self.sweep.columns[k];
         let keep = self.rows[k + 1].as_ref().map(|rows| S::round(rows));
         let zero = S::splat(0.0);
-        if crossing == Crossing::Both {
+        if touching == Touching::Both {
             let mut lower = [zero; 12];
             for (c, lower) in lower.iter_mut().enumerate() {
                 *lower = S::load(&single.lower[kind][c]).plus(S::load(&added[c]));
@@ -234,7 +249,7 @@ impl SingleElimination<'_> {
         let mut lower = [zero; 6];
         for (c, lower) in lower.iter_mut().enumerate() {
             *lower = S::load(&single.lower_joined[kind][c]);
-            if crossing == Crossing::Guide {
+            if touching == Touching::Guide {
                 *lower = lower.plus(S::load(&added[6 + c]));
             }
             if let Some(keep) = keep {
@@ -283,67 +298,117 @@ fn take_carry<S: Single>(
 
 #[inline(always)]
 fn run<S: Single>(mut by: SingleElimination<'_>) -> bool {
-    let nodes = by.rows.len();
-    let zero = S::splat(0.0);
-    let mut carry = Aligned([[0.0; NODE]; COLUMNS]);
-    let mut blocks = by.sweep.blocks;
-    let (mut inverse, mut squares) = by.begin::<S>(0, &mut blocks[0]);
-    for k in 0..nodes {
-        let last = k + 1 == nodes;
-        let rows = by.rows[k].as_ref();
-        let after = if last {
-            (inverse, zero)
-        } else {
-            // The next node's early pairs wait for nothing, and fill the gaps that this node's leave.
-            by.begin::<S>(k + 1, &mut blocks[(k + 1) % 2])
+    for w in 0..by.windows.len() {
+        let window = by.windows[w];
+        let Some(top) = by.window::<S>(window) else {
+            return false;
         };
-        let (a, b) = (&mut blocks[k % 2], &mut by.sweep.columns[k]);
-        if k > 0 {
-            take_carry::<S>(a, &mut b[12], &carry, rows);
-        }
-        let largest = if last {
-            eliminate_last::<S>(a, &mut b[12])
-        } else if by.additions.crossing[k] == Crossing::Both {
-            eliminate::<S, true>(a, b, inverse)
-        } else {
-            eliminate::<S, false>(a, b, inverse)
-        };
-        squares = squares.largest(largest).largest(after.1);
-        inverse = after.0;
-        if !last {
-            by.carry::<S>(k, &mut carry);
-        }
-    }
-    let SingleElimination { sweep, values, .. } = by;
-    let (values, _) = values.as_chunks_mut::<NODE>();
-    let mut lanes = Aligned([0.0; NODE]);
-    squares.store(&mut lanes);
-    // What is not a number anywhere is carried down to the last node.
-    let last = &sweep.columns[nodes - 1][12];
-    if !(lanes.iter().all(|square| *square < LARGEST_SQUARE) && last.iter().all(|x| x.is_finite())) {
-        return false;
-    }
-    let mut next = S::load(&sweep.columns[nodes - 1][12]);
-    put(next, &mut values[nodes - 1]);
-    for k in (0..nodes - 1).rev() {
-        let b = &sweep.columns[k];
-        let (mut even, mut odd) = (S::load(&b[12]), zero);
-        even = even.minus_product(S::load(&b[0]), next.spread::<0>());
-        odd = odd.minus_product(S::load(&b[1]), next.spread::<1>());
-        even = even.minus_product(S::load(&b[2]), next.spread::<2>());
-        odd = odd.minus_product(S::load(&b[3]), next.spread::<3>());
-        even = even.minus_product(S::load(&b[4]), next.spread::<4>());
-        odd = odd.minus_product(S::load(&b[5]), next.spread::<5>());
-        even = even.minus_product(S::load(&b[6]), next.spread::<9>());
-        odd = odd.minus_product(S::load(&b[7]), next.spread::<10>());
-        even = even.minus_product(S::load(&b[8]), next.spread::<11>());
-        odd = odd.minus_product(S::load(&b[9]), next.spread::<12>());
-        even = even.minus_product(S::load(&b[10]), next.spread::<13>());
-        odd = odd.minus_product(S::load(&b[11]), next.spread::<14>());
-        next = even.plus(odd);
-        put(next, &mut values[k]);
+        by.windows[w].top = by.above::<S>(window.first, top);
     }
     true
+}
+
+impl SingleElimination<'_> {
+    /// Solves for a window, of which the first node's solution is given; `None` if a pivot would not do.
+    #[inline(always)]
+    fn window<S: Single>(&mut self, window: Window) -> Option<S> {
+        let zero = S::splat(0.0);
+        let mut carry = Aligned([[0.0; NODE]; COLUMNS]);
+        if let Some(above) = window.first.checked_sub(1) {
+            // What is above was eliminated by an earlier correction, and is in balance now.
+            self.sweep.columns[above][12] = [0.0; NODE];
+            self.carry::<S>(above, &mut carry);
+        }
+        let mut blocks = self.sweep.blocks;
+        let only = window.first == window.last;
+        let (mut inverse, mut squares) = self.begin::<S>(window.first, only, &mut blocks[window.first % 2]);
+        for k in window.first..=window.last {
+            let last = k == window.last;
+            let rows = self.rows[k].as_ref();
+            let after = if last {
+                (inverse, zero)
+            } else {
+                // The next node's early pairs wait for nothing, and fill the gaps that this node's leave.
+                self.begin::<S>(k + 1, k + 1 == window.last, &mut blocks[(k + 1) % 2])
+            };
+            let (a, b) = (&mut blocks[k % 2], &mut self.sweep.columns[k]);
+            if k > 0 {
+                take_carry::<S>(a, &mut b[12], &carry, rows);
+            }
+            let largest = if last {
+                eliminate_last::<S>(a, &mut b[12])
+            } else if self.additions.spans[k] == Touching::Both {
+                eliminate::<S, true>(a, b, inverse)
+            } else {
+                eliminate::<S, false>(a, b, inverse)
+            };
+            squares = squares.largest(largest).largest(after.1);
+            inverse = after.0;
+            if !last {
+                self.carry::<S>(k, &mut carry);
+            }
+        }
+        let (values, _) = self.values.as_chunks_mut::<NODE>();
+        let mut lanes = Aligned([0.0; NODE]);
+        squares.store(&mut lanes);
+        // What is not a number anywhere is carried down to the last node.
+        let last = &self.sweep.columns[window.last][12];
+        if !(lanes.iter().all(|square| *square < LARGEST_SQUARE) && last.iter().all(|x| x.is_finite())) {
+            return None;
+        }
+        let mut next = S::load(last);
+        put(next, &mut values[window.last]);
+        for k in (window.first..window.last).rev() {
+            let columns = &self.sweep.columns[k];
+            next = above(S::load(&columns[12]), &columns[..12], next);
+            put(next, &mut values[k]);
+        }
+        Some(next)
+    }
+
+    /// Moves the nodes above node `k` as they follow its solution `x`, as long as the force that would be left out is not
+    /// small. Gives the first that moves.
+    #[inline(always)]
+    fn above<S: Single>(&mut self, mut k: usize, mut x: S) -> usize {
+        while let Some(next) = k.checked_sub(1) {
+            let upper = &self.operator.single.upper[self.links[next].kind];
+            let (weights, _) = self.weights.as_chunks::<NODE>();
+            let force = above(S::splat(0.0), &upper[..], x).times(S::round(&weights[next]));
+            let mut lanes = Aligned([0.0_f32; NODE]);
+            force.store(&mut lanes);
+            if !lanes.iter().any(|force| force.abs() > LEFT_OUT) {
+                break;
+            }
+            x = above(S::splat(0.0), &self.sweep.columns[next][..12], x);
+            x.store(&mut lanes);
+            // It may be another window's.
+            let (values, _) = self.values.as_chunks_mut::<NODE>();
+            for (to, from) in values[next].iter_mut().zip(*lanes) {
+                *to += f64::from(from);
+            }
+            k = next;
+        }
+        k
+    }
+}
+
+/// Less the twelve columns of the coupling times what the node below does.
+#[inline(always)]
+fn above<S: Single>(from: S, b: &[Column], x: S) -> S {
+    let (mut even, mut odd) = (from, S::splat(0.0));
+    even = even.minus_product(S::load(&b[0]), x.spread::<0>());
+    odd = odd.minus_product(S::load(&b[1]), x.spread::<1>());
+    even = even.minus_product(S::load(&b[2]), x.spread::<2>());
+    odd = odd.minus_product(S::load(&b[3]), x.spread::<3>());
+    even = even.minus_product(S::load(&b[4]), x.spread::<4>());
+    odd = odd.minus_product(S::load(&b[5]), x.spread::<5>());
+    even = even.minus_product(S::load(&b[6]), x.spread::<9>());
+    odd = odd.minus_product(S::load(&b[7]), x.spread::<10>());
+    even = even.minus_product(S::load(&b[8]), x.spread::<11>());
+    odd = odd.minus_product(S::load(&b[9]), x.spread::<12>());
+    even = even.minus_product(S::load(&b[10]), x.spread::<13>());
+    odd = odd.minus_product(S::load(&b[11]), x.spread::<14>());
+    even.plus(odd)
 }
 
 /// Writes a solution in double.

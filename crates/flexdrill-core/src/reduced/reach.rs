@@ -1,0 +1,161 @@
+//! What a correction reaches: the whole tool, or windows around the nodes that are out of balance.
+//!
+//! After two corrections most of a tool is in balance, and a few joints that have just opened or shut are not. These are
+//! linearised and solved for with the nodes below them, and only what moves is evaluated anew; the rest of the residual
+//! stays as it is. Above a window the elimination is that of earlier corrections; what it says of the nodes there is
+//! followed upward as far as it matters. Below a window nothing moves. What is left out so shows in the residual, by
+//! which a step is judged as ever.
+
+use super::NODE;
+
+/// Corrections of the whole tool, after which windows do.
+pub(super) const WHOLE_CORRECTIONS: u32 = 2;
+/// Nodes below one that is out of balance that are solved for with it.
+const BELOW: usize = 4;
+
+/// A run of nodes that are solved for together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Window {
+    /// First and last node that are linearised and eliminated.
+    pub first: usize,
+    pub last: usize,
+    /// First node that moves.
+    pub top: usize,
+}
+
+/// What the present correction reaches.
+#[derive(Debug)]
+pub(super) struct Reach {
+    /// Whether it is the whole tool.
+    pub whole: bool,
+    /// From the top down; no two touch.
+    pub windows: Vec<Window>,
+    /// Nodes that are linearised.
+    pub nodes: Vec<bool>,
+    /// Spans with an end that is linearised or, once solved for, moves.
+    pub spans: Vec<bool>,
+    /// Nodes whose residual changes.
+    pub felt: Vec<bool>,
+}
+
+impl Reach {
+    pub(super) fn new(nodes: usize) -> Self {
+        let mut reach = Self {
+            whole: false,
+            windows: Vec::with_capacity(nodes),
+            nodes: vec![true; nodes],
+            spans: vec![true; nodes - 1],
+            felt: vec![true; nodes],
+        };
+        reach.set_whole();
+        reach
+    }
+
+    /// The whole tool.
+    pub(super) fn set_whole(&mut self) {
+        if self.whole {
+            return;
+        }
+        self.whole = true;
+        self.windows.clear();
+        self.windows.push(Window {
+            first: 0,
+            last: self.nodes.len() - 1,
+            top: 0,
+        });
+        self.nodes.fill(true);
+        self.spans.fill(true);
+        self.felt.fill(true);
+    }
+
+    /// Windows around the nodes that are out of balance, `weights` being one over the limits of `residual`.
+    pub(super) fn set_windows(&mut self, residual: &[f64], weights: &[f64]) {
+        self.whole = false;
+        self.windows.clear();
+        let bottom = self.nodes.len() - 1;
+        let ((residual, _), (weights, _)) = (residual.as_chunks::<NODE>(), weights.as_chunks::<NODE>());
+        for (first, (residual, weights)) in residual.iter().zip(weights).enumerate() {
+            let mut balanced = true;
+            for (r, w) in residual.iter().zip(weights) {
+                balanced &= r.abs() * w <= 1.0;
+            }
+            if balanced {
+                continue;
+            }
+            let last = (first + BELOW).min(bottom);
+            match self.windows.last_mut() {
+                Some(above) if first <= above.last + 1 => above.last = last,
+                _ => self.windows.push(Window {
+                    first,
+                    last,
+                    top: first,
+                }),
+            }
+        }
+        self.nodes.fill(false);
+        self.spans.fill(false);
+        for window in &self.windows {
+            self.nodes[window.first..=window.last].fill(true);
+            self.spans[window.first.saturating_sub(1)..(window.last + 1).min(bottom)].fill(true);
+        }
+    }
+
+    /// Marks what the solution moves.
+    pub(super) fn moved(&mut self) {
+        if self.whole {
+            return;
+        }
+        let bottom = self.nodes.len() - 1;
+        self.spans.fill(false);
+        self.felt.fill(false);
+        for window in &self.windows {
+            let (above, below) = (window.top.saturating_sub(1), (window.last + 1).min(bottom));
+            self.spans[above..below].fill(true);
+            self.felt[above..=below].fill(true);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Marks of the nodes in ranges.
+    fn marks(nodes: usize, ranges: &[std::ops::Range<usize>]) -> Vec<bool> {
+        (0..nodes)
+            .map(|k| ranges.iter().any(|range| range.contains(&k)))
+            .collect()
+    }
+
+    #[test]
+    fn windows_lie_around_what_is_out_of_balance() {
+        let mut residual = vec![0.5; NODE * 30];
+        let weights = vec![1.0; NODE * 30];
+        // Two that meet, one by itself, one at the bottom.
+        for (node, value) in [(3, 2.0), (8, -2.0), (15, 1.1), (28, f64::NAN)] {
+            residual[NODE * node + node % NODE] = value;
+        }
+        let mut reach = Reach::new(30);
+        assert!(reach.whole);
+        reach.set_windows(&residual, &weights);
+        let ends: Vec<_> = reach.windows.iter().map(|window| (window.first, window.last)).collect();
+        assert_eq!(ends, [(3, 12), (15, 19), (28, 29)]);
+        assert_eq!(reach.nodes, marks(30, &[3..13, 15..20, 28..30]));
+        assert_eq!(reach.spans, marks(29, &[2..13, 14..20, 27..29]));
+        // The second one moves up into the first.
+        reach.windows[1].top = 11;
+        reach.moved();
+        assert_eq!(reach.spans, marks(29, &[2..20, 27..29]));
+        assert_eq!(reach.felt, marks(30, &[2..21, 27..30]));
+        reach.set_whole();
+        assert_eq!(reach.windows.len(), 1);
+        assert!(
+            reach
+                .nodes
+                .iter()
+                .chain(&reach.spans)
+                .chain(&reach.felt)
+                .all(|&mark| mark)
+        );
+    }
+}
