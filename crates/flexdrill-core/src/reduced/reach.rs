@@ -11,7 +11,7 @@ use super::NODE;
 /// Corrections of the whole tool, after which windows do.
 pub(super) const WHOLE_CORRECTIONS: u32 = 2;
 /// Nodes below one that is out of balance that are solved for with it.
-const BELOW: usize = 4;
+const BELOW: usize = 6;
 
 /// A run of nodes that are solved for together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,21 +132,21 @@ mod tests {
         let mut residual = vec![0.5; NODE * 30];
         let weights = vec![1.0; NODE * 30];
         // Two that meet, one by itself, one at the bottom.
-        for (node, value) in [(3, 2.0), (8, -2.0), (15, 1.1), (28, f64::NAN)] {
+        for (node, value) in [(2, 2.0), (7, -2.0), (16, 1.1), (28, f64::NAN)] {
             residual[NODE * node + node % NODE] = value;
         }
         let mut reach = Reach::new(30);
         assert!(reach.whole);
         reach.set_windows(&residual, &weights);
         let ends: Vec<_> = reach.windows.iter().map(|window| (window.first, window.last)).collect();
-        assert_eq!(ends, [(3, 12), (15, 19), (28, 29)]);
-        assert_eq!(reach.nodes, marks(30, &[3..13, 15..20, 28..30]));
-        assert_eq!(reach.spans, marks(29, &[2..13, 14..20, 27..29]));
+        assert_eq!(ends, [(2, 13), (16, 22), (28, 29)]);
+        assert_eq!(reach.nodes, marks(30, &[2..14, 16..23, 28..30]));
+        assert_eq!(reach.spans, marks(29, &[1..14, 15..23, 27..29]));
         // The second one moves up into the first.
         reach.windows[1].top = 11;
         reach.moved();
-        assert_eq!(reach.spans, marks(29, &[2..20, 27..29]));
-        assert_eq!(reach.felt, marks(30, &[2..21, 27..30]));
+        assert_eq!(reach.spans, marks(29, &[1..23, 27..29]));
+        assert_eq!(reach.felt, marks(30, &[1..24, 27..30]));
         reach.set_whole();
         assert_eq!(reach.windows.len(), 1);
         assert!(

@@ -448,7 +448,9 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
         reduced.residual.copy_from_slice(&residual);
         reduced.foreseen_part = 0.0;
         let mut weights = vec![0.0; residual.len()];
-        [12, 30].map(|node| weights[NODE * node..NODE * (node + 1)].fill(1.0));
+        for node in [12, 28] {
+            weights[NODE * node..NODE * (node + 1)].fill(1.0);
+        }
         reduced.reach.set_windows(&residual, &weights);
         assert!(reduced.solve_in_single(&mut assembler, &model, &state, by));
         assert_eq!(reduced.reach.windows.len(), 2);

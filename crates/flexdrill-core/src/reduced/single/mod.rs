@@ -21,8 +21,8 @@ use block::{Inverse, ONLY, begin, eliminate, eliminate_last};
 
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
-/// Part of the limit on a residual below which what a window leaves out above it is small.
-const LEFT_OUT: f32 = 0.2;
+/// Part of the limit on a residual that a window may leave out above it.
+const LEFT_OUT: f32 = 0.5;
 /// Largest square of a multiplier.
 const LARGEST_SQUARE: f32 = 1e6;
 
