@@ -313,16 +313,15 @@ fn table(run: &ToolRun) -> String {
 fn the_tool_whirls_forward_with_little_friction_and_no_level_rises() {
     let run = tool_run(40.0, 0.2);
     println!("friction 0.2, 40 r/min: {}", table(&run));
-    let steady: Vec<&Watched> = run.places.iter().filter(|place| place.forward > 0.95).collect();
-    assert!(steady.len() >= 5, "{}", table(&run));
+    // Towards the ends the pipe swings beside the gap's centre, and turns about its mean are none about the centre.
+    let third = run.places.len() / 3;
+    let middle = &run.places[third..2 * third];
+    let steady: Vec<&Watched> = middle.iter().filter(|place| place.forward > 0.95).collect();
+    assert!(4 * steady.len() >= 3 * middle.len(), "{}", table(&run));
     // In ten seconds of a motion that bounces now and then the mean of the window's ratios is not quite its turns.
+    let agree = |place: &&&Watched| (place.ratio - place.counted).abs() < 0.3;
     assert!(
-        steady
-            .iter()
-            .filter(|place| (place.ratio - place.counted).abs() < 0.3)
-            .count()
-            * 4
-            >= steady.len() * 3,
+        4 * steady.iter().filter(agree).count() >= 3 * steady.len(),
         "{}",
         table(&run)
     );
