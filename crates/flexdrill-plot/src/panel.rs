@@ -14,7 +14,7 @@ pub struct Line {
 }
 
 /// Width of a bar in x.
-pub const BAR: f64 = 0.27;
+pub const BAR: f64 = 0.16;
 
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
