@@ -7,7 +7,8 @@ use flexdrill_config::Config;
 
 /// Sizes of the tool: from a quarter of the paper's to four times it.
 const LINKS: [usize; 5] = [8, 16, 33, 66, 132];
-/// Runs of each, in turn: a machine's speed varies from minute to minute by more than what is measured. The fastest counts.
+/// Runs of each, in turn: a machine's speed varies from minute to minute by more than what is measured. The fastest
+/// counts.
 const ROUNDS: u32 = 5;
 
 /// Runs all sizes; gives the table and the fit.

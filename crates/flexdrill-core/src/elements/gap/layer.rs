@@ -71,8 +71,8 @@ impl Layer {
         }
     }
 
-    /// Adds the closed gap of a station with its motion, velocity in six lanes, see [`GapLaw::touch`]; what touches is known after
-    /// [`Layer::finish`].
+    /// Adds the closed gap of a station with its motion, the velocity in six lanes, see [`GapLaw::touch`]; what touches is
+    /// known after [`Layer::finish`].
     #[inline(always)]
     pub(crate) fn push<V: Vector>(
         &mut self,
