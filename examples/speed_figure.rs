@@ -6,7 +6,7 @@
 //! real-time` of that commit printed.
 
 use anyhow::{Context as _, ensure};
-use flexdrill_plot::{BAR, Figure, Line, Panel, svg};
+use flexdrill_plot::{Figure, Line, Panel, svg};
 
 /// A measured factor.
 #[derive(serde::Deserialize)]
@@ -47,11 +47,10 @@ fn main() -> anyhow::Result<()> {
     )
     .named(cases.iter().map(|case| (*case).to_owned()).collect())
     .from_zero();
-    let middle = 0.5 * (versions.len() as f64 - 1.0);
-    for (v, version) in versions.iter().enumerate() {
+    for version in &versions {
         let points = rows.iter().filter(|row| row.version == *version).filter_map(|row| {
             let case = cases.iter().position(|case| *case == row.case)? as f64;
-            Some((case + (v as f64 - middle) * (BAR + 0.03), row.factor))
+            Some((case, row.factor))
         });
         panel = panel.line(Line::new(*version, points.collect()).bars());
     }

@@ -10,7 +10,7 @@ use plotters::prelude::*;
 use plotters::style::register_font;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::panel::{BAR, Figure, Legend, Line, Mark, Panel};
+use super::panel::{Figure, Legend, Line, Mark, Panel};
 
 /// Units of the drawing per unit of its stated size.
 pub(crate) const SCALE: u32 = 4;
@@ -186,12 +186,17 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
                 chart.draw_series(std::iter::once(Polygon::new(corners, color.filled())))?;
             }
             Mark::Bars => {
-                let half = 0.5 * BAR;
+                let bars = |lines: &[Line]| lines.iter().filter(|line| line.mark == Mark::Bars).count() as f64;
+                let (place, count) = (bars(&panel.lines[..index]), bars(&panel.lines));
+                // A tenth of the unit is left between groups, a tenth of each bar's share between bars.
+                let share = 0.9 / count;
+                let (aside, half) = ((place - 0.5 * (count - 1.0)) * share, 0.45 * share);
+                let beside = || points().map(|(x, y)| (x + aside, y));
                 chart.draw_series(
-                    points().map(|(x, y)| Rectangle::new([(x - half, 0.0), (x + half, y)], color.filled())),
+                    beside().map(|(x, y)| Rectangle::new([(x - half, 0.0), (x + half, y)], color.filled())),
                 )?;
                 let value = font(TEXT - 2).pos(Pos::new(HPos::Center, VPos::Bottom));
-                chart.draw_series(points().map(|(x, y)| Text::new(format!("{y:.1}"), (x, y), value.clone())))?;
+                chart.draw_series(beside().map(|(x, y)| Text::new(format!("{y:.1}"), (x, y), value.clone())))?;
             }
             Mark::Dots => {
                 chart.draw_series(points().map(|at| Circle::new(at, 3 * SCALE, color.filled())))?;
@@ -279,6 +284,9 @@ fn ranges(panel: &Panel, aspect: f64) -> ([f64; 2], [f64; 2]) {
             })
     };
     let mut x = panel.x_range.unwrap_or_else(|| range(&mut points().map(|p| p.0)));
+    if panel.x_range.is_none() && panel.lines.iter().any(|line| line.mark == Mark::Bars) {
+        x = [x[0] - 0.5, x[1] + 0.5];
+    }
     let mut y = range(&mut points().map(|p| p.1));
     for range in [&mut x, &mut y] {
         if range[0] > range[1] {

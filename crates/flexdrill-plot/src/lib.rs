@@ -7,6 +7,6 @@ mod panel;
 mod png;
 
 pub use draw::{DrawError, svg};
-pub use panel::{BAR, Figure, Legend, Line, Mark, Panel, csv};
+pub use panel::{Figure, Legend, Line, Mark, Panel, csv};
 #[cfg(feature = "png")]
 pub use png::png;

@@ -13,9 +13,6 @@ pub struct Line {
     pub color: Option<usize>,
 }
 
-/// Width of a bar in x.
-pub const BAR: f64 = 0.16;
-
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Mark {
@@ -34,7 +31,7 @@ pub enum Mark {
     Diamond,
     /// What the points enclose, pale.
     Area,
-    /// A bar from zero per point, [`BAR`] wide, with its value.
+    /// A bar from zero per point, with its value. Bars of several lines at one x stand side by side in its unit of x.
     Bars,
 }
 
