@@ -10,7 +10,7 @@ usage: launch_scripts/demo.sh [options] [LOG]
   LOG             a rig log (CSV) to play; default: the generated log in config/field_logs/
   --mapping FILE  how the log's columns are read; default: config/field_logs/rig_1hz.yaml
   --from S, --to S  play only this part of the log (seconds from its start)
-  --config FILE   configuration of the twin; default: the finest shipped one that holds real time on this machine
+  --config FILE   configuration of the twin; default: config/default.yaml
   --record FILE   record a bag meanwhile
   --seconds N     end after N seconds of viewing (for CI)
   --plain         print lines instead of a full screen
@@ -89,32 +89,7 @@ start_node() {
     node_pid=$!
 }
 
-# Mean real-time factor that the twin reports over the last five of eight seconds, or nothing when it does not answer.
-real_time_factor() {
-    "$flexdrill" watch --once --duration 60 >/dev/null 2>&1 || return 0
-    "$flexdrill" watch --plain --duration 8.5 --interval 1 2>/dev/null |
-        sed -n 's/^pace  *x\([0-9.]*\) real time.*/\1/p' | tail -n 5 |
-        awk '{ sum += $1 } END { if (NR > 0) printf "%.3f", sum / NR }'
-}
-
-if [ -z "$config" ]; then
-    # The twin says of itself whether it keeps up: let it drill at the paper's 40 r/min and 10 kN for a while and ask.
-    for candidate in config/default.yaml config/coarse.yaml; do
-        say "trying $candidate for some seconds: does it hold real time on this machine?"
-        start_node "$root/$candidate" --ros-args \
-            -p inputs.rotary_speed.initial_rpm:=40.0 -p inputs.weight_on_bit.initial_kn:=10.0
-        factor=$(real_time_factor)
-        end "$node_pid"
-        node_pid=""
-        [ -n "$factor" ] || fail "the twin did not answer with $candidate"
-        say "$candidate runs at x$factor of real time"
-        config=$root/$candidate
-        if awk -v f="$factor" 'BEGIN { exit !(f >= 0.98) }'; then break; fi
-    done
-    awk -v f="$factor" 'BEGIN { exit !(f >= 0.98) }' ||
-        say "no shipped configuration holds real time here: the twin will be right but late, and says so"
-fi
-
+config=${config:-$root/config/default.yaml}
 say "starting the twin: $config"
 start_node "$config" ${node_options[@]+"${node_options[@]}"}
 if [ -z "$steer" ]; then

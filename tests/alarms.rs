@@ -11,6 +11,7 @@ use std::process::Command;
 use std::sync::Arc;
 
 use flexdrill::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use flexdrill::bag::{Losses, Problem};
 use flexdrill::dds::port::Health;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
@@ -24,6 +25,7 @@ use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_realtime::link::RunState;
+use flexdrill_realtime::{Pace, PaceReading};
 
 const SECOND: i64 = 1_000_000_000;
 
@@ -315,11 +317,20 @@ fn inputs_pace_and_recording_call_too() {
             drivers: Default::default(),
             run_state: RunState::Running,
             failure: None,
-            real_time_factor: Some(0.85),
+            pace: PaceReading {
+                level: Pace::FarBehind,
+                factor: Some(0.85),
+            },
             recording: Some(RecordingState {
-                error: Some("no space left".to_owned()),
+                error: Some(Problem {
+                    text: "no space left".to_owned(),
+                    cause: "The disk is full.",
+                }),
                 notice: None,
-                drops: 3,
+                losses: Losses {
+                    unwritten: 3,
+                    ..Losses::default()
+                },
             }),
             dds: Health::default(),
         };
@@ -367,7 +378,7 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
                 now: tenth as f64 * 0.1,
                 run_state: RunState::Running,
                 failure: None,
-                real_time_factor: Some(1.0),
+                pace: PaceReading::default(),
                 recording: Some(recording(tenth)),
                 dds: Health::default(),
                 drivers: Default::default(),
@@ -376,24 +387,32 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
         }
         let (_, list) = publish(&mut book, 4);
         let alarm = find(&list.unwrap(), "recording").clone();
-        (alarm.priority, alarm.evidence)
+        (alarm.priority, alarm.evidence, alarm.cause)
     };
     let good = RecordingState::default();
     assert_eq!(calls(&|_| good.clone()).0, Alarm::NO_PRIORITY);
     let lost = |tenth| RecordingState {
-        drops: if tenth < 5 { 0 } else { 7 },
+        losses: Losses {
+            flooded: if tenth < 5 { 0 } else { 7 },
+            ..Losses::default()
+        },
         ..RecordingState::default()
     };
-    let (priority, evidence) = calls(&lost);
+    let (priority, evidence, cause) = calls(&lost);
     assert_eq!(priority, Alarm::LOW);
     assert!(evidence.contains("7 messages"), "{evidence}");
+    assert!(cause.contains("7 came faster") && !cause.contains("disk"), "{cause}");
     let over = |_| RecordingState {
-        notice: Some("its folder was removed".to_owned()),
+        notice: Some(Problem {
+            text: "its folder was removed".to_owned(),
+            cause: "The recording's file or its folder was removed, moved or replaced.",
+        }),
         ..RecordingState::default()
     };
-    let (priority, evidence) = calls(&over);
+    let (priority, evidence, cause) = calls(&over);
     assert_eq!(priority, Alarm::MEDIUM);
     assert!(evidence.contains("its folder was removed"), "{evidence}");
+    assert!(cause.contains("removed") && !cause.contains("full"), "{cause}");
 }
 
 /// A replay of the small tool with levels so low that there are alarms; what it says.
@@ -499,7 +518,7 @@ fn two_drivers_call_with_who_they_are() {
             drivers: InputKind::ALL.map(|kind| drivers.summary(kind, now)),
             run_state: RunState::Running,
             failure: None,
-            real_time_factor: Some(1.0),
+            pace: PaceReading::default(),
             recording: None,
             dds: Health::default(),
         };
@@ -545,7 +564,7 @@ fn an_input_that_is_only_refused_is_stale_and_says_why() {
             drivers: Default::default(),
             run_state: RunState::Running,
             failure: None,
-            real_time_factor: Some(1.0),
+            pace: PaceReading::default(),
             recording: None,
             dds: Health::default(),
         };
@@ -566,4 +585,104 @@ fn an_input_that_is_only_refused_is_stale_and_says_why() {
             assert!(alarm.cause.contains("the limits are too narrow"), "{}", alarm.cause);
         }
     }
+}
+
+/// A rig is connected some time after the twin: until then a missing first sample is no alarm, and a missing second is.
+#[test]
+fn an_input_that_has_never_sent_calls_after_the_configured_time_only() {
+    let config = config();
+    let wait = config.alarms.first_sample_within;
+    let conditioner = Conditioner::new(config.inputs.rules());
+    let mut book = AlarmBook::fresh(config, 0);
+    let mut states = Vec::new();
+    for second in 0..=(wait as i64 + 10) {
+        let state = NodeState {
+            conditioner: &conditioner,
+            now: 1000.0 + second as f64,
+            drivers: Default::default(),
+            run_state: RunState::Running,
+            failure: None,
+            pace: PaceReading::default(),
+            recording: None,
+            dds: Health::default(),
+        };
+        book.observe_node(&state, second * SECOND);
+        let list = book.list(Header::default());
+        let found = ["rotary_speed_input", "weight_on_bit_input"].map(|id| find(&list, id).state);
+        assert_eq!(found[0], found[1]);
+        if states.last().is_none_or(|(_, state)| *state != found[0]) {
+            states.push((second as f64, found[0]));
+        }
+    }
+    let [
+        (0.0, Alarm::SUPPRESSED_BY_DESIGN),
+        (released, Alarm::NORMAL),
+        (called, Alarm::ACTIVE_UNACKNOWLEDGED),
+    ] = states[..]
+    else {
+        panic!("{states:?}");
+    };
+    // The alarm's own delay follows.
+    assert_eq!((released, called), (wait, wait + 2.0));
+}
+
+/// Whoever runs the computer and the driller are told apart by the alarm itself.
+#[test]
+fn a_matter_of_the_computer_is_for_whoever_runs_it_and_comes_after_the_drillers() {
+    let config = config();
+    let conditioner = Conditioner::new(config.inputs.rules());
+    let mut book = AlarmBook::fresh(config, 0);
+    for second in 0..10 {
+        let state = NodeState {
+            conditioner: &conditioner,
+            now: second as f64,
+            drivers: Default::default(),
+            run_state: RunState::Running,
+            failure: None,
+            pace: PaceReading {
+                level: Pace::FarBehind,
+                factor: Some(0.5),
+            },
+            recording: None,
+            dds: Health::default(),
+        };
+        book.observe_node(&state, second * SECOND);
+    }
+    show(&mut book, 10, 1, &snapshot(&[stick_slip()]));
+    let (events, list) = publish(&mut book, 11);
+    let list = list.unwrap();
+    let first: Vec<(&str, u8, u8)> = list.alarms[..2]
+        .iter()
+        .map(|alarm| (alarm.id.as_str(), alarm.category, alarm.priority))
+        .collect();
+    assert_eq!(
+        first,
+        [
+            ("stick_slip", Alarm::DRILLING, Alarm::LOW),
+            ("real_time", Alarm::SYSTEM, Alarm::MEDIUM)
+        ]
+    );
+    let called = events.iter().find(|event| event.id == "real_time").unwrap();
+    assert_eq!(called.category, Alarm::SYSTEM);
+    let alarm = &list.alarms[1];
+    for text in [&alarm.evidence, &alarm.cause, &alarm.consequence, &alarm.what_to_do] {
+        assert!(!text.contains("mesh") && !text.contains(".yaml"), "{text}");
+    }
+}
+
+#[test]
+fn a_state_of_an_earlier_run_is_marked_until_it_changes() {
+    let mut book = AlarmBook::fresh(config(), 0);
+    show(&mut book, 10, 1, &snapshot(&[rolling()]));
+    let before = book.list(Header::default());
+    let here = find(&before, "backward_whirl");
+    assert!(!here.from_earlier_run && here.since.to_nanoseconds() > 0);
+    let mut again = AlarmBook::new(config(), Some(&book.save()), 100 * SECOND).unwrap();
+    let list = again.list(Header::default());
+    assert!(find(&list, "backward_whirl").from_earlier_run);
+    assert_eq!(find(&list, "backward_whirl").since, here.since);
+    assert!(!find(&list, "shock").from_earlier_run, "it never changed");
+    again.request(&acknowledge("backward_whirl"), 101 * SECOND).unwrap();
+    let list = again.list(Header::default());
+    assert!(!find(&list, "backward_whirl").from_earlier_run);
 }

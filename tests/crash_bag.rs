@@ -238,3 +238,41 @@ fn the_subcommand_recovers_and_says_what_was_lost() {
     assert_eq!(again.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&again.stderr).contains("exists already"));
 }
+
+/// Small chunks that unpack to far more than they are: a file of some ten kilobytes must not take a gigabyte.
+#[test]
+fn a_file_whose_chunks_would_fill_memory_is_refused_in_words() {
+    const UNPACKED: usize = 4 << 20;
+    let packed = zstd::bulk::compress(&vec![0; UNPACKED], 19).unwrap();
+    let body = [
+        &[0; 16][..],
+        &(UNPACKED as u64).to_le_bytes(),
+        // No checksum.
+        &[0; 4],
+        &4_u32.to_le_bytes(),
+        b"zstd",
+        &(packed.len() as u64).to_le_bytes(),
+        &packed,
+    ]
+    .concat();
+    let chunk = [
+        &[mcap::records::op::CHUNK][..],
+        &(body.len() as u64).to_le_bytes(),
+        &body,
+    ]
+    .concat();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bomb.mcap");
+    let file = |chunks: usize| {
+        let bytes = [mcap::MAGIC, &chunk.repeat(chunks)].concat();
+        std::fs::write(&path, &bytes).unwrap();
+        bag::open(&path).map(|bag| bag.cuts().count())
+    };
+    // Two are small enough to be looked into.
+    assert_eq!(file(2).unwrap(), 1);
+    let error = file(250).unwrap_err().to_string();
+    assert!(std::fs::metadata(&path).unwrap().len() < 500_000);
+    for part in ["bomb.mcap", "byte", "unpack", "no recording compresses so well"] {
+        assert!(error.contains(part), "'{part}' is not in: {error}");
+    }
+}

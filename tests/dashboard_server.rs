@@ -415,6 +415,9 @@ fn a_recording_has_its_hour_its_incidents_and_no_steering() {
         "6",
         "--namespace",
         "/rig_7",
+        "--ros-args",
+        "-p",
+        "alarms.first_sample_within:=0.0",
     ]);
     assert_eq!(twin.end(), Some(0));
     let server = Server::start(&network, &["--bag", bag.to_str().unwrap()]);

@@ -398,6 +398,12 @@ fn a_managed_node_follows_its_transitions() {
         let request = json!({"transition": {"id": 0, "label": label}});
         peer.call("/flexdrill/change_state", "lifecycle_msgs/srv/ChangeState", request)["success"] == true
     };
+    let refused = peer.call("/flexdrill/pause", "std_srvs/srv/SetBool", json!({"data": false}));
+    let why = refused["message"].as_str().unwrap();
+    assert!(
+        refused["success"] == false && why.contains("unconfigured") && why.contains("activate"),
+        "{refused}"
+    );
     assert!(!change(&mut peer, "activate"), "there is no such way from unconfigured");
     assert!(change(&mut peer, "configure"));
     let possible = peer.call(
@@ -413,9 +419,10 @@ fn a_managed_node_follows_its_transitions() {
     assert!(change(&mut peer, "activate"));
     let state = peer.call("/flexdrill/get_state", "lifecycle_msgs/srv/GetState", json!({}));
     assert_eq!(state["current_state"]["label"], "active");
-    peer.status_with(STATUS.0, |status| {
+    let active = peer.status_with(STATUS.0, |status| {
         status["state"] == 1 && status["step_count"].as_u64() > Some(0)
     });
+    assert!(!is_slow(&active), "{active}");
     assert!(change(&mut peer, "deactivate"));
     peer.status_with(STATUS.0, |status| status["state"] == 2);
     assert!(change(&mut peer, "cleanup"));
@@ -425,6 +432,50 @@ fn a_managed_node_follows_its_transitions() {
     assert_eq!(goals, ["inactive", "active", "inactive", "unconfigured"]);
     assert!(change(&mut peer, "shutdown"));
     assert_eq!(twin.end(), Some(0));
+}
+
+/// Whether the status gives a factor that includes the time of a pause. In the first second there is none.
+fn is_slow(status: &Value) -> bool {
+    status["real_time_factor"].as_f64().is_some_and(|factor| factor < 0.5) || status["pace"].as_u64() > Some(1)
+}
+
+#[test]
+fn a_pause_is_no_lateness() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    peer.subscribe(STATUS.0, STATUS.1, "reliable");
+    peer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "reliable");
+    let before = peer.status_with(STATUS.0, |status| status["state"] == 1);
+    let pause = |peer: &mut common::Peer, pause: bool| {
+        let answer = peer.call("/flexdrill/pause", "std_srvs/srv/SetBool", json!({"data": pause}));
+        assert_eq!(answer["success"], true, "{answer}");
+    };
+    pause(&mut peer, true);
+    peer.status_with(STATUS.0, |status| status["state"] == 2);
+    std::thread::sleep(std::time::Duration::from_secs(3));
+    peer.take(STATUS.0, 100, 0.5);
+    peer.take("/diagnostics", 100, 0.0);
+    pause(&mut peer, false);
+    let first = peer.status_with(STATUS.0, |status| status["state"] == 1);
+    assert!(!is_slow(&first), "{first}");
+    let count = |status: &Value, key: &str| status[key].as_u64().unwrap();
+    let [skipped, stood] = ["steps_skipped", "steps_stood_still"].map(|key| count(&first, key) - count(&before, key));
+    assert!(skipped < stood / 2, "{skipped} skipped, {stood} stood still");
+    for message in peer.take("/diagnostics", 3, 4.0) {
+        let items = message["status"].as_array().unwrap();
+        let item = items.iter().find(|item| item["name"] == "/flexdrill: pacing").unwrap();
+        assert!(
+            !item["message"].as_str().unwrap().contains("not in real time"),
+            "{item}"
+        );
+    }
+    twin.signal("INT");
+    assert_eq!(twin.end(), Some(0));
+    let said = twin.said();
+    assert!(said.contains("stood still (paused or failed)"), "{said}");
+    assert!(!said.contains("not in real time"), "{said}");
 }
 
 #[test]

@@ -80,12 +80,14 @@ fn an_interface_that_goes_and_comes_back_is_used_again() {
 fn two_nodes_of_one_name_are_told() {
     let Some(network) = Network::new() else { return };
     let Some(mut peer) = network.peer() else { return };
-    let state = tempfile::tempdir().unwrap();
     let mut twin = network.twin(&[]);
     twin.wait_for("model time runs");
     peer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "reliable");
     peer.subscribe(ALARMS.0, ALARMS.1, "latched");
-    let mut second = network.twin(&["--state-dir", state.path().to_str().unwrap()]);
+    let mut second = network.twin(&[]);
+    // One file for the alarms of both would be written by each in turn.
+    let line = second.wait_for("keeps the alarms of a node with this name and domain");
+    assert!(line.contains(&format!("process {}", twin.id())), "{line}");
     second.wait_for("model time runs");
     let deadline = Instant::now() + Duration::from_secs(15);
     let mut told = 0;
@@ -102,6 +104,8 @@ fn two_nodes_of_one_name_are_told() {
             );
         }
     }
+    let line = twin.wait_for("another node has the name of this one");
+    assert!(line.contains("--namespace"), "{line}");
     second.signal("KILL");
     // A node that was killed and started again is not its own namesake for long: the dead one is forgotten with its lease.
     twin.signal("INT");

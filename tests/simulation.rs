@@ -29,9 +29,9 @@ use flexdrill::rig_inputs::{DriverId, Intake, RigSample};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
 use flexdrill_core::twin::{Output, Run, Simulation};
-use flexdrill_realtime::RealTimeLoop;
 use flexdrill_realtime::clock::Clock;
 use flexdrill_realtime::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Settings, Targets, link};
+use flexdrill_realtime::{PaceReading, RealTimeLoop};
 
 const MS: u64 = 1_000_000;
 const SECOND: u64 = 1000 * MS;
@@ -265,9 +265,8 @@ impl World {
     /// What the publisher's thread does when it gets to it.
     fn publish(&mut self) {
         self.update_targets();
-        let start = self.gauges.start.load(Ordering::Acquire);
-        if self.outputs.is_none() && start != 0 {
-            let mut outputs = Outputs::new(&self.config, start as i64);
+        if let (None, Some(start)) = (&self.outputs, self.gauges.start()) {
+            let mut outputs = Outputs::new(&self.config, start);
             let mut sent = Vec::new();
             outputs
                 .session(&self.config.hash(), "", |encoded| keep(&mut sent, encoded))
@@ -305,6 +304,7 @@ impl World {
             }
         }
         while self.publisher.step_times.pop().is_ok() {}
+        self.status.note(self.now, &self.gauges);
         self.check_all(&sent);
     }
 
@@ -365,13 +365,22 @@ impl World {
         }
         let numbers = [
             status.model_time,
-            status.real_time_factor,
             status.lateness,
             status.newton_iterations_mean,
             status.energy_error,
             status.energy_error_share,
         ];
         assert!(numbers.iter().all(|number| number.is_finite()), "{numbers:?}");
+        let factors = [status.real_time_factor, status.pace_factor];
+        assert!(factors.iter().all(|factor| !factor.is_infinite()), "{factors:?}");
+        let judged = status.pace != TwinStatus::PACE_NOT_JUDGED;
+        assert!(!judged || status.pace_factor.is_finite());
+        if status.state != TwinStatus::RUNNING {
+            assert!(
+                !judged && status.real_time_factor.is_nan(),
+                "a standing model has no pace"
+            );
+        }
         assert_eq!(status.dds_restarts, self.dds.restarts);
         assert_eq!(status.dds_up, self.dds.is_up);
         let off = status.recording_state == TwinStatus::RECORDING_OFF;
@@ -392,7 +401,7 @@ impl World {
             drivers: InputKind::ALL.map(|kind| self.intake.drivers.summary(kind, now)),
             run_state: self.gauges.run_state(),
             failure: None,
-            real_time_factor: Some(1.0),
+            pace: PaceReading::default(),
             recording: None,
         };
         let time = self.rig_time();

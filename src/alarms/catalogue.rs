@@ -1,5 +1,6 @@
 //! Which alarms there are.
 
+use crate::messages::Alarm;
 use flexdrill_alarms::{Definition, Delays};
 use flexdrill_config::{Alarms, NodeAlarm, ToolAlarm};
 use flexdrill_core::inputs::InputKind;
@@ -90,6 +91,15 @@ impl AlarmId {
             AlarmId::Solver => "model stands still",
             AlarmId::Recording => "recording",
             AlarmId::Network => "network started again",
+        }
+    }
+
+    /// Whom it is for: a constant of [`Alarm`]. What only the computer, its disk or its network is about must not fill the
+    /// driller's banner; what means that the model no longer follows the tool belongs there.
+    pub const fn category(self) -> u8 {
+        match self {
+            AlarmId::RealTime | AlarmId::Recording | AlarmId::Network => Alarm::SYSTEM,
+            _ => Alarm::DRILLING,
         }
     }
 

@@ -10,17 +10,22 @@ use crate::messages::{Alarm, AlarmEvent, AlarmList};
 use flexdrill_alarms::{AlarmSystem, Change, Event, Priority, State, Unshelving};
 use flexdrill_core::tool::Body;
 
-/// All alarms, the worst first.
-pub(super) fn list(system: &AlarmSystem, findings: &[Finding], header: Header) -> AlarmList {
+/// All alarms, the worst first. `restored` says of each whether its state is that of an earlier run.
+pub(super) fn list(system: &AlarmSystem, findings: &[Finding], restored: &[bool], header: Header) -> AlarmList {
     let mut order: Vec<usize> = (0..AlarmId::ALL.len()).collect();
     order.sort_by_key(|index| {
         let standing = system.alarm(*index).standing;
-        (rank(standing.state()), Reverse(standing.priority()), *index)
+        let category = AlarmId::ALL[*index].category();
+        (rank(standing.state()), category, Reverse(standing.priority()), *index)
     });
     let figures = system.statistics().figures();
     let alarms: Vec<Alarm> = order
         .into_iter()
-        .filter_map(|index| Some(alarm(system, AlarmId::ALL[index], findings.get(index)?)))
+        .filter_map(|index| {
+            let mut alarm = alarm(system, AlarmId::ALL[index], findings.get(index)?);
+            alarm.from_earlier_run = restored.get(index) == Some(&true);
+            Some(alarm)
+        })
         .collect();
     AlarmList {
         header,
@@ -29,8 +34,8 @@ pub(super) fn list(system: &AlarmSystem, findings: &[Finding], header: Header) -
         alarms,
         annunciations_last_ten_minutes: figures.last_ten_minutes as u32,
         flood: figures.flood,
-        annunciations_per_hour: figures.per_hour,
-        flood_share: figures.flood_share,
+        annunciations_per_hour: figures.per_hour.unwrap_or(f64::NAN),
+        flood_share: figures.flood_share.unwrap_or(f64::NAN),
     }
 }
 
@@ -75,15 +80,16 @@ fn alarm(system: &AlarmSystem, id: AlarmId, finding: &Finding) -> Alarm {
         what_to_do: finding.what_to_do.clone(),
         annunciations: system.statistics().annunciations(index),
         annunciations_last_minute: system.statistics().last_minute(index) as u32,
+        category: id.category(),
+        from_earlier_run: false,
     }
 }
 
 /// One event at its stamp (ns since 1970), with what is known of its alarm's condition now.
 pub(super) fn event(event: &Event, stamp: i64, finding: &Finding, frame_id: &str) -> AlarmEvent {
     let (body, measured_depth, inclination) = place(finding);
-    let (id, name) = AlarmId::ALL
-        .get(event.alarm)
-        .map_or(("", ""), |alarm| (alarm.id(), alarm.name()));
+    let alarm = AlarmId::ALL.get(event.alarm);
+    let (id, name) = alarm.map_or(("", ""), |alarm| (alarm.id(), alarm.name()));
     let reason = match event.change {
         Change::Unshelved(why) if event.operator.is_empty() => unshelved(why),
         _ => &event.reason,
@@ -114,6 +120,7 @@ pub(super) fn event(event: &Event, stamp: i64, finding: &Finding, frame_id: &str
         measured_depth,
         inclination,
         value: finding.value,
+        category: alarm.map_or(Alarm::DRILLING, |alarm| alarm.category()),
     }
 }
 

@@ -34,6 +34,8 @@ use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Saved, SavedErr
 use flexdrill_config::Config;
 use flexdrill_core::twin::Snapshot;
 
+/// Step back of the clock beyond which the journal's stamps follow it (ns).
+const SET_BACK: Time = 60_000_000_000;
 /// Longest time between two lists (ns).
 const LIST_INTERVAL: Time = 1_000_000_000;
 
@@ -44,6 +46,8 @@ pub struct AlarmBook {
     /// Per alarm, while it stands or is to be acknowledged: what was seen last.
     findings: Vec<Finding>,
     memory: node::Memory,
+    /// Per alarm: its present state is that of an earlier run.
+    restored: Vec<bool>,
     /// Not yet published.
     journal: Vec<AlarmEvent>,
     /// Stamp of the newest event: the tool's are at the model's instants and the node's at the present, and a journal read
@@ -76,6 +80,9 @@ impl AlarmBook {
         let mut book = Self {
             findings: vec![Finding::default(); AlarmId::ALL.len()],
             memory: node::Memory::default(),
+            restored: (0..AlarmId::ALL.len())
+                .map(|index| system.alarm(index).since != 0)
+                .collect(),
             journal: Vec::new(),
             newest: Time::MIN,
             listed: None,
@@ -111,7 +118,7 @@ impl AlarmBook {
 
     /// Takes the node's own state.
     pub fn observe_node(&mut self, state: &NodeState<'_>, time: Time) {
-        for (id, finding) in node::findings(state, &mut self.memory) {
+        for (id, finding) in node::findings(state, &self.config.alarms, &mut self.memory) {
             self.observe(id, time, finding);
         }
     }
@@ -149,7 +156,17 @@ impl AlarmBook {
         let calm = Finding::default();
         for event in &events {
             let finding = self.findings.get(event.alarm).unwrap_or(&calm);
-            self.newest = self.newest.max(event.time);
+            // The tool's events follow their instants within moments: further back, the clock was set.
+            self.newest = if self.newest.saturating_sub(event.time) > SET_BACK {
+                event.time
+            } else {
+                self.newest.max(event.time)
+            };
+            if event.from != event.to
+                && let Some(restored) = self.restored.get_mut(event.alarm)
+            {
+                *restored = false;
+            }
             self.journal.push(fill::event(event, self.newest, finding, frame_id));
         }
     }
@@ -200,7 +217,12 @@ impl AlarmBook {
 
     /// All alarms as they stand, the worst first.
     pub fn list(&self, header: Header) -> AlarmList {
-        fill::list(&self.system, &self.findings, header)
+        fill::list(&self.system, &self.findings, &self.restored, header)
+    }
+
+    /// Events so far.
+    pub fn sequence(&self) -> u64 {
+        self.system.sequence()
     }
 
     /// What is to be kept over a restart.

@@ -2,16 +2,15 @@
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
+use crate::bag::{Losses, Problem};
 use crate::dds::port::Health;
 use crate::rig_inputs::DriverSummary;
-use flexdrill_alarms::{Priority, Setpoints};
+use flexdrill_alarms::Priority;
+use flexdrill_config::Alarms;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
 use flexdrill_realtime::link::RunState;
-use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
-
-/// Deadband of the real-time factor: less than that between the two setpoints.
-const FACTOR_DEADBAND: f64 = 0.01;
+use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, Pace, PaceReading};
 
 /// How long a loss of messages counts (s): longer than the alarm's default delay, which a loss of a moment would not
 /// outlast.
@@ -30,8 +29,8 @@ pub struct NodeState<'a> {
     pub run_state: RunState,
     /// Why and where the last step failed, while the model stands still for it.
     pub failure: Option<StepFailure>,
-    /// Model time gained per second; none before a second has passed.
-    pub real_time_factor: Option<f64>,
+    /// How the model keeps up with the clock.
+    pub pace: PaceReading,
     /// The recording, if there is one.
     pub recording: Option<RecordingState>,
     /// DDS.
@@ -42,30 +41,43 @@ pub struct NodeState<'a> {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RecordingState {
     /// Why nothing can be written at present.
-    pub error: Option<String>,
+    pub error: Option<Problem>,
     /// What was wrong a moment ago, when the recording goes on in another file since.
-    pub notice: Option<String>,
+    pub notice: Option<Problem>,
     /// Messages lost so far.
-    pub drops: u64,
+    pub losses: Losses,
 }
 
 /// What judging needs from one time to the next.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Memory {
-    pace: Option<Priority>,
-    drops: u64,
-    /// Messages that the recording lost in a row of losses, and until when that counts (s).
-    losses: Option<(u64, f64)>,
+    /// When the node was first looked at (s, the conditioner's clock).
+    began: Option<f64>,
+    /// Messages that the recording had lost when it was last looked at.
+    lost: Losses,
+    /// Messages that it lost in a row of losses, and until when that counts (s).
+    losses: Option<(Losses, f64)>,
 }
 
 /// What the node's state says of every alarm of the node.
-pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId, Finding); 7] {
-    let [speed, weight] = InputKind::ALL.map(|kind| (AlarmId::of_input(kind), input(kind, state)));
+pub(super) fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut Memory) -> [(AlarmId, Finding); 7] {
+    // A simulated clock stands at 0 before its first tick and may be set back.
+    let began = memory
+        .began
+        .filter(|began| *began > 0.0)
+        .map_or(state.now, |began| began.min(state.now));
+    memory.began = Some(began);
+    let [speed, weight] = InputKind::ALL.map(|kind| {
+        (
+            AlarmId::of_input(kind),
+            input(kind, state, began, alarms.first_sample_within),
+        )
+    });
     [
         speed,
         weight,
         (AlarmId::TwoDrivers, two_drivers(&state.drivers)),
-        (AlarmId::RealTime, real_time(state, memory)),
+        (AlarmId::RealTime, real_time(state)),
         (AlarmId::Solver, solver(state.failure)),
         (
             AlarmId::Recording,
@@ -75,7 +87,9 @@ pub(super) fn findings(state: &NodeState<'_>, memory: &mut Memory) -> [(AlarmId,
     ]
 }
 
-fn input(kind: InputKind, state: &NodeState<'_>) -> Finding {
+/// `began` is when the node began (s, the conditioner's clock); an input that has never sent calls only when
+/// `first_sample_within` (s) has passed since.
+fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within: f64) -> Finding {
     let (conditioner, topic) = (state.conditioner, kind.topic());
     let rule = conditioner.rule(kind);
     // Where no sample was ever good, since the first that was refused.
@@ -87,10 +101,16 @@ fn input(kind: InputKind, state: &NodeState<'_>) -> Finding {
     );
     let (priority, evidence, cause) = match conditioner.state(kind, state.now) {
         InputState::Ok | InputState::Slow => return Finding::default(),
+        InputState::NotReceived if state.now - began < first_sample_within => {
+            return Finding {
+                suppressed: true,
+                ..Finding::default()
+            };
+        }
         InputState::NotReceived => (
             Priority::Low,
             format!("Nothing received on {topic}, {acts}."),
-            "No rig is there, or it is in another domain or namespace.",
+            "The rig's publisher is not running, or it is in another domain or namespace.",
         ),
         InputState::Rejected => (
             Priority::Low,
@@ -167,38 +187,30 @@ fn two_drivers(drivers: &[DriverSummary; 2]) -> Finding {
     }
 }
 
-fn real_time(state: &NodeState<'_>, memory: &mut Memory) -> Finding {
-    // Less is worse.
-    let setpoints = Setpoints {
-        at: [Some(-KEEPS_UP), Some(-FAR_BEHIND), None],
-        deadband: FACTOR_DEADBAND,
+fn real_time(state: &NodeState<'_>) -> Finding {
+    let (priority, threshold) = match state.pace.level {
+        Pace::NotJudged | Pace::Kept => {
+            return Finding {
+                suppressed: state.run_state != RunState::Running,
+                ..Finding::default()
+            };
+        }
+        Pace::Late => (Priority::Low, KEEPS_UP),
+        Pace::FarBehind => (Priority::Medium, FAR_BEHIND),
     };
-    let suppressed = state.run_state != RunState::Running;
-    let factor = state.real_time_factor.unwrap_or(f64::NAN);
-    memory.pace = if suppressed {
-        None
-    } else {
-        setpoints.judge(-factor, memory.pace)
-    };
-    let Some(priority) = memory.pace else {
-        return Finding {
-            suppressed,
-            ..Finding::default()
-        };
-    };
+    let factor = state.pace.factor.unwrap_or(f64::NAN);
     Finding {
         priority: Some(priority),
         value: factor,
-        threshold: if priority == Priority::Low {
-            KEEPS_UP
-        } else {
-            FAR_BEHIND
-        },
+        threshold,
         unit: "s/s",
-        evidence: format!("The model gains {factor:.2} s per second and skips the rest."),
-        cause: "The machine is too slow for this mesh, or other programs take its time.".to_owned(),
-        consequence: "The model is right for a tool that drills slower in time: what comes is seen late.".to_owned(),
-        what_to_do: "Take a coarser mesh (config/coarse.yaml) or a faster machine, or end other programs.".to_owned(),
+        evidence: format!("The model gained {factor:.2} s per second over the last 10 s and skipped the rest."),
+        cause: "This computer is too slow for the tool and its motion, or other programs take its processors."
+            .to_owned(),
+        consequence:
+            "The outputs keep to the clock and show a tool that drills slower in time; hazards may be seen late."
+                .to_owned(),
+        what_to_do: "Nothing at the rig: tell whoever runs the twin's computer.".to_owned(),
         ..Finding::default()
     }
 }
@@ -251,31 +263,38 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
     let Some(recording) = recording else {
         return Finding::default();
     };
-    let lost = recording.drops.saturating_sub(memory.drops);
-    memory.drops = recording.drops;
+    let lost = recording.losses.since(&memory.lost);
+    memory.lost = recording.losses;
     let row = memory.losses.filter(|(_, until)| now < *until);
-    if lost > 0 {
-        let before = row.map_or(0, |(lost, _)| lost);
-        memory.losses = Some((before + lost, now + LOSS_COUNTS));
+    memory.losses = if lost.total() > 0 {
+        let before = row.map(|(lost, _)| lost).unwrap_or_default();
+        Some((before.and(&lost), now + LOSS_COUNTS))
     } else {
-        memory.losses = row;
-    }
-    let stopped = "The disk is full or has gone, or the file or its folder was removed.";
+        row
+    };
     let (priority, evidence, cause) = match (&recording.error, &recording.notice) {
-        (Some(error), _) => (Priority::Medium, format!("The recording stopped: {error}."), stopped),
-        (None, Some(notice)) => (
+        (Some(problem), _) => (
             Priority::Medium,
-            format!("The recording had stopped and goes on in another file: {notice}."),
-            stopped,
+            format!("The recording stopped: {}.", problem.text),
+            problem.cause.to_owned(),
+        ),
+        (None, Some(problem)) => (
+            Priority::Medium,
+            format!(
+                "The recording had stopped and goes on in another file: {}.",
+                problem.text
+            ),
+            problem.cause.to_owned(),
         ),
         (None, None) => match memory.losses {
             Some((lost, _)) => (
                 Priority::Low,
                 format!(
-                    "{lost} messages did not get into the recording, {} so far.",
-                    recording.drops
+                    "{} messages did not get into the recording, {} so far.",
+                    lost.total(),
+                    recording.losses.total()
                 ),
-                "The disk is too slow.",
+                format!("Of these, {lost}."),
             ),
             None => return Finding::default(),
         },
@@ -283,12 +302,9 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
     Finding {
         priority: Some(priority),
         evidence,
-        cause: cause.to_owned(),
+        cause,
         consequence: "The run cannot be replayed to the bit, and the journal of alarms has gaps.".to_owned(),
-        what_to_do:
-            "Free the disk: the recording then goes on in another file by itself. Or start the node again with \
-                     --record on another disk."
-                .to_owned(),
+        what_to_do: "Nothing at the rig: tell whoever runs the twin's computer.".to_owned(),
         ..Finding::default()
     }
 }

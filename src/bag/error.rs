@@ -216,6 +216,26 @@ pub enum BagError {
 }
 
 impl BagError {
+    /// Why a recording stopped, in a sentence for a person.
+    pub fn cause(&self) -> &'static str {
+        use io::ErrorKind;
+        match self {
+            Self::Gone { .. } => "The recording's file or its folder was removed, moved or replaced.",
+            Self::OtherDisk { .. } => "The recording's disk was taken out.",
+            Self::NotSafe { .. } => "The disk refused to keep what was written.",
+            Self::Hung { .. } | Self::NotBegun { .. } => "The disk does not answer.",
+            Self::Incomplete { problem, .. } => problem.cause(),
+            Self::Io { source, .. } => match source.kind() {
+                ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "The disk is full.",
+                ErrorKind::FileTooLarge => "The file may not grow further.",
+                ErrorKind::NotFound => "The recording's folder was removed.",
+                ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "The folder may not be written to.",
+                _ => "The disk refused an operation.",
+            },
+            _ => "The recording met an error that is none of the disk.",
+        }
+    }
+
     /// For `map_err` on operations on a path.
     pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();

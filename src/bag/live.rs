@@ -199,7 +199,7 @@ impl LiveRecorder {
         }
         self.end_unended();
         self.report();
-        let lost = self.lost + self.health.refused();
+        let lost = self.lost + self.health.not_handed_over();
         if !self.done.is_empty() {
             let counted = [
                 ("flexdrill_messages_lost", lost),
@@ -225,6 +225,7 @@ impl LiveRecorder {
                 per_topic: all.per_topic,
                 lost,
                 doubtful: self.doubtful,
+                losses: self.health.losses(),
                 files: self.done.len(),
             }),
         }
@@ -331,7 +332,7 @@ impl LiveRecorder {
                 tracing::warn!(
                     "the recording goes on in {}; {} messages were lost so far",
                     part.path().display(),
-                    self.lost + self.health.refused()
+                    self.lost + self.health.not_handed_over()
                 );
                 self.health.set_path(part.path());
                 self.health.clear_error(before.as_ref());
@@ -424,7 +425,8 @@ impl LiveRecorder {
         self.health.set_counts(Counts {
             written: (before + in_file).saturating_sub(self.doubtful),
             safe: (before + safe).saturating_sub(self.doubtful),
-            lost: self.lost + self.doubtful,
+            unwritten: self.lost,
+            refused: self.doubtful,
         });
     }
 }

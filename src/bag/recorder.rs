@@ -6,7 +6,7 @@ use super::location::Location;
 use super::metadata;
 use super::part::{Entry, Part};
 use super::storage::{Disk, Storage};
-use super::{BagError, Topic};
+use super::{BagError, Losses, Topic};
 
 /// A finished recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,6 +21,8 @@ pub struct Recording {
     pub lost: u64,
     /// Of the messages in it, those that the disk may have lost.
     pub doubtful: u64,
+    /// Lost and doubtful messages by cause.
+    pub losses: Losses,
     /// Number of files.
     pub files: usize,
 }
@@ -137,6 +139,7 @@ impl Recorder {
             per_topic: written.per_topic.clone(),
             lost: 0,
             doubtful: 0,
+            losses: Losses::default(),
             files: 1,
         })
     }

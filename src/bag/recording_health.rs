@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::BagError;
+use super::{BagError, Losses};
 
 /// How long a trouble that is over is still told of: long enough for any alarm's delay.
 const NOTICE: Duration = Duration::from_secs(30);
@@ -17,26 +17,48 @@ pub(super) struct Counts {
     pub written: u64,
     /// Of these, on the disk for certain.
     pub safe: u64,
-    /// In no file, or in one that the disk refused.
-    pub lost: u64,
+    /// In no file.
+    pub unwritten: u64,
+    /// In a file that the disk refused to keep.
+    pub refused: u64,
 }
 
 #[derive(Debug, Default)]
 struct Trouble {
     /// Why nothing can be written.
-    error: Option<String>,
+    error: Option<Problem>,
     /// What was wrong last, and until when.
-    past: Option<(Instant, String)>,
+    past: Option<(Instant, Problem)>,
+}
+
+/// What is wrong with a recording.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// File and reason.
+    pub text: String,
+    /// Why, in a sentence.
+    pub cause: &'static str,
+}
+
+impl Problem {
+    fn of(error: &BagError) -> Self {
+        Self {
+            text: error.to_string(),
+            cause: error.cause(),
+        }
+    }
 }
 
 /// How the recording is doing.
 #[derive(Debug, Default)]
 pub struct RecordingHealth {
     offered: AtomicU64,
-    refused: AtomicU64,
+    flooded: AtomicU64,
+    too_slow: AtomicU64,
     written: AtomicU64,
     safe: AtomicU64,
-    lost: AtomicU64,
+    unwritten: AtomicU64,
+    refused: AtomicU64,
     trouble: Mutex<Trouble>,
     path: Mutex<PathBuf>,
 }
@@ -49,7 +71,17 @@ impl RecordingHealth {
 
     /// Messages lost, or in a file that the disk refused.
     pub fn drops(&self) -> u64 {
-        self.lost.load(Ordering::Relaxed) + self.refused()
+        self.losses().total()
+    }
+
+    /// The same by cause.
+    pub fn losses(&self) -> Losses {
+        Losses {
+            flooded: self.flooded.load(Ordering::Relaxed),
+            too_slow: self.too_slow.load(Ordering::Relaxed),
+            unwritten: self.unwritten.load(Ordering::Relaxed),
+            refused: self.refused.load(Ordering::Relaxed),
+        }
     }
 
     /// Whether nothing can be written at present.
@@ -59,14 +91,24 @@ impl RecordingHealth {
 
     /// Why nothing can be written, for a person.
     pub fn error(&self) -> Option<String> {
+        self.problem().map(|problem| problem.text)
+    }
+
+    /// The same with its cause.
+    pub fn problem(&self) -> Option<Problem> {
         self.trouble().error.clone()
     }
 
     /// What was wrong a moment ago, when the recording goes on since.
     pub fn notice(&self) -> Option<String> {
+        self.past_problem().map(|problem| problem.text)
+    }
+
+    /// The same with its cause.
+    pub fn past_problem(&self) -> Option<Problem> {
         let trouble = self.trouble();
-        let (since, text) = trouble.past.as_ref()?;
-        (since.elapsed() < NOTICE).then(|| text.clone())
+        let (since, problem) = trouble.past.as_ref()?;
+        (since.elapsed() < NOTICE).then(|| problem.clone())
     }
 
     /// The file that is recorded to.
@@ -74,9 +116,9 @@ impl RecordingHealth {
         self.path.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Messages that found no room on their way to the recorder.
-    pub(super) fn refused(&self) -> u64 {
-        self.refused.load(Ordering::Relaxed)
+    /// Messages that did not get as far as the recorder.
+    pub(super) fn not_handed_over(&self) -> u64 {
+        self.flooded.load(Ordering::Relaxed) + self.too_slow.load(Ordering::Relaxed)
     }
 
     /// Messages that are neither lost nor on the disk for certain.
@@ -89,20 +131,21 @@ impl RecordingHealth {
     pub(super) fn offer(&self, room: bool) {
         self.offered.fetch_add(1, Ordering::Relaxed);
         if !room {
-            self.refused.fetch_add(1, Ordering::Relaxed);
+            self.too_slow.fetch_add(1, Ordering::Relaxed);
         }
     }
 
-    /// Counts messages that are lost before they were on their way.
-    pub(super) fn refuse(&self, messages: u32) {
+    /// Counts samples that came faster than they were taken.
+    pub(super) fn flood(&self, messages: u32) {
         self.offered.fetch_add(messages.into(), Ordering::Relaxed);
-        self.refused.fetch_add(messages.into(), Ordering::Relaxed);
+        self.flooded.fetch_add(messages.into(), Ordering::Relaxed);
     }
 
     pub(super) fn set_counts(&self, counts: Counts) {
         self.written.store(counts.written, Ordering::Relaxed);
         self.safe.store(counts.safe, Ordering::Relaxed);
-        self.lost.store(counts.lost, Ordering::Relaxed);
+        self.unwritten.store(counts.unwritten, Ordering::Relaxed);
+        self.refused.store(counts.refused, Ordering::Relaxed);
     }
 
     pub(super) fn set_path(&self, path: &Path) {
@@ -110,14 +153,14 @@ impl RecordingHealth {
     }
 
     pub(super) fn set_error(&self, error: &BagError) {
-        self.trouble().error = Some(error.to_string());
+        self.trouble().error = Some(Problem::of(error));
     }
 
     /// It goes on; what was wrong is still told for a while.
     pub(super) fn clear_error(&self, past: Option<&BagError>) {
         let mut trouble = self.trouble();
         trouble.error = None;
-        trouble.past = past.map(|error| (Instant::now(), error.to_string()));
+        trouble.past = past.map(|error| (Instant::now(), Problem::of(error)));
     }
 
     fn trouble(&self) -> MutexGuard<'_, Trouble> {

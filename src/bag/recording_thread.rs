@@ -103,7 +103,7 @@ impl RecordingThread {
             .and_then(|index| self.sequences.get(index))
         {
             sequence.fetch_add(messages, Ordering::Relaxed);
-            self.health.refuse(messages);
+            self.health.flood(messages);
         }
     }
 

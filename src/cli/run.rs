@@ -240,14 +240,19 @@ fn print_summary(summary: &RunSummary) {
         model_time,
         step_count,
         steps_skipped,
+        steps_stood_still,
         deadline_misses,
         halved_steps,
         failed_steps,
         ..
     } = summary.status;
+    let stood_still = match steps_stood_still {
+        0 => String::new(),
+        steps => format!(", {steps} stood still (paused or failed)"),
+    };
     say!(
         "ended after {model_time:.2} s of model time: {step_count} steps, {steps_skipped} skipped, {deadline_misses} late, \
-         {halved_steps} halved, {failed_steps} failed"
+         {halved_steps} halved, {failed_steps} failed{stood_still}"
     );
     if let Some(recording) = &summary.recording {
         let files = match recording.files {
@@ -259,17 +264,8 @@ fn print_summary(summary: &RunSummary) {
             recording.messages,
             recording.path.display()
         );
-        if recording.lost > 0 {
-            say!(
-                "{} messages did not get into the recording: the disk was too slow, or failed for a while",
-                recording.lost
-            );
-        }
-        if recording.doubtful > 0 {
-            say!(
-                "{} messages of the recording may be lost: the disk refused to keep them",
-                recording.doubtful
-            );
+        if recording.losses.total() > 0 {
+            say!("messages missing in the recording: {}", recording.losses);
         }
     }
 }

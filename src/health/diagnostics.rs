@@ -10,24 +10,31 @@ use flexdrill_core::dynamics::StepFailure;
 /// Judgements in a row that must be better before an item's level falls.
 const CALM: u32 = 3;
 
-/// A level that rises at once and falls when things have been better for a while.
-#[derive(Debug, Clone, Copy, Default)]
+/// A level that rises at once and falls when things have been better for a while, with the sentence that belongs to it.
+#[derive(Debug, Clone, Default)]
 struct Hysteresis {
     level: u8,
+    message: String,
     better: u32,
 }
 
 impl Hysteresis {
-    fn judge(&mut self, level: u8) -> u8 {
-        if level >= self.level {
-            *self = Self { level, better: 0 };
-        } else {
+    /// The level that holds and its sentence: while a level is held, that of its last judgement, never of a better one.
+    fn judge(&mut self, level: u8, message: String) -> (u8, String) {
+        if level < self.level && self.better + 1 < CALM {
             self.better += 1;
-            if self.better >= CALM {
-                *self = Self { level, better: 0 };
-            }
+            let held = format!(
+                "{} (better in the last {} of {CALM} reports)",
+                self.message, self.better
+            );
+            return (self.level, held);
         }
-        self.level
+        *self = Self {
+            level,
+            message,
+            better: 0,
+        };
+        (level, self.message.clone())
     }
 }
 
@@ -68,12 +75,7 @@ impl Diagnostics {
             .into_iter()
             .zip(&mut self.levels)
             .map(|(judgement, hysteresis)| {
-                let level = hysteresis.judge(judgement.level);
-                let message = if level > judgement.level {
-                    format!("{} (better now, was worse a moment ago)", judgement.message)
-                } else {
-                    judgement.message
-                };
+                let (level, message) = hysteresis.judge(judgement.level, judgement.message);
                 DiagnosticStatus {
                     level,
                     name: format!("{node}: {}", judgement.name),
@@ -100,6 +102,8 @@ mod tests {
         TwinStatus {
             state: TwinStatus::RUNNING,
             real_time_factor: 1.0,
+            pace: TwinStatus::PACE_KEPT,
+            pace_factor: 1.0,
             input_name: vec!["rotary_speed".into(), "weight_on_bit".into()],
             input_state: vec![TwinStatus::INPUT_OK; 2],
             input_age: vec![0.1; 2],
@@ -141,18 +145,41 @@ mod tests {
     }
 
     #[test]
-    fn levels_rise_at_once_and_fall_after_a_while() {
+    fn levels_rise_at_once_and_fall_after_a_while_with_the_sentence_that_belongs_to_them() {
         let mut diagnostics = Diagnostics::default();
-        let evidence = Evidence::default();
-        assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 0);
+        let mut pacing = |status: &TwinStatus| {
+            let items = diagnostics.judge("n", status, &Evidence::default());
+            let item = items.into_iter().find(|item| item.name == "n: pacing").unwrap();
+            (item.level, item.message)
+        };
         let late = TwinStatus {
-            real_time_factor: 0.5,
+            pace: TwinStatus::PACE_FAR_BEHIND,
+            pace_factor: 0.5,
             ..running()
         };
-        assert_eq!(level(&diagnostics.judge("n", &late, &evidence), "pacing"), 2);
-        assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 2);
-        assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 2);
-        assert_eq!(level(&diagnostics.judge("n", &running(), &evidence), "pacing"), 0);
+        let (in_time, not_in_time) = ("in real time".to_owned(), crate::health::not_in_real_time(0.5));
+        assert_eq!(pacing(&running()), (DiagnosticStatus::OK, in_time.clone()));
+        assert_eq!(pacing(&late), (DiagnosticStatus::ERROR, not_in_time.clone()));
+        for report in 1..CALM {
+            let held = format!("{not_in_time} (better in the last {report} of {CALM} reports)");
+            assert_eq!(pacing(&running()), (DiagnosticStatus::ERROR, held));
+        }
+        assert_eq!(pacing(&running()), (DiagnosticStatus::OK, in_time));
+    }
+
+    #[test]
+    fn a_pause_and_the_first_seconds_after_it_are_no_lateness() {
+        let mut diagnostics = Diagnostics::default();
+        let mut level_of = |status: TwinStatus| level(&diagnostics.judge("n", &status, &Evidence::default()), "pacing");
+        assert_eq!(level_of(running()), DiagnosticStatus::OK);
+        let resumed = TwinStatus {
+            real_time_factor: f64::NAN,
+            pace_factor: f64::NAN,
+            pace: TwinStatus::PACE_NOT_JUDGED,
+            steps_stood_still: 5000,
+            ..running()
+        };
+        assert_eq!(level_of(resumed), DiagnosticStatus::OK);
     }
 
     #[test]

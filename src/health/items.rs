@@ -5,32 +5,31 @@ use crate::messages::diagnostic_msgs::DiagnosticStatus;
 use crate::messages::{TwinStatus, words};
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
-use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP};
 
 pub(super) fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
-    let factor = status.real_time_factor;
+    let factor = status.pace_factor;
     let skipped = status.steps_skipped.saturating_sub(previous.steps_skipped);
     let dropped = status.frames_dropped.saturating_sub(previous.frames_dropped);
     let lost = status.events_lost.saturating_sub(previous.events_lost);
-    let (level, message) = match status.state {
-        TwinStatus::STARTING => (DiagnosticStatus::OK, "the tool is being brought to rest".to_owned()),
-        TwinStatus::PAUSED => (DiagnosticStatus::WARN, "paused: model time stands still".to_owned()),
-        TwinStatus::FAILED => (DiagnosticStatus::OK, "model time stands still, see solver".to_owned()),
-        _ if factor < FAR_BEHIND => (
-            DiagnosticStatus::ERROR,
-            format!(
-                "not in real time: the model gains {factor:.2} s per second; take a coarser mesh or a faster machine"
-            ),
-        ),
-        _ if factor < KEEPS_UP || skipped > 0 => (
-            DiagnosticStatus::WARN,
-            format!("late: {skipped} steps skipped since the last report, factor {factor:.3}"),
-        ),
+    let (level, message) = match (status.state, status.pace) {
+        (TwinStatus::STARTING, _) => (DiagnosticStatus::OK, "the tool is being brought to rest".to_owned()),
+        (TwinStatus::PAUSED, _) => (DiagnosticStatus::WARN, "paused: model time stands still".to_owned()),
+        (TwinStatus::FAILED, _) => (DiagnosticStatus::OK, "model time stands still, see solver".to_owned()),
+        (_, TwinStatus::PACE_FAR_BEHIND) => (DiagnosticStatus::ERROR, not_in_real_time(factor)),
+        (_, TwinStatus::PACE_LATE) => (DiagnosticStatus::WARN, not_in_real_time(factor)),
         _ if dropped > 0 || lost > 0 => (
             DiagnosticStatus::WARN,
             format!(
                 "the publisher's thread got no processor: {dropped} snapshots and {lost} changes of inputs were not published; end other programs"
             ),
+        ),
+        _ if skipped > 0 => (
+            DiagnosticStatus::WARN,
+            format!("the model was late and skipped {skipped} steps since the last report"),
+        ),
+        (_, TwinStatus::PACE_NOT_JUDGED) => (
+            DiagnosticStatus::OK,
+            "not judged yet: the model has run for less than 10 s".to_owned(),
         ),
         _ => (DiagnosticStatus::OK, "in real time".to_owned()),
     };
@@ -39,10 +38,12 @@ pub(super) fn pacing(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
         level,
         message,
         values: vec![
-            ("real_time_factor", format!("{factor:.4}")),
+            ("real_time_factor", format!("{:.4}", status.real_time_factor)),
+            ("real_time_factor over 10 s", format!("{factor:.4}")),
             ("lateness (s)", format!("{:.6}", status.lateness)),
             ("deadline_misses", status.deadline_misses.to_string()),
             ("steps_skipped", status.steps_skipped.to_string()),
+            ("steps_stood_still", status.steps_stood_still.to_string()),
             ("frames_dropped", status.frames_dropped.to_string()),
             ("events_lost", status.events_lost.to_string()),
             ("step_time_p50 (ms)", milliseconds(status.step_time_p50)),
@@ -199,8 +200,8 @@ pub(super) fn recording(status: &TwinStatus, previous: &TwinStatus) -> Judgement
         TwinStatus::RECORDING_ON if lost > 0 => (
             DiagnosticStatus::WARN,
             format!(
-                "{lost} messages lost: the disk is too slow or failed for a while, or samples came faster than they were \
-                 taken"
+                "{lost} messages lost since the last report; since the start {}",
+                status.recording_drops_cause
             ),
         ),
         TwinStatus::RECORDING_ON => (DiagnosticStatus::OK, format!("recording to {}", status.recording_path)),
@@ -229,11 +230,8 @@ pub(super) fn network(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
             DiagnosticStatus::WARN,
             format!("DDS was started again: {}", status.dds_restart_cause),
         )
-    } else if let Some(other) = status.namesake.first() {
-        (
-            DiagnosticStatus::WARN,
-            format!("another node has the name of this one: {other}; start one of them with another --namespace"),
-        )
+    } else if !status.namesake.is_empty() {
+        (DiagnosticStatus::WARN, another_of_this_name(&status.namesake))
     } else if !status.dds_stalled_reader.is_empty() {
         (DiagnosticStatus::WARN, status.dds_stalled_reader.clone())
     } else if status.clock_set_by != 0.0 {
@@ -256,6 +254,19 @@ pub(super) fn network(status: &TwinStatus, previous: &TwinStatus) -> Judgement {
             ("clock_set_by (s)", format!("{:.1}", status.clock_set_by)),
         ],
     }
+}
+
+/// What the log, the diagnostics and the alarm say of a model that falls behind by its factor over ten seconds.
+pub(crate) fn not_in_real_time(factor: f64) -> String {
+    format!("not in real time: the model gained {factor:.2} s per second over the last 10 s and skipped the rest")
+}
+
+/// What the log and the diagnostics say of other nodes with this one's name.
+pub(crate) fn another_of_this_name(others: &[String]) -> String {
+    format!(
+        "another node has the name of this one: {}; start one of them with another --namespace",
+        others.join(", ")
+    )
 }
 
 fn milliseconds(seconds: f64) -> String {

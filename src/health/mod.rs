@@ -8,3 +8,5 @@ mod judgement;
 pub mod motion;
 pub mod status;
 pub mod step_times;
+
+pub(crate) use items::{another_of_this_name, not_in_real_time};

@@ -13,8 +13,8 @@ use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::dynamics::{EnergyAudit, StepFailure};
 use flexdrill_core::inputs::{Conditioner, InputKind};
 use flexdrill_core::twin::{ModelQuality, Snapshot, SolverCounters};
-use flexdrill_realtime::RealTimeFactor;
 use flexdrill_realtime::link::{Gauges, RunState};
+use flexdrill_realtime::{PaceReading, PaceWatch, RealTimeFactor};
 
 /// Span of the real-time factor (s).
 const FACTOR_SPAN: f64 = 1.0;
@@ -24,6 +24,7 @@ pub struct StatusKeeper {
     /// Computing times of steps.
     pub step_times: StepTimes,
     factor: RealTimeFactor,
+    pace: PaceWatch,
     sequence: u64,
     time_step: f64,
     config_hash: String,
@@ -85,6 +86,7 @@ impl StatusKeeper {
         Ok(Self {
             step_times: StepTimes::new()?,
             factor: RealTimeFactor::new(FACTOR_SPAN),
+            pace: PaceWatch::default(),
             sequence: 0,
             time_step,
             config_hash,
@@ -130,15 +132,22 @@ impl StatusKeeper {
         self.last_failure = Some(failure);
     }
 
-    /// Notes the progress of the model, for the real-time factor.
+    /// Notes the progress of the model, for the real-time factor and the pace. While the model stands still there is no
+    /// pace to judge, and the time of the pause is forgotten.
     pub fn note(&mut self, pace_time: u64, gauges: &Gauges) {
-        self.factor.note(pace_time, self.model_time_gained(gauges));
+        if gauges.run_state() == RunState::Running {
+            let gained = self.model_time_gained(gauges);
+            self.factor.note(pace_time, gained);
+            self.pace.note(pace_time, gained);
+        } else {
+            self.factor.restart();
+            self.pace.restart();
+        }
     }
 
-    /// Model time gained per second of the time that it is to keep up with, over the last second; none before a second has
-    /// passed.
-    pub fn real_time_factor(&self, pace_time: u64, gauges: &Gauges) -> Option<f64> {
-        self.factor.factor(pace_time, self.model_time_gained(gauges))
+    /// How the model keeps up with the clock, judged over ten seconds.
+    pub fn pace(&self) -> PaceReading {
+        self.pace.reading()
     }
 
     fn model_time_gained(&self, gauges: &Gauges) -> f64 {
@@ -156,6 +165,7 @@ impl StatusKeeper {
         let iterations = self.counters.newton_iterations.saturating_sub(before.newton_iterations);
         let rejection = self.last_failure.or(self.counters.last_rejection);
         let station = rejection.map_or(0, |rejection| rejection.station);
+        let (pace, late) = (self.pace.reading(), gauges.steps_late.load(Ordering::Relaxed));
         self.sequence += 1;
         let mut status = TwinStatus {
             header,
@@ -169,10 +179,13 @@ impl StatusKeeper {
             model_time: step_count as f64 * self.time_step,
             step_count,
             time_step: self.time_step,
-            real_time_factor: self.factor.factor(sources.pace_time, gained).unwrap_or(0.0),
+            real_time_factor: self.factor.factor(sources.pace_time, gained).unwrap_or(f64::NAN),
             lateness: gauges.lateness.load(Ordering::Relaxed) as f64 * 1e-9,
             deadline_misses: gauges.deadline_misses.load(Ordering::Relaxed),
-            steps_skipped: gauges.steps_skipped.load(Ordering::Relaxed),
+            steps_skipped: late,
+            steps_stood_still: gauges.steps_skipped.load(Ordering::Relaxed).saturating_sub(late),
+            pace: pace.level as u8,
+            pace_factor: pace.factor.unwrap_or(f64::NAN),
             step_time_p50: times.p50,
             step_time_p99: times.p99,
             step_time_max: times.max,
@@ -284,6 +297,7 @@ fn fill_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
         status.recording_path = health.path().display().to_string();
         status.recording_messages = health.messages();
         status.recording_drops = health.drops();
+        status.recording_drops_cause = health.losses().to_string();
     }
 }
 

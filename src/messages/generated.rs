@@ -227,6 +227,10 @@ pub mod flexdrill {
         pub annunciations: u64,
         /// How often in the last minute; from three on it chatters.
         pub annunciations_last_minute: u32,
+        /// Whom the alarm is for: DRILLING or SYSTEM. Show SYSTEM alarms apart from the driller's.
+        pub category: u8,
+        /// The present state began in an earlier run of the node; since is a time of that run.
+        pub from_earlier_run: bool,
     }
 
     impl Alarm {
@@ -240,7 +244,8 @@ pub mod flexdrill {
         pub const RETURNED_UNACKNOWLEDGED: u8 = 3;
         /// An operator has put it aside for a time.
         pub const SHELVED: u8 = 4;
-        /// The tool is in a state in which the condition means nothing: the drive stands or runs up.
+        /// The condition means nothing at present: the drive stands or runs up, the model is paused, or the first sample of an
+        /// input is awaited.
         pub const SUPPRESSED_BY_DESIGN: u8 = 5;
         /// Switched off by the configuration.
         pub const OUT_OF_SERVICE: u8 = 6;
@@ -252,6 +257,10 @@ pub mod flexdrill {
         pub const MEDIUM: u8 = 2;
         /// At once.
         pub const HIGH: u8 = 3;
+        /// The alarm concerns drilling and is for the driller.
+        pub const DRILLING: u8 = 0;
+        /// The alarm concerns the twin's computer, disk or network and is for whoever runs the computer.
+        pub const SYSTEM: u8 = 1;
         /// The alarm is at no place along the tool, or at none now.
         pub const NOWHERE: u8 = 0;
         /// The flexible pipe.
@@ -265,13 +274,13 @@ pub mod flexdrill {
         const NAME: &'static str = "Alarm";
         const ROS_TYPE: &'static str = "flexdrill/msg/Alarm";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Alarm_";
-        const RIHS01: &'static str = "RIHS01_1791eb7d90c69579e073832dbfc3353114d8f1a6298f2e601881d9ec3cc534be";
+        const RIHS01: &'static str = "RIHS01_10abd8bfb0f6e31b03e9cb970000200fa9002f596190ef6a010368011384e5cd";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/Alarm.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Alarm", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "active", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "acknowledged", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "threshold", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "consequence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_minute", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Alarm", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "active", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "acknowledged", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "threshold", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "consequence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_minute", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_earlier_run", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// One change of one alarm: the journal. What the states and priorities are says Alarm.
@@ -314,6 +323,8 @@ pub mod flexdrill {
         pub inclination: f64,
         /// What it was judged by, NaN where there is no such number.
         pub value: f64,
+        /// Whom the alarm is for, as in Alarm: DRILLING or SYSTEM.
+        pub category: u8,
     }
 
     impl AlarmEvent {
@@ -331,7 +342,7 @@ pub mod flexdrill {
         pub const SHELVED: u8 = 5;
         /// It is back: asked for, after its time, as its condition went, or as it rose to HIGH.
         pub const UNSHELVED: u8 = 6;
-        /// The drive stands or runs up: the condition means nothing.
+        /// The condition means nothing from now on: SUPPRESSED_BY_DESIGN in Alarm says when.
         pub const SUPPRESSED: u8 = 7;
         /// The condition means something again.
         pub const RELEASED: u8 = 8;
@@ -346,7 +357,7 @@ pub mod flexdrill {
         const NAME: &'static str = "AlarmEvent";
         const ROS_TYPE: &'static str = "flexdrill/msg/AlarmEvent";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmEvent_";
-        const RIHS01: &'static str = "RIHS01_9544c171e98e81aa04307a5c05938877a1ad9c519a05df43b74a429ef38fc91f";
+        const RIHS01: &'static str = "RIHS01_3739fe63aea56e981525fcdd87c58d54ab2685c892c3547022fdd951aa00e0ca";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/AlarmEvent.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -354,7 +365,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmEvent", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "change", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciates", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmEvent", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "change", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciates", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// All alarms, the worst first, sent when one of them changes and every second. Latched: of several received, the one with
@@ -366,7 +377,8 @@ pub mod flexdrill {
         /// Events so far, over restarts: the sequence of the newest AlarmEvent.
         pub sequence: u64,
         /// All of them, normal ones too. What calls for somebody is first: unacknowledged before acknowledged, then what returned,
-        /// what is shelved, suppressed and normal, out of service last; within each by priority.
+        /// what is shelved, suppressed and normal, out of service last; within each the driller's before those of the computer,
+        /// then by priority.
         pub alarms: Vec<Alarm>,
         /// Alarms to be acknowledged.
         pub unacknowledged: u32,
@@ -374,9 +386,9 @@ pub mod flexdrill {
         pub annunciations_last_ten_minutes: u32,
         /// More than ten in the last ten minutes.
         pub flood: bool,
-        /// How often per hour watched.
+        /// Mean per hour since the count began, which a restart goes on with; NaN until one hour has been watched.
         pub annunciations_per_hour: f64,
-        /// Part of the time watched that was in flood (0 to 1).
+        /// Part of the time watched that was in flood (0 to 1); NaN until ten minutes have been watched.
         pub flood_share: f64,
     }
 
@@ -385,7 +397,7 @@ pub mod flexdrill {
         const NAME: &'static str = "AlarmList";
         const ROS_TYPE: &'static str = "flexdrill/msg/AlarmList";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmList_";
-        const RIHS01: &'static str = "RIHS01_d5100640eb884ed953751131fa14dc9ee21d7f444ae52fcce638b1bf9f7a237e";
+        const RIHS01: &'static str = "RIHS01_dc02e3cfd79f1f1bc05ac74093bb035144cea799160a9ab93e47cdc2580ad7cb";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/AlarmList.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -759,13 +771,14 @@ pub mod flexdrill {
         pub step_count: u64,
         /// Model step (s).
         pub time_step: f64,
-        /// Model time gained per second of wall time, over the last second; 1 keeps up.
+        /// Model time gained per second of wall time, over the last second; 1 keeps up. NaN until the model has run for a second
+        /// since the start, a pause or a failed step.
         pub real_time_factor: f64,
         /// How far the model is behind its deadlines now (s, \>= 0).
         pub lateness: f64,
         /// Steps that ended after their deadline.
         pub deadline_misses: u64,
-        /// Whole step periods given up to catch up.
+        /// Steps given up because the model was late; those of a pause or after a failed step are in steps_stood_still.
         pub steps_skipped: u64,
         /// Median computing time of a step in the last interval (s).
         pub step_time_p50: f64,
@@ -872,6 +885,16 @@ pub mod flexdrill {
         pub step_in_force: f64,
         /// Step that the motion asks for (s); shorter than the one in force where the machine is too slow for it.
         pub step_wanted: f64,
+        /// How the model keeps up with the clock, judged over ten seconds and with hysteresis: PACE_NOT_JUDGED, PACE_KEPT,
+        /// PACE_LATE or PACE_FAR_BEHIND. Being late is a matter of the computer, not of drilling.
+        pub pace: u8,
+        /// Model time gained per second of wall time, over the last ten seconds: what pace is judged by. NaN until the model has
+        /// run for so long.
+        pub pace_factor: f64,
+        /// Why messages are missing in the recording, with the count of each cause; empty if none are.
+        pub recording_drops_cause: std::string::String,
+        /// Steps during which the model stood still: paused, or after a failed step.
+        pub steps_stood_still: u64,
     }
 
     impl TwinStatus {
@@ -906,6 +929,14 @@ pub mod flexdrill {
         pub const QUALITY_DEGRADED: u8 = 1;
         /// They are those of runs that are off by a sixth to several times: an alarm. Confidences of the whirl analysis are lowered.
         pub const QUALITY_POOR: u8 = 2;
+        /// Not judged: the model has run for less than ten seconds since the start, a pause or a failed step.
+        pub const PACE_NOT_JUDGED: u8 = 0;
+        /// The model keeps up with the clock.
+        pub const PACE_KEPT: u8 = 1;
+        /// The model gains less than 0.98 s per second and skips the rest.
+        pub const PACE_LATE: u8 = 2;
+        /// It gains less than 0.9 s per second.
+        pub const PACE_FAR_BEHIND: u8 = 3;
     }
 
     impl Message for TwinStatus {
@@ -913,7 +944,7 @@ pub mod flexdrill {
         const NAME: &'static str = "TwinStatus";
         const ROS_TYPE: &'static str = "flexdrill/msg/TwinStatus";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
-        const RIHS01: &'static str = "RIHS01_d7b295fcbd4b768bd540bd1952d2fa92b06f23461b7657acb36959ea5da63873";
+        const RIHS01: &'static str = "RIHS01_5f8e917c0e46f0bc49dc9c55904a6799d7e3e714613fc424ba412a5d5c880835";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -921,7 +952,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/TwinStatus", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_time", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_count", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "real_time_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateness", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "deadline_misses", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_skipped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p50", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p99", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_max", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "newton_iterations_mean", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rejected_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "halved_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_path", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_messages", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_age", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_received", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_applied", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_rejected", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_topic", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_sent", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_dropped", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_time", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_up", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restarts", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restart_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_stalled_reader", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "namesake", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clock_set_by", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_driver", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_publishers", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_several_drivers", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_not_driving", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_unreadable", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_safe", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_source", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_suspect", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "frames_dropped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "events_lost", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_overrun", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_in_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_wanted", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/TwinStatus", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_time", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_count", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "real_time_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateness", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "deadline_misses", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_skipped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p50", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p99", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_max", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "newton_iterations_mean", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rejected_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "halved_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_path", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_messages", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_age", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_received", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_applied", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_rejected", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_topic", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_sent", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_dropped", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_time", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_up", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restarts", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restart_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_stalled_reader", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "namesake", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clock_set_by", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_driver", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_publishers", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_several_drivers", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_not_driving", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_unreadable", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_safe", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_source", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_suspect", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "frames_dropped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "events_lost", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_overrun", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_in_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_wanted", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pace", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pace_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_stood_still", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Whirl of every watched place. All arrays have one entry per watched station and pipe.

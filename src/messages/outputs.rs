@@ -124,6 +124,11 @@ impl Outputs {
         }
     }
 
+    /// The clock of stamps was set: tick 0 is at `start` (ns since 1970) on it.
+    pub fn set_start(&mut self, start: i64) {
+        self.timeline.start = start;
+    }
+
     /// Takes over what of a changed configuration concerns the messages themselves.
     pub fn reconfigure(&mut self, config: &Config) {
         self.style = ShapeStyle::new(config.outputs.exaggeration);

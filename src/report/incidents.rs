@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::alarms::AlarmId;
 use crate::messages::{Alarm, AlarmEvent, AlarmList};
+use flexdrill_core::inputs::InputKind;
 
 /// Most incidents that are kept; beyond, they are counted.
 const MOST: usize = 5000;
@@ -28,6 +30,8 @@ pub(super) struct Incident {
     pub body: u8,
     /// Who acknowledged it.
     pub known_by: String,
+    /// Whom it is for, as in [`Alarm`].
+    pub category: u8,
 }
 
 /// All times of one alarm.
@@ -39,6 +43,8 @@ pub(super) struct Group {
     /// For how long it stood (s).
     pub active: f64,
     pub what_to_do: String,
+    /// Whom it is for, as in [`Alarm`].
+    pub category: u8,
 }
 
 /// The alarms of a recording.
@@ -53,6 +59,10 @@ pub(super) struct Incidents {
     /// By the alarm's id: since when it stands (s), and the incident's place in the list, if it has one.
     standing: BTreeMap<String, (f64, Option<usize>)>,
     events: u64,
+}
+
+fn is_input(id: &str) -> bool {
+    InputKind::ALL.map(|kind| AlarmId::of_input(kind).id()).contains(&id)
 }
 
 fn is_active(state: u8) -> bool {
@@ -78,6 +88,7 @@ impl Incidents {
                     inclination: alarm.inclination,
                     body: alarm.body,
                     known_by: String::new(),
+                    category: alarm.category,
                 });
             }
         }
@@ -111,6 +122,41 @@ impl Incidents {
         }
     }
 
+    /// The input alarms that stand when the recording ends: the log or the rig had ended before, which says nothing of the
+    /// drilling. Their beginning is that of the alarm, some seconds after the last sample.
+    pub(super) fn inputs_at_the_end(&self) -> impl Iterator<Item = &Incident> {
+        self.list
+            .iter()
+            .filter(|incident| incident.end.is_none() && is_input(&incident.id))
+    }
+
+    /// The worst of the driller's alarms, for a headline. An input that is silent until the end is no part of it.
+    pub(super) fn worst(&self) -> Option<Group> {
+        let drilling = self
+            .groups
+            .iter()
+            .filter(|(_, group)| group.category == Alarm::DRILLING);
+        let counted = drilling.filter_map(|(id, group)| {
+            if !is_input(id) || !self.inputs_at_the_end().any(|incident| incident.id == *id) {
+                return Some(group.clone());
+            }
+            let ended = || {
+                self.list
+                    .iter()
+                    .filter(|incident| incident.id == *id && incident.end.is_some())
+            };
+            Some(Group {
+                priority: ended().map(|incident| incident.priority).max()?,
+                times: ended().count() as u64,
+                active: ended()
+                    .filter_map(|incident| Some(incident.end? - incident.start.max(0.0)))
+                    .sum(),
+                ..group.clone()
+            })
+        });
+        counted.max_by_key(|group| (group.priority, group.times))
+    }
+
     fn newest_of(&mut self, id: &str) -> Option<&mut Incident> {
         self.list.iter_mut().rev().find(|incident| incident.id == id)
     }
@@ -130,6 +176,7 @@ impl Incidents {
                 inclination: event.inclination,
                 body: event.body,
                 known_by: String::new(),
+                category: event.category,
             });
             return;
         };
@@ -155,6 +202,7 @@ impl Incidents {
             group.priority = incident.priority;
             group.name.clone_from(&incident.name);
             group.what_to_do.clone_from(&incident.what_to_do);
+            group.category = incident.category;
         }
         let kept = self.list.len() < MOST;
         let place = kept.then_some(self.list.len());
@@ -214,6 +262,40 @@ mod tests {
         assert_eq!((second.start, second.end), (8.0, None));
         let group = &incidents.groups["shock"];
         assert_eq!((group.times, group.priority, group.active), (2, 3, 6.0));
+    }
+
+    /// A log that ends leaves both inputs stale; the shock while it drilled is what the report is about.
+    #[test]
+    fn an_input_that_is_silent_to_the_end_heads_no_report() {
+        let input = |change: u8, priority: u8| AlarmEvent {
+            id: "weight_on_bit_input".to_owned(),
+            name: "weight on bit not known".to_owned(),
+            ..event(change, priority, "")
+        };
+        let mut incidents = Incidents::default();
+        incidents.event(60.0, &input(AlarmEvent::ACTIVATED, Alarm::MEDIUM));
+        incidents.event(70.0, &input(AlarmEvent::RAISED, Alarm::HIGH));
+        assert_eq!(incidents.worst(), None);
+        assert_eq!(
+            incidents.inputs_at_the_end().map(|input| input.start).next(),
+            Some(60.0)
+        );
+        let mut incidents = Incidents::default();
+        incidents.event(5.0, &input(AlarmEvent::ACTIVATED, Alarm::LOW));
+        incidents.event(9.0, &input(AlarmEvent::RETURNED, Alarm::LOW));
+        incidents.event(60.0, &input(AlarmEvent::ACTIVATED, Alarm::HIGH));
+        let worst = incidents.worst().unwrap();
+        assert_eq!((worst.priority, worst.times, worst.active), (Alarm::LOW, 1, 4.0));
+        incidents.event(20.0, &event(AlarmEvent::ACTIVATED, Alarm::MEDIUM, "strong"));
+        assert_eq!(incidents.worst().unwrap().name, "Shock");
+        // A matter of the computer is none of the drilling.
+        let behind = AlarmEvent {
+            id: "real_time".to_owned(),
+            category: Alarm::SYSTEM,
+            ..event(AlarmEvent::ACTIVATED, Alarm::HIGH, "")
+        };
+        incidents.event(30.0, &behind);
+        assert_eq!(incidents.worst().unwrap().name, "Shock");
     }
 
     #[test]

@@ -72,7 +72,7 @@ impl Lifecycle {
             return false;
         };
         let (_, name, from, to) = *transition;
-        if let Err(why) = self.act(name) {
+        if let Err(why) = self.act(name, to) {
             tracing::warn!("{name} was refused: {why}");
             return false;
         }
@@ -91,11 +91,14 @@ impl Lifecycle {
         true
     }
 
-    fn act(&self, name: &str) -> Result<(), ControlError> {
+    fn act(&self, name: &str, to: u8) -> Result<(), ControlError> {
         match name {
-            "activate" => self.control.pause(false),
-            "deactivate" => self.control.pause(true),
-            "cleanup" => self.control.go_back(),
+            "activate" => self.control.manage(None),
+            "configure" | "deactivate" => self.control.manage(Some(label(to))),
+            "cleanup" => {
+                self.control.manage(Some(label(to)))?;
+                self.control.go_back()
+            }
             "shutdown" => {
                 self.ended.notify_one();
                 Ok(())
@@ -165,7 +168,7 @@ pub fn serve(
     };
     let events = port.publisher(&name("~/transition_event")?, TransitionEvent::DDS_TYPE, offer);
     control
-        .pause(true)
+        .manage(Some(label(State::PRIMARY_STATE_UNCONFIGURED)))
         .map_err(|why| NodeError::Stopped(format!("the node cannot begin as a managed one: {why}")))?;
     let lifecycle = Arc::new(Lifecycle {
         state: Mutex::new(State::PRIMARY_STATE_UNCONFIGURED),

@@ -13,6 +13,9 @@ const FLOOD: usize = 10;
 /// Span in which an alarm that repeats itself chatters (s).
 const CHATTER_SPAN: f64 = 60.0;
 
+/// Time that must have been watched before a mean per hour is a rate (s): less would extrapolate a moment.
+const RATE_SPAN: f64 = 3600.0;
+
 /// Longest time between two looks in which somebody watched (s): after more the program was not running.
 const WATCHED_GAP: f64 = 60.0;
 
@@ -48,16 +51,16 @@ pub struct Figures {
     pub annunciations: u64,
     /// Of them low, medium, high, by the highest that each call reached.
     pub of_priority: [u64; 3],
-    /// Annunciations per hour watched; 0 before any time has passed.
-    pub per_hour: f64,
+    /// Mean of annunciations per hour watched; none until an hour has been watched.
+    pub per_hour: Option<f64>,
     /// In the last ten minutes.
     pub last_ten_minutes: usize,
     /// The most in any ten minutes.
     pub most_in_ten_minutes: usize,
     /// More than ten in the last ten minutes.
     pub flood: bool,
-    /// Part of the time watched that was in flood, 0 to 1.
-    pub flood_share: f64,
+    /// Part of the time watched that was in flood, 0 to 1; none until ten minutes have been watched.
+    pub flood_share: Option<f64>,
     /// The most annunciations of one alarm within any minute.
     pub most_repeats: usize,
 }
@@ -157,16 +160,16 @@ impl Statistics {
     /// The figures so far.
     pub fn figures(&self) -> Figures {
         let annunciations = self.counts.iter().sum();
-        let share = |part: f64, whole: Time| if whole > 0 { part / whole as f64 } else { 0.0 };
+        let rate = |part: f64, window: f64| (self.watched >= span(window)).then(|| part / self.watched as f64);
         Figures {
             watched: self.watched as f64 * 1e-9,
             annunciations,
             of_priority: self.of_priority,
-            per_hour: share(annunciations as f64 * span(3600.0) as f64, self.watched),
+            per_hour: rate(annunciations as f64 * span(3600.0) as f64, RATE_SPAN),
             last_ten_minutes: self.recent.len(),
             most_in_ten_minutes: self.most_recent,
             flood: self.recent.len() > FLOOD,
-            flood_share: share(self.flooded as f64, self.watched),
+            flood_share: rate(self.flooded as f64, FLOOD_SPAN),
             most_repeats: self.most_repeats.iter().copied().max().unwrap_or_default(),
         }
     }
@@ -198,8 +201,25 @@ mod tests {
             (figures.annunciations, figures.most_in_ten_minutes, figures.flood),
             (12, 12, false)
         );
-        assert!((figures.flood_share - 330.0 / 1199.0).abs() < 1e-9, "{figures:?}");
-        assert!((figures.per_hour - 12.0 * 3600.0 / 1199.0).abs() < 1e-9, "{figures:?}");
+        let share = figures.flood_share.unwrap();
+        assert!((share - 330.0 / 1199.0).abs() < 1e-9, "{figures:?}");
+    }
+
+    #[test]
+    fn rates_are_given_over_a_full_window_only() {
+        let mut statistics = Statistics::new(1);
+        let mut rates = Vec::new();
+        for second in 0..=7200_u32 {
+            statistics.advance(span(f64::from(second)));
+            if second == 1 || second == 60 {
+                statistics.count(0, Some(Priority::Low));
+            }
+            let figures = statistics.figures();
+            assert_eq!(figures.flood_share.is_some(), second >= 600, "at {second} s");
+            assert_eq!(figures.per_hour.is_some(), second >= 3600, "at {second} s");
+            rates.extend(figures.per_hour);
+        }
+        assert_eq!((rates.first(), rates.last()), (Some(&2.0), Some(&1.0)));
     }
 
     #[test]

@@ -297,6 +297,7 @@ proptest! {
         prop_assert_eq!(figures.annunciations, all);
         prop_assert_eq!(figures.of_priority.iter().sum::<u64>(), all);
         prop_assert_eq!(figures.most_repeats, most_in_any);
-        prop_assert!((0.0..=1.0).contains(&figures.flood_share));
+        prop_assert!(figures.flood_share.is_none_or(|share| (0.0..=1.0).contains(&share)));
+        prop_assert!(figures.per_hour.is_none_or(|rate| (0.0..1e12).contains(&rate)));
     }
 }

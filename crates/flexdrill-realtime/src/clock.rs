@@ -6,6 +6,10 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crate::monotonic;
 
+/// Longest step of a simulated clock that is time which passed (ns), for a clock that comes once a second at many times
+/// real time. A longer one, either way, means that the clock was set.
+pub const LEAP: u64 = 60_000_000_000;
+
 /// A clock in nanoseconds with absolute deadlines.
 pub trait Clock: Send {
     /// Nanoseconds; the zero is the clock's own.
@@ -20,6 +24,10 @@ pub trait Clock: Send {
     /// The machine's time (ns), whatever the clock of the model is: by it is judged what computing costs.
     fn machine_time(&self) -> u64 {
         monotonic::now()
+    }
+    /// Lateness from which on the clock was set rather than the solver late (ns).
+    fn leap(&self) -> u64 {
+        u64::MAX
     }
     /// How far the clock may jump at once (ns): no more lateness than that tells of a slow machine.
     fn jump(&self) -> u64 {
@@ -97,5 +105,9 @@ impl Clock for SimulatedClock {
 
     fn jump(&self) -> u64 {
         (self.tolerance() * 1e9) as u64
+    }
+
+    fn leap(&self) -> u64 {
+        LEAP
     }
 }

@@ -17,6 +17,7 @@
 pub mod clock;
 pub mod link;
 pub mod monotonic;
+mod pace_watch;
 mod pacer;
 mod real_time_factor;
 mod real_time_loop;
@@ -25,7 +26,8 @@ mod step_pace;
 /// Length of a period of the solver (s): inputs take effect this fast, live and in replays of foreign inputs.
 pub const INPUT_PERIOD: f64 = 5e-3;
 
+pub use pace_watch::{FAR_BEHIND, KEEPS_UP, Pace, PaceReading, PaceWatch};
 pub use pacer::{Paced, Pacer, whole_periods};
-pub use real_time_factor::{FAR_BEHIND, KEEPS_UP, RealTimeFactor};
+pub use real_time_factor::RealTimeFactor;
 pub use real_time_loop::RealTimeLoop;
 pub use step_pace::StepPace;

@@ -1,7 +1,7 @@
 //! What passes between the solver's thread and the rest of the node: wait-free rings and atomics, no locks.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU8, AtomicU64, Ordering};
 use std::sync::mpsc::SyncSender;
 
 use rtrb::{Consumer, Producer, RingBuffer};
@@ -97,7 +97,7 @@ pub struct Gauges {
     pub steps_taken: AtomicU64,
     /// Steps taken or skipped since the start.
     pub ticks: AtomicU64,
-    /// Steps skipped because the solver was late, stood still or was paused.
+    /// Steps not taken because the solver was late, had failed or was paused.
     pub steps_skipped: AtomicU64,
     /// Of these, the ones skipped because it was late.
     pub steps_late: AtomicU64,
@@ -105,8 +105,8 @@ pub struct Gauges {
     pub deadline_misses: AtomicU64,
     /// How late the last period began (ns).
     pub lateness: AtomicU64,
-    /// Start on the rig's clock (ns since 1970); 0 before.
-    pub start: AtomicU64,
+    /// As [`Gauges::start`] says; 0 before.
+    start: AtomicI64,
     /// Frames that were due when none was free.
     pub frames_dropped: AtomicU64,
     /// Events that found no room: a recording of this run cannot be replayed exactly.
@@ -137,6 +137,18 @@ impl Gauges {
         for phase in phases::Phase::ALL {
             self.phase_times[phase as usize].store(times.of(phase), Ordering::Relaxed);
         }
+    }
+
+    /// Instant of the first tick on the rig's clock (ns since 1970), such that tick times step, added to it, is an instant
+    /// of the present clock; `None` before the model has started. It moves where a simulated clock is set, and may lie
+    /// before 1970 then.
+    pub fn start(&self) -> Option<i64> {
+        Some(self.start.load(Ordering::Acquire)).filter(|start| *start != 0)
+    }
+
+    pub(crate) fn set_start(&self, start: i64) {
+        // Zero means that there is none; a nanosecond more is still the same instant.
+        self.start.store(if start == 0 { 1 } else { start }, Ordering::Release);
     }
 
     pub(crate) fn set_run_state(&self, state: RunState) {

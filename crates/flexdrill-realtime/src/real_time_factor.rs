@@ -1,11 +1,7 @@
 //! How fast model time runs against wall time.
 
-/// From this factor on the model keeps up with the clock: what is missing is the jitter of the measurement.
-pub const KEEPS_UP: f64 = 0.98;
-/// Below this factor it is far behind: every tenth second or more is skipped.
-pub const FAR_BEHIND: f64 = 0.9;
-
-/// Marks kept in a window; the factor is as old as window x (1 +- 1/MARKS).
+/// Marks kept. Two more than a window has, so that the oldest of a full ring is always at least a window old; the factor
+/// then spans window x (1 + 1/MARKS) at most.
 const MARKS: usize = 64;
 
 /// Model time gained per wall time over a sliding window.
@@ -34,7 +30,7 @@ impl RealTimeFactor {
 
     /// Notes that at `now` (wall, ns) the model is at `model_time` (s). As often as one likes; cheap.
     pub fn note(&mut self, now: u64, model_time: f64) {
-        let spacing = self.window / (MARKS as u64 - 1);
+        let spacing = self.window / (MARKS as u64 - 2);
         if self.filled > 0 {
             let newest = self.marks[(self.next + MARKS - 1) % MARKS].0;
             if now < newest.saturating_add(spacing) {
@@ -46,24 +42,17 @@ impl RealTimeFactor {
         self.filled = (self.filled + 1).min(MARKS);
     }
 
-    /// Factor at `now` (wall, ns) with the model at `model_time` (s): 1 keeps up, 0.5 is half as fast. `None` before
-    /// any time has passed.
+    /// Factor at `now` (wall, ns) with the model at `model_time` (s): 1 keeps up, 0.5 is half as fast. `None` until a
+    /// whole window has passed since the first mark: a factor of less time would show the jitter of single periods.
     pub fn factor(&self, now: u64, model_time: f64) -> Option<f64> {
-        let oldest_allowed = now.saturating_sub(self.window);
-        let marks = (0..self.filled).map(|back| self.marks[(self.next + MARKS - self.filled + back) % MARKS]);
-        let mut base = None;
-        for mark in marks {
-            // The newest mark that is at least a window old, else the oldest there is.
-            if base.is_none() || mark.0 <= oldest_allowed {
-                base = Some(mark);
-            }
-        }
-        let (wall, model) = base?;
-        let passed = now.checked_sub(wall).filter(|passed| *passed > 0)?;
+        let youngest_allowed = now.checked_sub(self.window)?;
+        let marks = (0..self.filled).map(|index| self.marks[(self.next + MARKS - self.filled + index) % MARKS]);
+        let (wall, model) = marks.take_while(|mark| mark.0 <= youngest_allowed).last()?;
+        let passed = Some(now - wall).filter(|passed| *passed > 0)?;
         Some((model_time - model) / (passed as f64 * 1e-9))
     }
 
-    /// Forgets everything, as after a pause or a reset.
+    /// Forgets everything: the time of a pause or of a failed step is none that the model should have kept up with.
     pub fn restart(&mut self) {
         self.filled = 0;
         self.next = 0;
@@ -110,5 +99,15 @@ mod tests {
         run(&mut factor, 0, 1000, 0.0, 1.0);
         factor.restart();
         assert_eq!(factor.factor(2_000_000_000, 1.0), None);
+    }
+
+    #[test]
+    fn less_than_a_window_gives_no_factor_and_a_full_one_always_does() {
+        let mut factor = RealTimeFactor::new(1.0);
+        for ms in 0..5000_u64 {
+            let (now, model) = (ms * 1_000_000, ms as f64 * 1e-3);
+            factor.note(now, model);
+            assert_eq!(factor.factor(now, model).is_some(), ms >= 1000, "at {ms} ms");
+        }
     }
 }

@@ -92,10 +92,10 @@ impl<C: Clock> RealTimeLoop<C> {
         self.start();
         while !self.stopped() {
             let (now, deadline) = (self.clock.now(), self.pacer.deadline());
-            if now >= deadline {
+            if self.was_set(now, deadline) {
+                self.follow_set_clock(now);
+            } else if now >= deadline {
                 self.run_period();
-            } else if deadline - now > SET_BACK {
-                self.pacer.restart(now);
             } else {
                 self.clock.wait_until(deadline);
             }
@@ -103,11 +103,24 @@ impl<C: Clock> RealTimeLoop<C> {
     }
 
     fn start(&mut self) {
-        self.pacer.restart(self.clock.now());
+        self.follow_set_clock(self.clock.now());
+    }
+
+    /// Whether the clock was set, rather than time passed.
+    fn was_set(&self, now: u64, deadline: u64) -> bool {
+        deadline.saturating_sub(now) > SET_BACK || now.saturating_sub(deadline) > self.clock.leap()
+    }
+
+    /// The next period is due at `now`, and stamps follow the clock from here: what was set is no time that the model has
+    /// missed.
+    fn follow_set_clock(&mut self, now: u64) {
+        self.pacer.restart(now);
         // The steps of a period are taken at its begin. Their stamps are within the period before, so that none is ahead of
         // the clock when it is published.
-        let start = self.clock.rig_time().saturating_sub(self.period).max(1);
-        self.end.gauges.start.store(start, Ordering::Release);
+        let time_step = self.run.simulation().settings().time_step;
+        let gone = (self.run.ticks() as f64 * time_step * 1e9).round() as i64;
+        let first = i64::try_from(self.clock.rig_time().saturating_sub(self.period)).unwrap_or(i64::MAX);
+        self.end.gauges.set_start(first.saturating_sub(gone));
     }
 
     /// One period and what follows from how long it took.

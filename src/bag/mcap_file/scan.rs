@@ -54,7 +54,7 @@ pub(super) struct Scan {
 /// Goes through the file's records, without unpacking chunks unless the file has no summary.
 ///
 /// # Errors
-/// When the file cannot be read, or is not MCAP.
+/// When the file cannot be read, is not MCAP, or unpacks to more than a recording of its size can.
 pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
     let read_error = || BagError::io("read", path);
     let length = file.metadata().map_err(read_error())?.len();
@@ -74,6 +74,9 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
         cut: None,
     };
     let mut position = MAGIC.len() as u64;
+    let most_in_file = chunk::most_in_file(length);
+    // Bytes that the chunks so far unpack to.
+    let mut unpacked = 0_u64;
     // Channels in the whole file, as its statistics say.
     let mut channel_count = 0;
     let complete = loop {
@@ -99,12 +102,13 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
         if size > available {
             scan.cut = Some((position, "the file ends within a record".to_owned()));
             if opcode == op::CHUNK {
-                let start = chunk_bounds(&mut reader, available).map_err(read_error())?;
+                let head = chunk_summary(&mut reader, available).map_err(read_error())?;
+                let (start, end, _) = head.unwrap_or_default();
                 scan.segments.push(Segment {
                     offset: body,
                     length: available,
-                    start: start.map_or(0, |bounds| bounds.0),
-                    end: start.map_or(0, |bounds| bounds.1),
+                    start,
+                    end,
                     kind: Kind::CutChunk,
                 });
             }
@@ -116,7 +120,19 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
             op::FOOTER => break true,
             op::CHUNK => {
                 used = size.min(CHUNK_HEAD);
-                let (start, end) = chunk_bounds(&mut reader, size).map_err(read_error())?.unwrap_or((0, 0));
+                let head = chunk_summary(&mut reader, size).map_err(read_error())?;
+                let (start, end, size_unpacked) = head.unwrap_or_default();
+                unpacked = unpacked.saturating_add(size_unpacked);
+                if unpacked > most_in_file {
+                    return Err(BagError::Damaged {
+                        path: path.to_owned(),
+                        offset: position,
+                        problem: format!(
+                            "its chunks up to here unpack to {unpacked} bytes by what they say, and those of a file of \
+                             {length} bytes may unpack to {most_in_file}: no recording compresses so well"
+                        ),
+                    });
+                }
                 scan.segments.push(Segment {
                     offset: body,
                     length: size,
@@ -157,12 +173,13 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
     Ok(scan)
 }
 
-/// Earliest and latest time in a chunk, by its head.
-fn chunk_bounds(reader: &mut impl Read, size: u64) -> std::io::Result<Option<(u64, u64)>> {
+/// Earliest and latest time in a chunk and the bytes that it unpacks to, by its head.
+fn chunk_summary(reader: &mut impl Read, size: u64) -> std::io::Result<Option<(u64, u64, u64)>> {
     let mut bytes = vec![0; size.min(CHUNK_HEAD) as usize];
     reader.read_exact(&mut bytes)?;
     let mut fields = Fields(&bytes);
-    Ok(fields.u64().zip(fields.u64()))
+    let mut read = || Some((fields.u64()?, fields.u64()?, fields.u64()?));
+    Ok(read())
 }
 
 /// Adds a message outside of chunks to the run before it, or begins a run.

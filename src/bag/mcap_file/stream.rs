@@ -14,6 +14,10 @@ use super::scan::{self, Kind, Segment};
 use crate::bag::raw::RawMessage;
 use crate::bag::{BagError, Cut, Topic};
 
+/// Bytes of messages beyond which no further chunk is unpacked while they wait (bytes): chunks of one recording overlap in
+/// time by some megabytes.
+const MOST_WAITING: usize = 256 << 20;
+
 /// What is wrong with a record of a message.
 #[derive(Debug, thiserror::Error)]
 enum RecordProblem {
@@ -32,6 +36,8 @@ pub(in crate::bag) struct McapStream {
     segments: Vec<Segment>,
     next_segment: usize,
     waiting: BinaryHeap<Reverse<RawMessage>>,
+    /// Bytes of these messages.
+    waiting_bytes: usize,
     /// Problem of the segment unpacked last, to be reported before its messages.
     problem: Option<BagError>,
     /// Messages unpacked so far, which keeps those of equal time in the file's order.
@@ -60,6 +66,7 @@ impl McapStream {
             segments: scan.segments,
             next_segment: 0,
             waiting: BinaryHeap::new(),
+            waiting_bytes: 0,
             problem: None,
             order: 0,
             begin: i64::MIN,
@@ -99,6 +106,7 @@ impl McapStream {
     /// Goes to the first message of `time` or later (ns since the epoch).
     pub fn seek(&mut self, time: i64) {
         self.waiting.clear();
+        self.waiting_bytes = 0;
         self.problem = None;
         self.next_segment = 0;
         self.begin = time;
@@ -111,13 +119,16 @@ impl McapStream {
                 return Some(Err(problem));
             }
             let Some(segment) = self.segments.get(self.next_segment).copied() else {
-                return self.waiting.pop().map(|Reverse(message)| Ok(message));
+                return self.pop().map(Ok);
             };
             let first = self.waiting.peek().map(|Reverse(message)| message.log_time as u64);
             if first.is_some_and(|time| time < segment.start) {
-                return self.waiting.pop().map(|Reverse(message)| Ok(message));
+                return self.pop().map(Ok);
             }
             self.next_segment += 1;
+            if self.waiting_bytes > MOST_WAITING {
+                return Some(Err(self.crowded(&segment)));
+            }
             // A chunk without messages has zero for its end, and nothing to unpack.
             if i64::try_from(segment.end).is_ok_and(|end| end < self.begin) {
                 continue;
@@ -125,6 +136,25 @@ impl McapStream {
             if let Err(error) = self.unpack(&segment) {
                 return Some(Err(error));
             }
+        }
+    }
+
+    fn pop(&mut self) -> Option<RawMessage> {
+        let Reverse(message) = self.waiting.pop()?;
+        self.waiting_bytes = self.waiting_bytes.saturating_sub(message.data.len());
+        Some(message)
+    }
+
+    /// A chunk that is left out, since too many messages wait already for one that may come before them.
+    fn crowded(&self, segment: &Segment) -> BagError {
+        BagError::Damaged {
+            path: self.path.clone(),
+            offset: segment.offset,
+            problem: format!(
+                "{} bytes of messages of other chunks wait to be put in order with this one, and at most {MOST_WAITING} \
+                 may: the chunk is left out",
+                self.waiting_bytes
+            ),
         }
     }
 
@@ -169,6 +199,7 @@ impl McapStream {
             .ok_or(RecordProblem::UnknownChannel(message.channel_id))?;
         let log_time = i64::try_from(message.log_time).unwrap_or(i64::MAX);
         if self.wanted.get(topic) == Some(&true) && log_time >= self.begin {
+            self.waiting_bytes += body.len() - MESSAGE_HEAD;
             self.waiting.push(Reverse(RawMessage {
                 log_time,
                 order: self.order,

@@ -92,8 +92,13 @@ impl fmt::Display for AlarmTally {
         let [low, medium, high] = self.figures.of_priority;
         writeln!(
             f,
-            "\nalarms: {} ({high} high, {medium} medium, {low} low), {:.1} per hour",
-            self.figures.annunciations, self.figures.per_hour
+            "\nalarms: {} ({high} high, {medium} medium, {low} low) in {:.1} min, {}",
+            self.figures.annunciations,
+            self.figures.watched / 60.0,
+            match self.figures.per_hour {
+                Some(rate) => format!("{rate:.1} per hour"),
+                None => "per hour: not before a full hour".to_owned(),
+            }
         )?;
         writeln!(
             f,
@@ -115,10 +120,12 @@ impl fmt::Display for AlarmTally {
         }
         writeln!(
             f,
-            "  at most {} within 10 min; {:.2} % of the time in flood (more than 10 within 10 min); one alarm at most {} times \
-             within 60 s",
+            "  at most {} within 10 min; in flood (more than 10 within 10 min) {}; one alarm at most {} times within 60 s",
             self.figures.most_in_ten_minutes,
-            100.0 * self.figures.flood_share,
+            match self.figures.flood_share {
+                Some(share) => format!("{:.2} % of the time", 100.0 * share),
+                None => "not before a full 10 min".to_owned(),
+            },
             self.figures.most_repeats
         )
     }

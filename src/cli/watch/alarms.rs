@@ -5,16 +5,20 @@ use std::fmt::Write as _;
 use crate::messages::{Alarm, AlarmList, words};
 use flexdrill_core::units::rad_to_deg;
 
-/// Those that call for somebody, the worst first as in the list.
+/// The alarms that call for an operator, the worst first as in the list; those of the computer follow the driller's.
 pub(super) fn shown(list: &AlarmList) -> impl Iterator<Item = &Alarm> {
-    list.alarms.iter().filter(|alarm| {
-        [
-            Alarm::ACTIVE_UNACKNOWLEDGED,
-            Alarm::ACTIVE_ACKNOWLEDGED,
-            Alarm::RETURNED_UNACKNOWLEDGED,
-        ]
-        .contains(&alarm.state)
-    })
+    let of = |category: u8| {
+        list.alarms.iter().filter(move |alarm| {
+            alarm.category == category
+                && [
+                    Alarm::ACTIVE_UNACKNOWLEDGED,
+                    Alarm::ACTIVE_ACKNOWLEDGED,
+                    Alarm::RETURNED_UNACKNOWLEDGED,
+                ]
+                .contains(&alarm.state)
+        })
+    };
+    of(Alarm::DRILLING).chain(of(Alarm::SYSTEM))
 }
 
 /// How many of which state there are.
@@ -59,8 +63,18 @@ pub(super) fn headline(alarm: &Alarm) -> String {
     } else {
         String::new()
     };
+    let whom = if alarm.category == Alarm::SYSTEM {
+        "computer: "
+    } else {
+        ""
+    };
+    let earlier = if alarm.from_earlier_run {
+        ", since an earlier run"
+    } else {
+        ""
+    };
     format!(
-        "{} {}, {}{place}{chatters}",
+        "{whom}{} {}, {}{place}{chatters}{earlier}",
         words::alarm_priority(alarm.priority).to_uppercase(),
         alarm.name,
         words::alarm_state(alarm.state)
@@ -70,4 +84,35 @@ pub(super) fn headline(alarm: &Alarm) -> String {
 /// What is seen and what to do.
 pub(super) fn sentences(alarm: &Alarm) -> String {
     format!("{} {}", alarm.evidence, alarm.what_to_do).trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alarms_of_the_computer_follow_the_drillers_and_say_so() {
+        let alarm = |name: &str, category, priority| Alarm {
+            name: name.to_owned(),
+            state: Alarm::ACTIVE_UNACKNOWLEDGED,
+            category,
+            priority,
+            ..Alarm::default()
+        };
+        let list = AlarmList {
+            alarms: vec![
+                alarm("not in real time", Alarm::SYSTEM, Alarm::MEDIUM),
+                alarm("lateral shock", Alarm::DRILLING, Alarm::LOW),
+            ],
+            ..AlarmList::default()
+        };
+        let lines: Vec<String> = shown(&list).map(headline).collect();
+        assert_eq!(
+            lines,
+            [
+                "LOW lateral shock, active, unacknowledged",
+                "computer: MEDIUM not in real time, active, unacknowledged"
+            ]
+        );
+    }
 }

@@ -33,8 +33,8 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
         )?;
         writeln!(
             text,
-            "pace       x{:.3} real time, late {}, steps missed {} skipped {}, step p50 {} p99 {} max {}",
-            status.real_time_factor,
+            "pace       {}, late {}, steps missed {} skipped {}, step p50 {} p99 {} max {}",
+            texts::pace(status),
             texts::short_time(status.lateness),
             status.deadline_misses,
             status.steps_skipped,

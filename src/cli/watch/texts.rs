@@ -16,6 +16,15 @@ pub(super) fn state(code: u8) -> &'static str {
     }
 }
 
+/// How fast the model goes against the clock.
+pub(super) fn pace(status: &TwinStatus) -> String {
+    if status.real_time_factor.is_finite() {
+        format!("x{:.3} real time", status.real_time_factor)
+    } else {
+        "real time not measured yet".to_owned()
+    }
+}
+
 /// The input's state; in capitals when the model no longer follows the rig.
 pub(super) fn input_state(code: u8) -> String {
     let word = words::input_state(code);

@@ -47,9 +47,13 @@ pub(super) fn section(summary: &Summary) -> Markup {
             }
             @if let Some(list) = &incidents.newest {
                 p.note {
-                    (number(list.annunciations_per_hour)) " calls per hour; " (percent(list.flood_share))
-                    " of the time in flood (more than 10 in 10 min); " (list.unacknowledged)
-                    " to be acknowledged at the end."
+                    @if list.annunciations_per_hour.is_finite() {
+                        (number(list.annunciations_per_hour)) " calls per hour; "
+                    } @else { "Calls per hour: not before a full hour; " }
+                    @if list.flood_share.is_finite() {
+                        (percent(list.flood_share)) " of the time in flood (more than 10 in 10 min); "
+                    } @else { "time in flood: not before a full 10 min; " }
+                    (list.unacknowledged) " to be acknowledged at the end."
                 }
             }
         }

@@ -86,11 +86,13 @@ fn facts(summary: &Summary) -> Markup {
 
 /// The few numbers that a reader looks for first.
 fn tiles(summary: &Summary) -> Markup {
-    let worst = summary
+    let worst = summary.incidents.worst();
+    let end = summary.seconds();
+    // Both inputs end together with the log: one tile, for the first of them.
+    let silent = summary
         .incidents
-        .groups
-        .values()
-        .max_by_key(|group| (group.priority, group.times));
+        .inputs_at_the_end()
+        .min_by(|a, b| a.start.total_cmp(&b.start));
     let drive = &summary.drive;
     let places = &summary.places;
     let peak = |layer: usize| {
@@ -99,7 +101,7 @@ fn tiles(summary: &Summary) -> Markup {
     };
     html! {
         div.tiles {
-            @if let Some(group) = worst {
+            @if let Some(group) = &worst {
                 div.tile.(priority_class(group.priority)) {
                     b { (words::alarm_priority(group.priority).to_uppercase()) } (capital(&group.name))
                     small { (times(group.times)) ", " (duration(group.active)) " in all" }
@@ -107,7 +109,13 @@ fn tiles(summary: &Summary) -> Markup {
             } @else if !summary.has_alarms() {
                 div.tile.unknown { b { "?" } "no alarms in the bag" }
             } @else {
-                div.tile.good { b { "none" } "alarms" }
+                div.tile.good { b { "none" } "alarms while the rig sent its inputs" }
+            }
+            @if let Some(incident) = silent {
+                div.tile.unknown {
+                    b { (duration((end - incident.start).max(0.0))) } "without inputs at the end"
+                    small { "the log or the rig had ended; the model was held, then brought to its safe values" }
+                }
             }
             @for (layer, name) in ["pipe on guide", "guide on wall"].into_iter().enumerate() {
                 @if let Some((force, depth)) = peak(layer) {

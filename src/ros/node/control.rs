@@ -51,6 +51,15 @@ pub enum ControlError {
     /// There is no state yet.
     #[error("the model is still being built")]
     Starting,
+    /// A managed node runs the model in one state only.
+    #[error(
+        "the node is managed and {state}: model time runs in the state active only; \
+         configure and activate it first (ros2 lifecycle set)"
+    )]
+    NotActive {
+        /// Its state in a word.
+        state: &'static str,
+    },
     /// The solver is in a step that takes too long.
     #[error("the solver did not answer in time")]
     NoAnswer,
@@ -83,6 +92,8 @@ pub struct Control {
     hard_bounds: HardBounds,
     /// When one was asked for last.
     checkpoint: Mutex<Option<Instant>>,
+    /// State of a managed node that is not active, in which model time stands still.
+    inactive: Mutex<Option<&'static str>>,
 }
 
 /// What of a configuration acts while the solver runs.
@@ -113,6 +124,7 @@ impl Control {
             rig_inputs,
             gauges,
             checkpoint: Mutex::default(),
+            inactive: Mutex::default(),
         })
     }
 
@@ -187,10 +199,27 @@ impl Control {
     /// Has model time stand still, or go on.
     ///
     /// # Errors
-    /// As [`Control::go_back`].
+    /// As [`Control::go_back`]; [`ControlError::NotActive`] where a managed node is to go on that is not active.
     pub fn pause(&self, pause: bool) -> Result<(), ControlError> {
+        // Held until the command is sent, so that a transition does not come between.
+        let inactive = self.inactive.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(state) = inactive.filter(|_| !pause) {
+            return Err(ControlError::NotActive { state });
+        }
+        self.send(Command::Pause(pause))?;
         tracing::info!("{}{}", if pause { "paused" } else { "resumed" }, asked_by());
-        self.send(Command::Pause(pause)).map(drop)
+        Ok(())
+    }
+
+    /// Model time of a managed node runs from now on, or stands still in the `inactive` state of that name.
+    ///
+    /// # Errors
+    /// As [`Control::go_back`]; then nothing has changed.
+    pub fn manage(&self, inactive: Option<&'static str>) -> Result<(), ControlError> {
+        let mut state = self.inactive.lock().unwrap_or_else(PoisonError::into_inner);
+        self.send(Command::Pause(inactive.is_some()))?;
+        *state = inactive;
+        Ok(())
     }
 
     fn answer_reset(&self) -> TriggerResponse {
@@ -347,6 +376,26 @@ mod tests {
         bench
             .store
             .set_atomically(&[parameter], |store, changed| control.act(store, changed, "a test"))
+    }
+
+    #[test]
+    fn a_managed_node_goes_on_in_the_active_state_only() {
+        let control = bench().control;
+        let sent = || control.commands.lock().unwrap().sent;
+        for (commands, state) in [(1, "unconfigured"), (2, "inactive")] {
+            control.manage(Some(state)).unwrap();
+            let refused = control.answer_pause(false);
+            assert!(
+                !refused.success && refused.message.contains(state) && refused.message.contains("activate"),
+                "{}",
+                refused.message
+            );
+            assert_eq!(sent(), commands, "a refused request reaches the solver");
+        }
+        assert!(control.answer_pause(true).success, "what stands still may be paused");
+        control.manage(None).unwrap();
+        assert!(control.answer_pause(true).success && control.answer_pause(false).success);
+        assert_eq!(sent(), 6);
     }
 
     /// "Successful" means that it acts: what the ring has no room for is refused, and nowhere changed.

@@ -2,9 +2,10 @@
 //!
 //! - the solver's thread: [`flexdrill_realtime`];
 //! - the publisher's thread: `publish`; the recorder's thread: [`RecordingThread`];
-//! - tokio tasks: inputs and clock (`rig`), services and parameters (`control`).
+//! - tokio tasks: inputs (`rig`), `/clock` (`clock`), services and parameters (`control`).
 
 pub mod alarms;
+mod clock;
 pub mod control;
 mod ending;
 pub mod publish;
@@ -212,7 +213,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     if setup.use_sim_time {
         let name = setup.topic_name(&topics::CLOCK)?;
         let ticks = port.subscription(&name, topics::CLOCK.kind.dds_type, false);
-        tasks.spawn(rig::follow_clock(rig_inputs.clone(), ticks, Arc::clone(&simulated)));
+        tasks.spawn(clock::follow(rig_inputs.clone(), ticks, Arc::clone(&simulated)));
     }
     let live = match &setup.live {
         Some(at) => Some(start_live(&setup, at, || {

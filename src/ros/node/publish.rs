@@ -15,6 +15,7 @@ use crate::dds::port::Monitor;
 use crate::health::diagnostics::{Diagnostics, Evidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
+use crate::health::{another_of_this_name, not_in_real_time};
 use crate::live::LiveServer;
 use crate::messages::diagnostic_msgs::DiagnosticArray;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
@@ -22,12 +23,12 @@ use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
 use crate::rig_inputs::Intake;
-use crate::told::Throttles;
+use crate::told::{Throttle, Throttles};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Conditioner;
 use flexdrill_core::twin::{Output, RunInputs};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
-use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, monotonic};
+use flexdrill_realtime::monotonic;
 
 /// How often the rings are polled: the delay that publishing adds.
 const POLL: Duration = Duration::from_millis(1);
@@ -36,6 +37,9 @@ const NODE_ALARM_RATE: f64 = 5.0;
 
 /// Least time between two lines about failed steps of one cause (s).
 const FAILURE_INTERVAL: f64 = 1.0;
+
+/// Least time between two lines about other nodes of this one's name (s).
+const NAMESAKE_INTERVAL: f64 = 60.0;
 
 /// What the publisher's thread is made of.
 pub struct PublisherParts {
@@ -86,6 +90,8 @@ pub struct Publisher {
     next_status: u64,
     next_diagnostics: u64,
     next_alarms: u64,
+    namesake_lines: Throttle,
+    namesake: bool,
     newest_status: TwinStatus,
     late: bool,
     failure_lines: Throttles<&'static str>,
@@ -111,6 +117,8 @@ impl Publisher {
             next_status: now,
             next_diagnostics: now,
             next_alarms: now,
+            namesake_lines: Throttle::new(NAMESAKE_INTERVAL),
+            namesake: false,
             newest_status: TwinStatus::default(),
             late: false,
             failure_lines: Throttles::new(FAILURE_INTERVAL),
@@ -146,8 +154,10 @@ impl Publisher {
 
     /// Publishes what is there; whether there was something of the solver.
     fn poll(&mut self) -> bool {
-        if self.outputs.is_none() && self.parts.gauges.start.load(Ordering::Acquire) != 0 {
-            self.begin();
+        match (self.parts.gauges.start(), &mut self.outputs) {
+            (Some(start), None) => self.begin(start),
+            (Some(start), Some(outputs)) => outputs.set_start(start),
+            (None, _) => {}
         }
         let mut worked = false;
         while let Ok(event) = self.parts.end.events.pop() {
@@ -177,8 +187,8 @@ impl Publisher {
             self.send_diagnostics();
         }
         if due(&mut self.next_alarms, now, NODE_ALARM_RATE) {
-            let factor = self.status.real_time_factor(self.pace_time(), &self.parts.gauges);
-            alarms::judge_node(&mut self.parts, self.evidence.failure, factor);
+            let pace = self.status.pace();
+            alarms::judge_node(&mut self.parts, self.evidence.failure, pace);
         }
         let parts = &mut self.parts;
         parts.alarms.answer(|| (parts.rig_time)());
@@ -190,9 +200,8 @@ impl Publisher {
     }
 
     /// The model has started: the clock of the run is known.
-    fn begin(&mut self) {
+    fn begin(&mut self, start: i64) {
         let config = Arc::clone(&self.parts.config);
-        let start = self.parts.gauges.start.load(Ordering::Acquire) as i64;
         let mut outputs = Outputs::new(&config, start);
         let configuration = config.to_yaml().unwrap_or_default();
         let parts = &self.parts;
@@ -313,24 +322,41 @@ impl Publisher {
         let status = self.status.status(header, &sources);
         self.parts.send_message(&topics::STATUS, &status, self.instant());
         self.log_lateness(&status);
+        self.log_namesakes(&status);
         self.newest_status = status;
     }
 
     /// One line when the model falls out of real time, one when it is back.
     fn log_lateness(&mut self, status: &TwinStatus) {
-        let skipping =
-            status.state == TwinStatus::RUNNING && status.real_time_factor < FAR_BEHIND && status.steps_skipped > 0;
-        if skipping && !self.late {
-            tracing::warn!(
-                "not in real time: the model gains {:.2} s per second and skips the rest; take a coarser mesh or a faster machine",
-                status.real_time_factor
-            );
-        } else if self.late && status.real_time_factor >= KEEPS_UP {
-            tracing::info!("in real time again");
-        } else {
+        match status.pace {
+            TwinStatus::PACE_FAR_BEHIND if !self.late => {
+                tracing::warn!(
+                    "{}; end other programs on this computer or run the twin on a faster core",
+                    not_in_real_time(status.pace_factor)
+                );
+                self.late = true;
+            }
+            TwinStatus::PACE_KEPT if self.late => {
+                tracing::info!("in real time again");
+                self.late = false;
+            }
+            _ => {}
+        }
+    }
+
+    /// One line when another node of this name appears, one a minute while it stays, one when it has gone: both take the
+    /// rig's inputs and publish to the same topics.
+    fn log_namesakes(&mut self, status: &TwinStatus) {
+        if status.namesake.is_empty() {
+            if std::mem::take(&mut self.namesake) {
+                tracing::info!("no other node has the name of this one any more");
+            }
             return;
         }
-        self.late = skipping;
+        self.namesake = true;
+        if let Some(more) = self.namesake_lines.ending(monotonic::now() as f64 * 1e-9) {
+            tracing::warn!("{}{more}", another_of_this_name(&status.namesake));
+        }
     }
 
     fn send_diagnostics(&mut self) {

@@ -1,8 +1,8 @@
-//! What comes from the rig: the two inputs and, with `use_sim_time`, the clock. How samples are judged is
-//! [`crate::rig_inputs`]; here is their way from the network.
+//! What comes from the rig: the two inputs. How samples are judged is [`crate::rig_inputs`]; here is their path from the
+//! network.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -10,7 +10,6 @@ use std::time::Duration;
 use crate::dds::plan::Guid;
 use crate::dds::port::{Inbox, Monitor, Sample};
 use crate::messages::RigInputs as RigInputsMessage;
-use crate::messages::rosgraph_msgs::Clock;
 use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{Message, from_cdr_body};
@@ -189,6 +188,13 @@ impl RigInputs {
         self.targets.set(inputs, quality as u8);
     }
 
+    /// The clock of arrivals was set: ages count from now on.
+    pub fn clock_set(&self) {
+        let now = (self.now)();
+        locked(&self.intake).clock_set(now);
+        locked(&self.conditioner).clock_set(now);
+    }
+
     /// Takes a number alone of a publisher. Why it was refused, if it was.
     pub fn take_plain(&self, kind: InputKind, value: f64, id: DriverId) -> Vec<SampleRefused> {
         self.take([(kind, value, None)], id)
@@ -360,7 +366,7 @@ async fn receive<M: Message>(
 }
 
 /// A sample as its message, and who wrote it.
-fn decode<M: Message>(sample: Sample) -> Result<(M, Guid), String> {
+pub(super) fn decode<M: Message>(sample: Sample) -> Result<(M, Guid), String> {
     match sample {
         Sample::Body { writer, body } => from_cdr_body(&body)
             .map(|(message, _)| (message, writer))
@@ -412,26 +418,6 @@ pub async fn keep_targets(rig: RigInputs) {
         tick.tick().await;
         rig.update_targets();
         rig.announce();
-    }
-}
-
-/// Follows `/clock`; `newest` is in ns.
-pub async fn follow_clock(rig: RigInputs, ticks: Arc<Inbox<Sample>>, newest: Arc<AtomicU64>) {
-    loop {
-        let Ok((Clock { clock }, _)) = decode::<Clock>(ticks.next().await) else {
-            continue;
-        };
-        let time = clock.to_nanoseconds().max(0) as u64;
-        let before = newest.swap(time, Ordering::AcqRel);
-        if time < before {
-            tracing::warn!(
-                "/clock went back by {:.3} s; the model goes on from where it is",
-                (before - time) as f64 * 1e-9
-            );
-            let now = (rig.now)();
-            locked(&rig.intake).clock_set(now);
-            locked(&rig.conditioner).clock_set(now);
-        }
     }
 }
 

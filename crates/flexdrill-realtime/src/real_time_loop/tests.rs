@@ -340,7 +340,7 @@ fn the_loop_ends_when_told_and_follows_the_deadlines() {
     stop.stop.store(true, Ordering::Relaxed);
     thread.join().unwrap();
     // Stamps begin a period before: what is published is never ahead of the clock.
-    assert_eq!(gauges.start.load(Ordering::Relaxed), START - 5 * MS);
+    assert_eq!(gauges.start(), Some((START - 5 * MS) as i64));
     assert_eq!(gauges.steps_late.load(Ordering::Relaxed), 0);
 }
 
@@ -392,4 +392,60 @@ fn what_is_set_before_the_first_tick_acts_on_the_first_step() {
     let newest = 2.0 * room as f64;
     assert_eq!((first.0.step, first.0.slew), (0, [newest, 2.0 * newest]));
     assert_eq!(first.1, 2 * room as u64);
+}
+
+/// A simulated clock that is set to another year and back: the model goes on from where it is, nothing counts as missed,
+/// and stamps are those of the clock again.
+#[test]
+fn a_clock_that_is_set_leaves_the_model_and_takes_the_stamps_along() {
+    const FORGED: u64 = 2_147_400_000_000 * MS;
+    let targets = Targets::new(settings().initial_inputs);
+    let gauges = Arc::new(Gauges::default());
+    let (end, mut publisher, _commands) = link(targets, Arc::clone(&gauges));
+    let newest = Arc::new(AtomicU64::new(START));
+    let solver = RealTimeLoop::new(run(), SimulatedClock::new(Arc::clone(&newest)), end, 5);
+    let thread = std::thread::spawn(move || solver.run());
+    let began = std::time::Instant::now();
+    let noticed = |before: Option<i64>| {
+        while gauges.start() == before {
+            assert!(began.elapsed().as_secs() < 60, "the loop does not look at the clock");
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+    };
+    noticed(None);
+    let mut advance = |from: u64| {
+        let start = gauges.start();
+        if newest.swap(from, Ordering::AcqRel) != from {
+            noticed(start);
+        }
+        let before = gauges.ticks.load(Ordering::Relaxed);
+        // Half a second of the clock in ticks of 20 ms, each when the model has come as far.
+        for tick in 1..=25_u64 {
+            newest.store(from + tick * 20 * MS, Ordering::Release);
+            while gauges.ticks.load(Ordering::Relaxed) < before + tick * 20 {
+                assert!(began.elapsed().as_secs() < 60, "the model does not follow the clock");
+                while let Ok(report) = publisher.events.pop() {
+                    if let LoopEvent::Frame(frame) = report {
+                        publisher.empty.push(frame).unwrap();
+                    }
+                }
+                std::thread::sleep(std::time::Duration::from_millis(1));
+            }
+        }
+        let ticks = gauges.ticks.load(Ordering::Relaxed);
+        let stamp = gauges.start().unwrap() + (ticks * MS) as i64;
+        (ticks - before, stamp - (from + 500 * MS) as i64)
+    };
+    for from in [START, FORGED, START + 1000 * MS, 5000 * MS] {
+        let (ticks, ahead) = advance(from);
+        // A period more where one was due at the instant of the set itself.
+        assert!((500..=505).contains(&ticks), "{ticks} ticks in 500 ms from {from}");
+        assert!(
+            (-25 * MS as i64..=0).contains(&ahead),
+            "stamps are {ahead} ns ahead of the clock at {from}"
+        );
+    }
+    gauges.stop.store(true, Ordering::Relaxed);
+    thread.join().unwrap();
+    assert_eq!(gauges.steps_skipped.load(Ordering::Relaxed), 0);
 }

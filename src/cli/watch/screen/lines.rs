@@ -10,7 +10,6 @@ use super::{BAD, DOUBTFUL, GOOD};
 use crate::cli::watch::board::Board;
 use crate::cli::watch::{alarms, texts};
 use crate::messages::{Alarm, AlarmList, TwinStatus, WhirlWarning};
-use flexdrill_realtime::KEEPS_UP;
 
 pub(super) fn title_line(board: &Board, now: Instant) -> Line<'static> {
     if let Some(text) = texts::heartbeat(board, now) {
@@ -116,9 +115,13 @@ pub(super) fn inputs(board: &Board) -> Paragraph<'static> {
 pub(super) fn pace(board: &Board) -> Paragraph<'static> {
     let mut lines = Vec::new();
     if let Some(status) = board.status() {
-        let color = if status.real_time_factor >= KEEPS_UP { GOOD } else { BAD };
+        let color = if status.pace >= TwinStatus::PACE_LATE {
+            BAD
+        } else {
+            GOOD
+        };
         lines.push(Line::from(vec![
-            Span::styled(format!("x{:.3} real time", status.real_time_factor), color),
+            Span::styled(texts::pace(status), color),
             Span::raw(format!(", late {}", texts::short_time(status.lateness))),
         ]));
         lines.push(Line::raw(format!(

@@ -126,6 +126,10 @@ export interface Alarm {
   annunciations: number;
   /** How often in the last minute; from three on it chatters. */
   annunciations_last_minute: number;
+  /** Whom the alarm is for: DRILLING or SYSTEM. Show SYSTEM alarms apart from the driller's. */
+  category: number;
+  /** The present state began in an earlier run of the node; since is a time of that run. */
+  from_earlier_run: boolean;
 }
 export const Alarm = {
   /** Nothing to do. */
@@ -138,7 +142,10 @@ export const Alarm = {
   RETURNED_UNACKNOWLEDGED: 3,
   /** An operator has put it aside for a time. */
   SHELVED: 4,
-  /** The tool is in a state in which the condition means nothing: the drive stands or runs up. */
+  /**
+   * The condition means nothing at present: the drive stands or runs up, the model is paused, or the first sample of an
+   * input is awaited.
+   */
   SUPPRESSED_BY_DESIGN: 5,
   /** Switched off by the configuration. */
   OUT_OF_SERVICE: 6,
@@ -150,6 +157,10 @@ export const Alarm = {
   MEDIUM: 2,
   /** At once. */
   HIGH: 3,
+  /** The alarm concerns drilling and is for the driller. */
+  DRILLING: 0,
+  /** The alarm concerns the twin's computer, disk or network and is for whoever runs the computer. */
+  SYSTEM: 1,
   /** The alarm is at no place along the tool, or at none now. */
   NOWHERE: 0,
   /** The flexible pipe. */
@@ -182,6 +193,8 @@ export function decodeAlarm(reader: CdrReader): Alarm {
     what_to_do: reader.string(),
     annunciations: reader.uint64(),
     annunciations_last_minute: reader.uint32(),
+    category: reader.uint8(),
+    from_earlier_run: reader.bool(),
   };
 }
 
@@ -226,6 +239,8 @@ export interface AlarmEvent {
   inclination: number;
   /** What it was judged by, NaN where there is no such number. */
   value: number;
+  /** Whom the alarm is for, as in Alarm: DRILLING or SYSTEM. */
+  category: number;
 }
 export const AlarmEvent = {
   /** The condition has stood for its on-delay. */
@@ -242,7 +257,7 @@ export const AlarmEvent = {
   SHELVED: 5,
   /** It is back: asked for, after its time, as its condition went, or as it rose to HIGH. */
   UNSHELVED: 6,
-  /** The drive stands or runs up: the condition means nothing. */
+  /** The condition means nothing from now on: SUPPRESSED_BY_DESIGN in Alarm says when. */
   SUPPRESSED: 7,
   /** The condition means something again. */
   RELEASED: 8,
@@ -272,6 +287,7 @@ export function decodeAlarmEvent(reader: CdrReader): AlarmEvent {
     measured_depth: reader.float64(),
     inclination: reader.float64(),
     value: reader.float64(),
+    category: reader.uint8(),
   };
 }
 
@@ -286,7 +302,8 @@ export interface AlarmList {
   sequence: number;
   /**
    * All of them, normal ones too. What calls for somebody is first: unacknowledged before acknowledged, then what returned,
-   * what is shelved, suppressed and normal, out of service last; within each by priority.
+   * what is shelved, suppressed and normal, out of service last; within each the driller's before those of the computer,
+   * then by priority.
    */
   alarms: Alarm[];
   /** Alarms to be acknowledged. */
@@ -295,9 +312,9 @@ export interface AlarmList {
   annunciations_last_ten_minutes: number;
   /** More than ten in the last ten minutes. */
   flood: boolean;
-  /** How often per hour watched. */
+  /** Mean per hour since the count began, which a restart goes on with; NaN until one hour has been watched. */
   annunciations_per_hour: number;
-  /** Part of the time watched that was in flood (0 to 1). */
+  /** Part of the time watched that was in flood (0 to 1); NaN until ten minutes have been watched. */
   flood_share: number;
 }
 /** Reads a `flexdrill/msg/AlarmList`. */
@@ -692,13 +709,16 @@ export interface TwinStatus {
   step_count: number;
   /** Model step (s). */
   time_step: number;
-  /** Model time gained per second of wall time, over the last second; 1 keeps up. */
+  /**
+   * Model time gained per second of wall time, over the last second; 1 keeps up. NaN until the model has run for a second
+   * since the start, a pause or a failed step.
+   */
   real_time_factor: number;
   /** How far the model is behind its deadlines now (s, >= 0). */
   lateness: number;
   /** Steps that ended after their deadline. */
   deadline_misses: number;
-  /** Whole step periods given up to catch up. */
+  /** Steps given up because the model was late; those of a pause or after a failed step are in steps_stood_still. */
   steps_skipped: number;
   /** Median computing time of a step in the last interval (s). */
   step_time_p50: number;
@@ -813,6 +833,20 @@ export interface TwinStatus {
   step_in_force: number;
   /** Step that the motion asks for (s); shorter than the one in force where the machine is too slow for it. */
   step_wanted: number;
+  /**
+   * How the model keeps up with the clock, judged over ten seconds and with hysteresis: PACE_NOT_JUDGED, PACE_KEPT,
+   * PACE_LATE or PACE_FAR_BEHIND. Being late is a matter of the computer, not of drilling.
+   */
+  pace: number;
+  /**
+   * Model time gained per second of wall time, over the last ten seconds: what pace is judged by. NaN until the model has
+   * run for so long.
+   */
+  pace_factor: number;
+  /** Why messages are missing in the recording, with the count of each cause; empty if none are. */
+  recording_drops_cause: string;
+  /** Steps during which the model stood still: paused, or after a failed step. */
+  steps_stood_still: number;
 }
 export const TwinStatus = {
   /** The tool is being brought to rest under gravity and weight on bit. */
@@ -848,6 +882,14 @@ export const TwinStatus = {
   QUALITY_DEGRADED: 1,
   /** They are those of runs that are off by a sixth to several times: an alarm. Confidences of the whirl analysis are lowered. */
   QUALITY_POOR: 2,
+  /** Not judged: the model has run for less than ten seconds since the start, a pause or a failed step. */
+  PACE_NOT_JUDGED: 0,
+  /** The model keeps up with the clock. */
+  PACE_KEPT: 1,
+  /** The model gains less than 0.98 s per second and skips the rest. */
+  PACE_LATE: 2,
+  /** It gains less than 0.9 s per second. */
+  PACE_FAR_BEHIND: 3,
 } as const;
 /** Reads a `flexdrill/msg/TwinStatus`. */
 export function decodeTwinStatus(reader: CdrReader): TwinStatus {
@@ -913,6 +955,10 @@ export function decodeTwinStatus(reader: CdrReader): TwinStatus {
     input_overrun: reader.many(reader.length(), () => reader.uint64()),
     step_in_force: reader.float64(),
     step_wanted: reader.float64(),
+    pace: reader.uint8(),
+    pace_factor: reader.float64(),
+    recording_drops_cause: reader.string(),
+    steps_stood_still: reader.uint64(),
   };
 }
 
