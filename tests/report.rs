@@ -187,6 +187,7 @@ fn event(time: f64, change: u8, evidence: &str) -> Vec<u8> {
         priority: 3,
         evidence: evidence.to_owned(),
         what_to_do: "Lower the speed.".to_owned(),
+        what_the_engineer_can_do: "Inspect the joints.".to_owned(),
         measured_depth: 2.5,
         body: 1,
         ..AlarmEvent::default()
@@ -238,6 +239,7 @@ fn alarms_and_health_are_told_and_texts_of_others_stay_text() {
     // From 2 s to 9 s.
     assert!(page.contains("HIGH") && page.contains("once, 7.0 s in all"), "{page}");
     assert!(page.contains("pipe, 2.50 m") && page.contains("Lower the speed."));
+    assert!(page.contains("Inspect the joints."), "what the engineer can do");
     assert!(page.contains("good 75 %, degraded 25 %") && page.contains("steps too long"));
     assert!(page.contains("0.250 to 1") && page.contains("recording 17"));
     assert!(said.contains("1 messages of twin/bit_state cannot be read"), "{said}");

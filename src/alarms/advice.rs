@@ -1,96 +1,367 @@
-//! What to do, from the rules of the configuration: limits that the inputs are to be brought to.
+//! What the driller can do about the tool's alarms, from the rules of the configuration: limits to bring the speed and the
+//! weight on bit to.
+//!
+//! All standing alarms are advised together, one change at a time. The alarm of the highest priority leads and gives its
+//! change alone; the others refer to it. Two changes at once, or a choice between two, would be advice that no run has
+//! shown to work (`docs/alarms.md` lists the runs).
 
+use super::catalogue::AlarmId;
+use super::sentence::{capitalized, number};
 use flexdrill_alarms::Priority;
 use flexdrill_config::{Advice, InputsConfig};
 use flexdrill_core::twin::Applied;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
 /// The last resort of a driller, for what is high.
-const STOP: &str = "pick up off bottom and stop the drive.";
-/// What is said of the rest where no rule would change anything.
-const WATCH: &str = "Watch it: no rule (alarms.advice) would change anything at these inputs.";
-/// An input is told to be raised to this many times its present value at most: more is another way of drilling, and no
-/// answer to an alarm. Assumption.
+const STOP: &str = "pick up off bottom and stop the drive";
+/// A change raises an input to this many times its present value at most: more is another way of drilling, and no answer to
+/// an alarm. Assumption.
 const MOST_RAISE: f64 = 3.0;
+/// Part of a limit by which an input must be beyond it before its alarm no longer asks for it: a drive's speed and a
+/// weight indicator waver by a few percent, and the advice would come and go with them. Assumption.
+const WAVERING: f64 = 0.05;
 
-/// The sentences for inputs as they act now. Only what changes them in the right direction, within the limits that the
-/// inputs have anyway, is said.
-pub(super) fn what_to_do(advice: &Advice, applied: &Applied, inputs: &InputsConfig, priority: Priority) -> String {
-    let (speed, weight) = (rad_per_s_to_rpm(applied.rotary_speed), n_to_kn(applied.weight_on_bit));
-    let mut ways = Vec::new();
-    if let Some(limit) = advice.lower_weight_on_bit_kn.filter(|limit| weight > *limit) {
-        ways.push(format!("lower the weight on bit below {limit} kN ({weight:.1} kN now)"));
-    }
-    let reachable = |now: f64, limit: f64, most: f64| now < limit && limit < most && limit <= MOST_RAISE * now;
-    let in_reach = |limit: &f64| reachable(weight, *limit, inputs.weight_on_bit.max_kn);
-    if let Some(limit) = advice.raise_weight_on_bit_kn.filter(in_reach) {
-        ways.push(format!("raise the weight on bit above {limit} kN ({weight:.1} kN now)"));
-    }
-    if let Some(limit) = advice.lower_rotary_speed_rpm.filter(|limit| speed > *limit) {
-        ways.push(format!("lower the speed below {limit} r/min ({speed:.0} r/min now)"));
-    }
-    let in_reach = |limit: &f64| reachable(speed, *limit, inputs.rotary_speed.max_rpm);
-    if let Some(limit) = advice.raise_rotary_speed_rpm.filter(in_reach) {
-        ways.push(format!("raise the speed above {limit} r/min ({speed:.0} r/min now)"));
-    }
-    let last = match (ways.is_empty(), priority) {
-        (true, Priority::High) => return capitalized(STOP),
-        (true, _) => return WATCH.to_owned(),
-        (false, Priority::High) => format!(" If it does not end, {STOP}"),
-        (false, _) => String::new(),
-    };
-    capitalized(&ways.join(" or ")) + "." + &last
+/// Where the tool is driven.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Operating {
+    /// r/min.
+    pub rpm: f64,
+    /// Weight on bit (kN).
+    pub kn: f64,
 }
 
-fn capitalized(text: &str) -> String {
-    let (first, rest) = text.split_at(text.len().min(1));
-    first.to_uppercase() + rest
+impl Operating {
+    pub fn of(applied: &Applied) -> Self {
+        Self {
+            rpm: rad_per_s_to_rpm(applied.rotary_speed),
+            kn: n_to_kn(applied.weight_on_bit),
+        }
+    }
+}
+
+/// An input that a change is made to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    Speed,
+    Weight,
+}
+
+impl Quantity {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Speed => "speed",
+            Self::Weight => "weight on bit",
+        }
+    }
+
+    fn other(self) -> Self {
+        match self {
+            Self::Speed => Self::Weight,
+            Self::Weight => Self::Speed,
+        }
+    }
+
+    fn now(self, now: &Operating) -> f64 {
+        match self {
+            Self::Speed => now.rpm,
+            Self::Weight => now.kn,
+        }
+    }
+
+    fn most(self, inputs: &InputsConfig) -> f64 {
+        match self {
+            Self::Speed => inputs.rotary_speed.max_rpm,
+            Self::Weight => inputs.weight_on_bit.max_kn,
+        }
+    }
+}
+
+/// One change of one input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Step {
+    quantity: Quantity,
+    raise: bool,
+    /// r/min or kN.
+    limit: f64,
+}
+
+impl Step {
+    /// The steps of a rule in the order in which they are tried. Less speed comes first: it takes energy out of every motion
+    /// of the tool.
+    fn of(rule: &Advice) -> impl Iterator<Item = Self> {
+        let step = |quantity, raise, limit: Option<f64>| limit.map(|limit| Self { quantity, raise, limit });
+        [
+            step(Quantity::Speed, false, rule.lower_rotary_speed_rpm),
+            step(Quantity::Weight, false, rule.lower_weight_on_bit_kn),
+            step(Quantity::Speed, true, rule.raise_rotary_speed_rpm),
+            step(Quantity::Weight, true, rule.raise_weight_on_bit_kn),
+        ]
+        .into_iter()
+        .flatten()
+    }
+
+    /// Whether it changes the present inputs within their limits. `asked` is whether it is asked for already.
+    fn applies(&self, now: &Operating, inputs: &InputsConfig, asked: bool) -> bool {
+        let value = self.quantity.now(now);
+        let margin = if asked { WAVERING * self.limit } else { 0.0 };
+        if self.raise {
+            value < self.limit + margin && self.limit < self.quantity.most(inputs) && self.limit <= MOST_RAISE * value
+        } else {
+            value > self.limit - margin
+        }
+    }
+
+    /// Whether its limit lies beyond a limit of another rule, which asks for less where this asks for more or the reverse.
+    fn is_against(&self, other: &Advice) -> bool {
+        Self::of(other).any(|other| {
+            other.quantity == self.quantity
+                && other.raise != self.raise
+                && if self.raise {
+                    self.limit >= other.limit
+                } else {
+                    self.limit <= other.limit
+                }
+        })
+    }
+
+    /// Whether it brings the input as far as `other` asks, or further.
+    fn serves(&self, other: &Self) -> bool {
+        self.quantity == other.quantity
+            && self.raise == other.raise
+            && if self.raise {
+                self.limit >= other.limit
+            } else {
+                self.limit <= other.limit
+            }
+    }
+
+    fn sentence(&self, now: &Operating) -> String {
+        let (limit, value) = (self.limit, self.quantity.now(now));
+        let (verb, side) = match (self.raise, value < limit) {
+            (true, true) => ("Raise", "above"),
+            (true, false) => ("Raise", "well above"),
+            (false, false) => ("Lower", "below"),
+            (false, true) => ("Lower", "well below"),
+        };
+        let (unit, digits) = match self.quantity {
+            Quantity::Speed => ("r/min", 0),
+            Quantity::Weight => ("kN", 1),
+        };
+        let value = number(value, digits).map_or(String::new(), |value| format!(" ({value} {unit} now)"));
+        format!(
+            "{verb} the {} {side} {limit} {unit}{value} and keep the {}.",
+            self.quantity.name(),
+            self.quantity.other().name()
+        )
+    }
+}
+
+/// An alarm that asks for something.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Demand {
+    pub id: AlarmId,
+    /// That of the condition at present; none once it has ended and the alarm is only held.
+    pub priority: Option<Priority>,
+    pub rule: Advice,
+    /// An operator has put it aside, so that it leads only where no other does.
+    pub shelved: bool,
+}
+
+/// Whether a rule has a step that changes the present inputs. `stands` is whether its alarm stands already.
+pub(super) fn applies(rule: &Advice, now: &Operating, inputs: &InputsConfig, stands: bool) -> bool {
+    Step::of(rule).any(|step| step.applies(now, inputs, stands))
+}
+
+/// The sentences for all standing alarms, in their order.
+pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsConfig) -> Vec<String> {
+    let mut order: Vec<&Demand> = demands.iter().filter(|demand| demand.priority.is_some()).collect();
+    order.sort_by_key(|demand| (demand.shelved, std::cmp::Reverse(demand.priority), demand.id as usize));
+    let lead = order
+        .iter()
+        .enumerate()
+        .find_map(|(rank, demand)| Some((*demand, lead(demand, &order[..rank], &order, now, inputs)?)));
+    demands
+        .iter()
+        .map(|demand| sentence(demand, lead, now, inputs))
+        .collect()
+}
+
+/// What a leading alarm asks for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Lead {
+    Step(Step),
+    Stop,
+}
+
+/// What an alarm asks for if it leads: the first step that leaves the limits of the other alarms' rules alone, else the
+/// first that leaves those of the alarms before it alone, else what a high alarm always has. None where it asks for
+/// nothing that those before it allow.
+fn lead(demand: &Demand, before: &[&Demand], all: &[&Demand], now: &Operating, inputs: &InputsConfig) -> Option<Lead> {
+    let free_of = |step: &Step, others: &[&Demand]| {
+        others
+            .iter()
+            .filter(|other| other.id != demand.id)
+            .all(|other| !step.is_against(&other.rule))
+    };
+    let steps: Vec<Step> = Step::of(&demand.rule)
+        .filter(|step| step.applies(now, inputs, true))
+        .collect();
+    let step = steps
+        .iter()
+        .find(|step| free_of(step, all))
+        .or_else(|| steps.iter().find(|step| free_of(step, before)));
+    match (step, demand.priority) {
+        (Some(step), _) => Some(Lead::Step(*step)),
+        (None, Some(Priority::High)) => Some(Lead::Stop),
+        (None, _) => None,
+    }
+}
+
+fn sentence(demand: &Demand, lead: Option<(&Demand, Lead)>, now: &Operating, inputs: &InputsConfig) -> String {
+    let Some(priority) = demand.priority else {
+        return "No further action: the alarm clears by itself unless the motion comes back.".to_owned();
+    };
+    match lead {
+        Some((leading, lead)) if leading.id == demand.id => match (lead, priority) {
+            (Lead::Stop, _) => capitalized(STOP) + ".",
+            (Lead::Step(step), Priority::High) => format!("{} If it persists, {STOP}.", step.sentence(now)),
+            (Lead::Step(step), _) => step.sentence(now),
+        },
+        Some((leading, Lead::Step(step)))
+            if Step::of(&demand.rule).any(|own| own.applies(now, inputs, true) && step.serves(&own)) =>
+        {
+            format!("The change advised for {} serves this alarm too.", leading.id.name())
+        }
+        Some((leading, _)) => format!(
+            "Follow the advice for {} first; this alarm is judged again after it.",
+            leading.id.name()
+        ),
+        None => {
+            "Call the engineer: no change of speed or weight is known to end it here. If it grows worse, pick up off \
+                 bottom."
+                .to_owned()
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
-    fn told(advice: &Advice, rpm: f64, kn: f64, priority: Priority) -> String {
-        let applied = Applied {
-            rotary_speed: rpm_to_rad_per_s(rpm),
-            weight_on_bit: kn_to_n(kn),
-            ..Applied::default()
-        };
-        what_to_do(advice, &applied, &InputsConfig::default(), priority)
+    const MEDIUM: Priority = Priority::Medium;
+    const HIGH: Priority = Priority::High;
+
+    fn demand(id: AlarmId, priority: Priority, rule: Advice) -> Demand {
+        Demand {
+            id,
+            priority: Some(priority),
+            rule,
+            shelved: false,
+        }
     }
 
+    fn said(demands: &[Demand], rpm: f64, kn: f64) -> Vec<String> {
+        what_to_do(demands, &Operating { rpm, kn }, &InputsConfig::default())
+    }
+
+    fn alone(rule: Advice, rpm: f64, kn: f64, priority: Priority) -> String {
+        said(&[demand(AlarmId::StickSlip, priority, rule)], rpm, kn).remove(0)
+    }
+
+    const LESS: Advice = Advice {
+        lower_weight_on_bit_kn: Some(8.0),
+        raise_weight_on_bit_kn: None,
+        lower_rotary_speed_rpm: None,
+        raise_rotary_speed_rpm: Some(55.0),
+    };
+
     #[test]
-    fn only_what_moves_in_the_right_direction_is_said() {
-        let advice = Advice {
-            lower_weight_on_bit_kn: Some(8.0),
-            raise_rotary_speed_rpm: Some(55.0),
-            ..Advice::default()
-        };
-        let (medium, high) = (Priority::Medium, Priority::High);
+    fn one_change_at_a_time_and_only_in_the_right_direction() {
         assert_eq!(
-            told(&advice, 40.0, 10.0, medium),
-            "Lower the weight on bit below 8 kN (10.0 kN now) or raise the speed above 55 r/min (40 r/min now)."
+            alone(LESS, 40.0, 10.0, MEDIUM),
+            "Lower the weight on bit below 8 kN (10.0 kN now) and keep the speed."
         );
         assert_eq!(
-            told(&advice, 40.0, 5.0, medium),
-            "Raise the speed above 55 r/min (40 r/min now)."
+            alone(LESS, 40.0, 5.0, MEDIUM),
+            "Raise the speed above 55 r/min (40 r/min now) and keep the weight on bit."
         );
-        assert_eq!(told(&advice, 60.0, 5.0, medium), WATCH);
-        assert_eq!(told(&advice, 60.0, 5.0, high), "Pick up off bottom and stop the drive.");
+        assert!(alone(LESS, 60.0, 5.0, MEDIUM).starts_with("Call the engineer"));
+        assert_eq!(alone(LESS, 60.0, 5.0, HIGH), "Pick up off bottom and stop the drive.");
         // The drive does not go there.
         let fast = Advice {
             raise_rotary_speed_rpm: Some(500.0),
             ..Advice::default()
         };
-        assert_eq!(told(&fast, 40.0, 10.0, medium), WATCH);
-        // Nobody sets down twenty times the load because of an alarm.
+        assert!(alone(fast, 40.0, 10.0, MEDIUM).starts_with("Call the engineer"));
+        // No driller sets down twenty times the load because of an alarm.
         let heavy = Advice {
             raise_weight_on_bit_kn: Some(25.0),
             ..Advice::default()
         };
-        assert_eq!(told(&heavy, 40.0, 1.3, medium), WATCH);
-        assert!(told(&heavy, 40.0, 10.0, medium).starts_with("Raise the weight on bit above 25 kN"));
+        assert!(alone(heavy, 40.0, 1.3, MEDIUM).starts_with("Call the engineer"));
+        assert!(alone(heavy, 40.0, 10.0, HIGH).starts_with("Raise the weight on bit above 25 kN (10.0 kN now)"));
+    }
+
+    #[test]
+    fn the_highest_priority_leads_and_the_others_follow() {
+        let slower = |rpm| Advice {
+            lower_rotary_speed_rpm: Some(rpm),
+            ..Advice::default()
+        };
+        let texts = said(
+            &[
+                demand(AlarmId::ForwardWhirl, MEDIUM, slower(90.0)),
+                demand(AlarmId::BackwardWhirl, HIGH, slower(80.0)),
+                demand(AlarmId::StickSlip, MEDIUM, LESS),
+            ],
+            120.0,
+            10.0,
+        );
+        assert_eq!(
+            texts,
+            [
+                "The change advised for backward whirl serves this alarm too.",
+                "Lower the speed below 80 r/min (120 r/min now) and keep the weight on bit. If it persists, pick up off \
+                 bottom and stop the drive.",
+                "Follow the advice for backward whirl first; this alarm is judged again after it."
+            ]
+        );
+        // An alarm that is put aside does not lead, and one whose motion has ended asks for nothing.
+        let mut demands = [
+            demand(AlarmId::BackwardWhirl, HIGH, slower(80.0)),
+            demand(AlarmId::StickSlip, MEDIUM, LESS),
+        ];
+        demands[0].shelved = true;
+        assert!(said(&demands, 120.0, 10.0)[1].starts_with("Lower the weight"));
+        demands[0].priority = None;
+        assert!(said(&demands, 120.0, 10.0)[0].starts_with("No further action"));
+    }
+
+    #[test]
+    fn a_step_leaves_the_limits_of_the_other_alarms_alone() {
+        let slow = Advice {
+            lower_rotary_speed_rpm: Some(50.0),
+            ..Advice::default()
+        };
+        let fast = Advice {
+            raise_rotary_speed_rpm: Some(55.0),
+            ..Advice::default()
+        };
+        // At 40 r/min the first has what it asks for; the second would undo it.
+        let texts = said(
+            &[
+                demand(AlarmId::Shock, HIGH, slow),
+                demand(AlarmId::StickSlip, MEDIUM, fast),
+            ],
+            40.0,
+            10.0,
+        );
+        assert_eq!(
+            texts,
+            [
+                "Pick up off bottom and stop the drive.",
+                "Follow the advice for lateral shock first; this alarm is judged again after it."
+            ]
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! Which alarms there are.
 
 use crate::messages::Alarm;
-use flexdrill_alarms::{Definition, Delays};
+use flexdrill_alarms::{Definition, Delays, Priority};
 use flexdrill_config::{Alarms, NodeAlarm, ToolAlarm};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::motion::HazardKind;
@@ -100,6 +100,15 @@ impl AlarmId {
         match self {
             AlarmId::RealTime | AlarmId::Recording | AlarmId::Network => Alarm::SYSTEM,
             _ => Alarm::DRILLING,
+        }
+    }
+
+    /// The lowest priority with which it is an alarm; what is less stays a displayed state. Nothing is to be done about
+    /// forward whirl before it wears the pipe: it is how the tool turns at moderate speed and load.
+    pub const fn lowest(self) -> Priority {
+        match self {
+            AlarmId::ForwardWhirl => Priority::Medium,
+            _ => Priority::Low,
         }
     }
 

@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
+use super::shown::Shown;
 use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
 use crate::messages::{Alarm, AlarmEvent, AlarmList};
@@ -11,7 +12,7 @@ use flexdrill_alarms::{AlarmSystem, Change, Event, Priority, State, Unshelving};
 use flexdrill_core::tool::Body;
 
 /// All alarms, the worst first. `restored` says of each whether its state is that of an earlier run.
-pub(super) fn list(system: &AlarmSystem, findings: &[Finding], restored: &[bool], header: Header) -> AlarmList {
+pub(super) fn list(system: &AlarmSystem, shown: &[Shown], restored: &[bool], header: Header) -> AlarmList {
     let mut order: Vec<usize> = (0..AlarmId::ALL.len()).collect();
     order.sort_by_key(|index| {
         let standing = system.alarm(*index).standing;
@@ -22,7 +23,7 @@ pub(super) fn list(system: &AlarmSystem, findings: &[Finding], restored: &[bool]
     let alarms: Vec<Alarm> = order
         .into_iter()
         .filter_map(|index| {
-            let mut alarm = alarm(system, AlarmId::ALL[index], findings.get(index)?);
+            let mut alarm = alarm(system, AlarmId::ALL[index], shown.get(index)?);
             alarm.from_earlier_run = restored.get(index) == Some(&true);
             Some(alarm)
         })
@@ -52,8 +53,8 @@ fn rank(state: State) -> u8 {
     }
 }
 
-fn alarm(system: &AlarmSystem, id: AlarmId, finding: &Finding) -> Alarm {
-    let index = id as usize;
+fn alarm(system: &AlarmSystem, id: AlarmId, shown: &Shown) -> Alarm {
+    let (index, finding) = (id as usize, &shown.finding);
     let alarm = system.alarm(index);
     let standing = alarm.standing;
     let (body, measured_depth, inclination) = place(finding);
@@ -74,7 +75,7 @@ fn alarm(system: &AlarmSystem, id: AlarmId, finding: &Finding) -> Alarm {
         threshold: finding.threshold,
         unit: finding.unit.to_owned(),
         confidence: finding.confidence,
-        evidence: finding.evidence.clone(),
+        evidence: shown.evidence(&standing),
         cause: finding.cause.clone(),
         consequence: finding.consequence.clone(),
         what_to_do: finding.what_to_do.clone(),
@@ -82,11 +83,16 @@ fn alarm(system: &AlarmSystem, id: AlarmId, finding: &Finding) -> Alarm {
         annunciations_last_minute: system.statistics().last_minute(index) as u32,
         category: id.category(),
         from_earlier_run: false,
+        what_the_engineer_can_do: finding.what_the_engineer_can_do.clone(),
+        worst_at: Time::from_nanoseconds(shown.worst_at),
+        ended: shown.ended.is_some(),
+        ended_at: Time::from_nanoseconds(shown.ended.unwrap_or_default()),
     }
 }
 
 /// One event at its stamp (ns since 1970), with what is known of its alarm's condition now.
-pub(super) fn event(event: &Event, stamp: i64, finding: &Finding, frame_id: &str) -> AlarmEvent {
+pub(super) fn event(event: &Event, stamp: i64, shown: &Shown, frame_id: &str) -> AlarmEvent {
+    let finding = &shown.finding;
     let (body, measured_depth, inclination) = place(finding);
     let alarm = AlarmId::ALL.get(event.alarm);
     let (id, name) = alarm.map_or(("", ""), |alarm| (alarm.id(), alarm.name()));
@@ -115,12 +121,18 @@ pub(super) fn event(event: &Event, stamp: i64, finding: &Finding, frame_id: &str
         reason: reason.to_owned(),
         shelved_until: Time::from_nanoseconds(shelved_until),
         evidence: event.evidence.clone(),
-        what_to_do: finding.what_to_do.clone(),
+        what_to_do: match event.change {
+            Change::Returned => String::new(),
+            _ => finding.what_to_do.clone(),
+        },
         body,
         measured_depth,
         inclination,
         value: finding.value,
         category: alarm.map_or(Alarm::DRILLING, |alarm| alarm.category()),
+        what_the_engineer_can_do: finding.what_the_engineer_can_do.clone(),
+        worst_at: Time::from_nanoseconds(shown.worst_at),
+        ended_at: Time::from_nanoseconds(shown.ended.unwrap_or_default()),
     }
 }
 

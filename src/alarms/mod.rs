@@ -5,7 +5,8 @@
 //! - [`AlarmBook`] joins them: conditions and requests in, [`AlarmList`] and [`AlarmEvent`]s out.
 //! - `catalogue`: which alarms there are. `finding`: a condition with its words.
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
-//!   inputs, pace, solver and recording. `advice`: what to do, from the rules of the configuration.
+//!   inputs, pace, solver and recording. `shown`: an alarm shows its worst moment while it stands. `advice`: what the driller
+//!   can do, for all alarms together, from the rules of the configuration. `sentence`: parts of sentences.
 //! - `fill`: messages. `state_file`: what is kept over a restart.
 //!
 //! `docs/alarms.md` is for those who use them.
@@ -16,6 +17,8 @@ mod fill;
 mod finding;
 mod node;
 mod request;
+mod sentence;
+mod shown;
 pub mod state_file;
 mod tool;
 
@@ -32,7 +35,11 @@ use crate::messages::topics;
 use crate::messages::{AlarmEvent, AlarmList, CdrError, to_cdr_into};
 use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Saved, SavedError, Statistics, Time};
 use flexdrill_config::Config;
+use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
+
+use advice::{Demand, Operating};
+use shown::Shown;
 
 /// Step back of the clock beyond which the journal's stamps follow it (ns).
 const SET_BACK: Time = 60_000_000_000;
@@ -43,8 +50,10 @@ const LIST_INTERVAL: Time = 1_000_000_000;
 pub struct AlarmBook {
     system: AlarmSystem,
     config: Arc<Config>,
-    /// Per alarm, while it stands or is to be acknowledged: what was seen last.
-    findings: Vec<Finding>,
+    /// Per alarm, while it stands or is to be acknowledged: its worst moment.
+    shown: Vec<Shown>,
+    /// Where the tool is driven, by the newest snapshot.
+    operating: Operating,
     memory: node::Memory,
     /// Per alarm: its present state is that of an earlier run.
     restored: Vec<bool>,
@@ -78,7 +87,8 @@ impl AlarmBook {
 
     fn with(system: AlarmSystem, config: Arc<Config>, time: Time) -> Self {
         let mut book = Self {
-            findings: vec![Finding::default(); AlarmId::ALL.len()],
+            shown: vec![Shown::default(); AlarmId::ALL.len()],
+            operating: Operating::default(),
             memory: node::Memory::default(),
             restored: (0..AlarmId::ALL.len())
                 .map(|index| system.alarm(index).since != 0)
@@ -110,33 +120,56 @@ impl AlarmBook {
 
     /// Takes the hazards of a snapshot, at its stamp.
     pub fn observe_tool(&mut self, snapshot: &Snapshot, stamp: Time) {
-        let config = Arc::clone(&self.config);
-        for (id, finding) in tool::findings(snapshot, &config) {
-            self.observe(id, stamp, finding);
-        }
+        let stands = |id: AlarmId| self.system.alarm(id as usize).standing.active().is_some();
+        let findings = tool::findings(snapshot, stamp, &self.config, stands);
+        self.operating = Operating::of(&snapshot.applied);
+        self.observe(findings, stamp);
     }
 
     /// Takes the node's own state.
     pub fn observe_node(&mut self, state: &NodeState<'_>, time: Time) {
-        for (id, finding) in node::findings(state, &self.config.alarms, &mut self.memory) {
-            self.observe(id, time, finding);
-        }
+        let findings = node::findings(state, &self.config.alarms, &mut self.memory);
+        self.observe(findings, time);
     }
 
-    fn observe(&mut self, id: AlarmId, time: Time, finding: Finding) {
-        let observed = Observation {
-            priority: finding.priority,
-            suppressed: finding.suppressed,
-            evidence: &finding.evidence,
-        };
+    fn observe(&mut self, findings: impl IntoIterator<Item = (AlarmId, Finding)>, time: Time) {
         let mut events = Vec::new();
-        self.system.observe(id as usize, time, &observed, &mut events);
-        let standing = self.system.alarm(id as usize).standing;
-        // What has gone is shown as it was last, for as long as somebody is to know of it.
-        if finding.priority.is_some() || standing.priority().is_none() {
-            self.findings[id as usize] = finding;
+        for (id, finding) in findings {
+            let observed = Observation {
+                priority: finding.priority,
+                suppressed: finding.suppressed,
+                evidence: &finding.evidence,
+            };
+            self.system.observe(id as usize, time, &observed, &mut events);
+            let standing = self.system.alarm(id as usize).standing;
+            self.shown[id as usize].observe(finding, time, &standing);
         }
         self.keep(events);
+    }
+
+    /// Advises the driller on all alarms of the tool's motion together.
+    fn advise(&mut self) {
+        let mut demands = Vec::new();
+        for kind in HazardKind::ALL {
+            let id = AlarmId::of_hazard(kind);
+            let (shown, standing) = (&self.shown[id as usize], self.system.alarm(id as usize).standing);
+            if shown.is_known() {
+                demands.push(Demand {
+                    id,
+                    priority: shown.present,
+                    rule: tool::rule(kind, &self.config.alarms.advice),
+                    shelved: standing.shelf().is_some(),
+                });
+            }
+        }
+        let texts = advice::what_to_do(&demands, &self.operating, &self.config.inputs);
+        for (demand, text) in demands.iter().zip(texts) {
+            let index = demand.id as usize;
+            self.shown[index].finding.what_to_do = match self.system.alarm(index).standing.active() {
+                Some(_) => text,
+                None => "No further action: acknowledge it.".to_owned(),
+            };
+        }
     }
 
     /// Carries out what somebody asks for, at the present time of the clock of requests. What was done.
@@ -152,10 +185,11 @@ impl AlarmBook {
     }
 
     fn keep(&mut self, events: Vec<Event>) {
+        self.advise();
         let frame_id = &self.config.outputs.frame_id;
-        let calm = Finding::default();
+        let calm = Shown::default();
         for event in &events {
-            let finding = self.findings.get(event.alarm).unwrap_or(&calm);
+            let shown = self.shown.get(event.alarm).unwrap_or(&calm);
             // The tool's events follow their instants within moments: further back, the clock was set.
             self.newest = if self.newest.saturating_sub(event.time) > SET_BACK {
                 event.time
@@ -167,7 +201,12 @@ impl AlarmBook {
             {
                 *restored = false;
             }
-            self.journal.push(fill::event(event, self.newest, finding, frame_id));
+            self.journal.push(fill::event(event, self.newest, shown, frame_id));
+        }
+        for (index, shown) in self.shown.iter_mut().enumerate() {
+            if self.system.alarm(index).standing.priority().is_none() {
+                *shown = Shown::default();
+            }
         }
     }
 
@@ -217,7 +256,7 @@ impl AlarmBook {
 
     /// All alarms as they stand, the worst first.
     pub fn list(&self, header: Header) -> AlarmList {
-        fill::list(&self.system, &self.findings, &self.restored, header)
+        fill::list(&self.system, &self.shown, &self.restored, header)
     }
 
     /// Events so far.

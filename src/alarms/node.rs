@@ -2,6 +2,7 @@
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
+use super::sentence::number;
 use crate::bag::{Losses, Problem};
 use crate::dds::port::Health;
 use crate::rig_inputs::DriverSummary;
@@ -147,7 +148,8 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
         evidence,
         cause: cause.to_owned(),
         consequence: "The model no longer follows the rig: its hazards may be missed.".to_owned(),
-        what_to_do: format!("Look after what sends {topic}; go by the rig's own instruments until it is back."),
+        what_to_do: "Go by the rig's own instruments until it is back, and call the engineer.".to_owned(),
+        what_the_engineer_can_do: format!("Check the sensor and the program that publishes {topic}."),
         ..Finding::default()
     }
 }
@@ -182,7 +184,11 @@ fn two_drivers(drivers: &[DriverSummary; 2]) -> Finding {
         evidence: format!("{}.", said.join("; ")),
         cause: "A second rig, a replayed log or a test publishes in the same domain and namespace.".to_owned(),
         consequence: "The model may follow what the tool does not do: its hazards may be missed or made up.".to_owned(),
-        what_to_do: "Stop all but the rig's own, or set inputs.driver.policy to named with its node or id.".to_owned(),
+        what_to_do: "Go by the rig's own instruments until one source is left, and call the engineer.".to_owned(),
+        what_the_engineer_can_do:
+            "Stop all publishers but the rig's own, or set inputs.driver.policy to named with its \
+                                   node or id."
+                .to_owned(),
         ..Finding::default()
     }
 }
@@ -204,13 +210,18 @@ fn real_time(state: &NodeState<'_>) -> Finding {
         value: factor,
         threshold,
         unit: "s/s",
-        evidence: format!("The model gained {factor:.2} s per second over the last 10 s and skipped the rest."),
+        evidence: match number(factor, 2) {
+            Some(factor) => format!("The model gained {factor} s per second over the last 10 s and skipped the rest."),
+            None => "The model does not keep up with the clock and skips the rest.".to_owned(),
+        },
         cause: "This computer is too slow for the tool and its motion, or other programs take its processors."
             .to_owned(),
         consequence:
             "The outputs keep to the clock and show a tool that drills slower in time; hazards may be seen late."
                 .to_owned(),
         what_to_do: "Nothing at the rig: tell whoever runs the twin's computer.".to_owned(),
+        what_the_engineer_can_do:
+            "End other programs on the computer, or take one with faster cores that have AVX2 or AVX-512.".to_owned(),
         ..Finding::default()
     }
 }
@@ -224,7 +235,10 @@ fn solver(failure: Option<StepFailure>) -> Finding {
         evidence: format!("A step failed at model time {:.4} s: {failure}.", failure.time),
         cause: "The motion is too hard for the step at its smallest size.".to_owned(),
         consequence: "The outputs stand still: no hazard is seen.".to_owned(),
-        what_to_do: "Change the inputs or call ~/reset; a smaller solver.time_step or softer contact helps.".to_owned(),
+        what_to_do: "Go by the rig's own instruments and call the engineer.".to_owned(),
+        what_the_engineer_can_do: "Call ~/reset, or wait for other inputs; take a smaller solver.time_step or softer \
+                                   contact for the next run."
+            .to_owned(),
         ..Finding::default()
     }
 }
@@ -250,11 +264,14 @@ fn network(dds: &Health) -> Finding {
                       go on."
                 .to_owned(),
         what_to_do: if many {
-            "Look for a program that sends broken packets; ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST keeps others out."
+            "Go by the rig's own instruments while values stand still, and call the engineer."
         } else {
-            "Nothing if it does not come again; the log tells more."
+            "Call the engineer if it comes again."
         }
         .to_owned(),
+        what_the_engineer_can_do: "Read the cause in the log. Look for a program that sends broken packets; \
+                                   ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST keeps other machines out."
+            .to_owned(),
         ..Finding::default()
     }
 }
@@ -305,6 +322,10 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
         cause,
         consequence: "The run cannot be replayed to the bit, and the journal of alarms has gaps.".to_owned(),
         what_to_do: "Nothing at the rig: tell whoever runs the twin's computer.".to_owned(),
+        what_the_engineer_can_do:
+            "Free the disk: the recording then goes on in another file by itself. Or start the node \
+                                   again with --record on another disk."
+                .to_owned(),
         ..Finding::default()
     }
 }

@@ -200,7 +200,7 @@ pub mod flexdrill {
         pub shelved_until: super::builtin_interfaces::Time,
         /// Shelving ends when the condition goes.
         pub shelved_one_shot: bool,
-        /// Where it is worst now: NOWHERE, PIPE or GUIDE.
+        /// Where it was worst, see worst_at: NOWHERE, PIPE or GUIDE.
         pub body: u8,
         /// Place along the bore from the kick-off (m), NaN where there is none.
         pub measured_depth: f64,
@@ -214,14 +214,15 @@ pub mod flexdrill {
         pub unit: std::string::String,
         /// How far the evidence can be trusted (0 to 1).
         pub confidence: f64,
-        /// What is seen, in a sentence. This and the next three are of the last time that the condition was seen for as long as it
-        /// is to be acknowledged, and empty when nothing is to be known of it.
+        /// What was seen at worst_at, in a sentence; it says when the condition has ended. This and the next three are empty while
+        /// the alarm is normal.
         pub evidence: std::string::String,
         /// Why it comes.
         pub cause: std::string::String,
-        /// What it leads to when nobody acts.
+        /// Why it matters: what it leads to without action.
         pub consequence: std::string::String,
-        /// What to do.
+        /// What the driller can do: weight on bit, rotary speed, pick up, call the engineer. It agrees with that of all other alarms
+        /// in the list.
         pub what_to_do: std::string::String,
         /// How often it has called for somebody since the count began, which a restart goes on with.
         pub annunciations: u64,
@@ -231,16 +232,25 @@ pub mod flexdrill {
         pub category: u8,
         /// The present state began in an earlier run of the node; since is a time of that run.
         pub from_earlier_run: bool,
+        /// What the engineer can do: settings of the model and the machine, measurements, inspection.
+        pub what_the_engineer_can_do: std::string::String,
+        /// When place, value, confidence and evidence were seen, on the rig's clock: the worst moment since the priority was
+        /// reached. Zero while the alarm is normal.
+        pub worst_at: super::builtin_interfaces::Time,
+        /// The condition for this priority has ended: the alarm is held in case it comes back, or waits to be acknowledged.
+        pub ended: bool,
+        /// When the condition for this priority was last met, on the rig's clock; zero unless ended.
+        pub ended_at: super::builtin_interfaces::Time,
     }
 
     impl Alarm {
         /// Nothing to do.
         pub const NORMAL: u8 = 0;
-        /// The condition stands, and nobody has said that he knows.
+        /// The condition stands and is not yet acknowledged.
         pub const ACTIVE_UNACKNOWLEDGED: u8 = 1;
-        /// The condition stands, and somebody knows.
+        /// The condition stands and is acknowledged.
         pub const ACTIVE_ACKNOWLEDGED: u8 = 2;
-        /// The condition has gone before somebody said that he knew.
+        /// The condition has ended and is not yet acknowledged.
         pub const RETURNED_UNACKNOWLEDGED: u8 = 3;
         /// An operator has put it aside for a time.
         pub const SHELVED: u8 = 4;
@@ -274,13 +284,13 @@ pub mod flexdrill {
         const NAME: &'static str = "Alarm";
         const ROS_TYPE: &'static str = "flexdrill/msg/Alarm";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Alarm_";
-        const RIHS01: &'static str = "RIHS01_10abd8bfb0f6e31b03e9cb970000200fa9002f596190ef6a010368011384e5cd";
+        const RIHS01: &'static str = "RIHS01_af7fe187f61a9259cd2569b9a713c43604fc79a6e95dbf3e4ff969bfc20df3b9";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/Alarm.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Alarm", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "active", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "acknowledged", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "threshold", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "consequence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_minute", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_earlier_run", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Alarm", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "active", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "acknowledged", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "threshold", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "consequence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_minute", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_earlier_run", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_the_engineer_can_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "worst_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "ended", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "ended_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
 
     /// One change of one alarm: the journal. What the states and priorities are says Alarm.
@@ -303,7 +313,7 @@ pub mod flexdrill {
         /// The priority that the condition has now; of one that has gone, that which it had or which is to be acknowledged. As in
         /// Alarm.
         pub priority: u8,
-        /// It calls for somebody. A rise of what calls already is the same call.
+        /// It calls the operator. A rise of an alarm that calls already is the same call.
         pub annunciates: bool,
         /// Who asked for it; empty where nobody did.
         pub operator_name: std::string::String,
@@ -313,7 +323,7 @@ pub mod flexdrill {
         pub shelved_until: super::builtin_interfaces::Time,
         /// What is seen, in a sentence; empty where the condition is not there.
         pub evidence: std::string::String,
-        /// What the operator is told to do; empty where nothing is to be done.
+        /// What the driller can do, as in Alarm; empty where nothing is to be done.
         pub what_to_do: std::string::String,
         /// Where it was worst, as in Alarm: NOWHERE, PIPE or GUIDE.
         pub body: u8,
@@ -325,6 +335,13 @@ pub mod flexdrill {
         pub value: f64,
         /// Whom the alarm is for, as in Alarm: DRILLING or SYSTEM.
         pub category: u8,
+        /// What the engineer can do, as in Alarm.
+        pub what_the_engineer_can_do: std::string::String,
+        /// When place, value and evidence were seen, as in Alarm.
+        pub worst_at: super::builtin_interfaces::Time,
+        /// When the condition ended, as in Alarm: earlier than the stamp of RETURNED and LOWERED by the time for which the alarm was
+        /// held. Zero while the condition is met.
+        pub ended_at: super::builtin_interfaces::Time,
     }
 
     impl AlarmEvent {
@@ -357,7 +374,7 @@ pub mod flexdrill {
         const NAME: &'static str = "AlarmEvent";
         const ROS_TYPE: &'static str = "flexdrill/msg/AlarmEvent";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmEvent_";
-        const RIHS01: &'static str = "RIHS01_3739fe63aea56e981525fcdd87c58d54ab2685c892c3547022fdd951aa00e0ca";
+        const RIHS01: &'static str = "RIHS01_c0c9aabb7fe1268e4fe0a988513548a12d8cffd51b24f64700801fd8c860e9c2";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/AlarmEvent.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -365,7 +382,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmEvent", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "change", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciates", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmEvent", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "change", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciates", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_the_engineer_can_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "worst_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "ended_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
 
     /// All alarms, the worst first, sent when one of them changes and every second. Latched: of several received, the one with
@@ -397,7 +414,7 @@ pub mod flexdrill {
         const NAME: &'static str = "AlarmList";
         const ROS_TYPE: &'static str = "flexdrill/msg/AlarmList";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmList_";
-        const RIHS01: &'static str = "RIHS01_dc02e3cfd79f1f1bc05ac74093bb035144cea799160a9ab93e47cdc2580ad7cb";
+        const RIHS01: &'static str = "RIHS01_702959c2a1c6c3890dee3f560beb6996c2a4ac7ff868e0ee8a48f6dcb53b4963";
         const SCHEMA: &'static str = concat!(
             include_str!("../../msg/AlarmList.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",

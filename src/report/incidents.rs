@@ -24,6 +24,7 @@ pub(super) struct Incident {
     pub from_before: bool,
     pub evidence: String,
     pub what_to_do: String,
+    pub what_the_engineer_can_do: String,
     /// Place along the bore (m), NaN where there is none.
     pub measured_depth: f64,
     pub inclination: f64,
@@ -45,6 +46,7 @@ pub(super) struct Group {
     pub what_to_do: String,
     /// Whom it is for, as in [`Alarm`].
     pub category: u8,
+    pub what_the_engineer_can_do: String,
 }
 
 /// The alarms of a recording.
@@ -84,6 +86,7 @@ impl Incidents {
                     from_before: true,
                     evidence: alarm.evidence.clone(),
                     what_to_do: alarm.what_to_do.clone(),
+                    what_the_engineer_can_do: alarm.what_the_engineer_can_do.clone(),
                     measured_depth: alarm.measured_depth,
                     inclination: alarm.inclination,
                     body: alarm.body,
@@ -172,6 +175,7 @@ impl Incidents {
                 from_before: false,
                 evidence: event.evidence.clone(),
                 what_to_do: event.what_to_do.clone(),
+                what_the_engineer_can_do: event.what_the_engineer_can_do.clone(),
                 measured_depth: event.measured_depth,
                 inclination: event.inclination,
                 body: event.body,
@@ -203,6 +207,8 @@ impl Incidents {
             group.name.clone_from(&incident.name);
             group.what_to_do.clone_from(&incident.what_to_do);
             group.category = incident.category;
+            let engineer = &incident.what_the_engineer_can_do;
+            group.what_the_engineer_can_do.clone_from(engineer);
         }
         let kept = self.list.len() < MOST;
         let place = kept.then_some(self.list.len());

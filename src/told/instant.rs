@@ -14,7 +14,17 @@ pub fn instant(nanoseconds: i64) -> String {
     format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02}:{second:02} UTC")
 }
 
-/// The same as part of a file name, which sorts by time: `20261122T011019Z`.
+/// Time of day of such an instant, such as `01:10:19 UTC`.
+pub fn time_of_day(nanoseconds: i64) -> String {
+    let seconds = nanoseconds.div_euclid(1_000_000_000);
+    if (0..DATES_FROM).contains(&seconds) {
+        return format!("model time {seconds} s");
+    }
+    let [_, _, _, hour, minute, second] = calendar(seconds);
+    format!("{hour:02}:{minute:02}:{second:02} UTC")
+}
+
+/// Date and time as part of a file name, which sorts by time: `20261122T011019Z`.
 pub fn instant_in_a_name(seconds: i64) -> String {
     let [year, month, day, hour, minute, second] = calendar(seconds);
     format!("{year:04}{month:02}{day:02}T{hour:02}{minute:02}{second:02}Z")
@@ -59,6 +69,8 @@ mod tests {
             assert_eq!(instant(seconds * 1_000_000_000), text);
         }
         assert_eq!(instant(61_500_000_000), "model time 61 s");
+        assert_eq!(time_of_day(61_500_000_000), "model time 61 s");
+        assert_eq!(time_of_day(1_700_000_000_900_000_000), "22:13:20 UTC");
         assert_eq!(instant_in_a_name(1_700_000_000), "20231114T221320Z");
     }
 }

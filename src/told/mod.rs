@@ -5,6 +5,6 @@ mod instant;
 mod printable;
 mod throttle;
 
-pub use instant::{instant, instant_in_a_name};
+pub use instant::{instant, instant_in_a_name, time_of_day};
 pub use printable::{printable, printable_lines};
 pub use throttle::{Throttle, Throttles};

@@ -1,4 +1,4 @@
-//! `alarms`: which of them there are, their delays, and what an operator is told to do.
+//! `alarms`: which of them there are, their delays, and the rules of the driller's advice.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ section! {
         recording: NodeAlarm = NodeAlarm::default(), below;
         /// DDS had to be started again.
         network: NodeAlarm = NodeAlarm { on_delay: 0.0, ..NodeAlarm::default() }, below;
-        /// Limits that the operator is told to keep.
+        /// Limits that the driller is advised to bring the speed and the weight on bit to.
         advice: AdviceTable = AdviceTable::default();
     }
 }
@@ -54,7 +54,7 @@ section! {
         /// Time that a level must stand before it calls (s).
         on_delay: f64 = 0.0, within(0.0, 600.0), "s", "levels have their own duration; longer would call too late";
         /// Time that it must be gone before the alarm has returned (s).
-        off_delay: f64 = 2.0, within(0.0, 600.0), "s", "levels have their own hold-off; longer says nothing of now";
+        off_delay: f64 = 1.0, within(0.0, 600.0), "s", "levels have their own hold-off; longer says nothing of now";
     }
 }
 
@@ -71,17 +71,18 @@ section! {
     }
 }
 
-/// Per alarm of the tool. What is given for an alarm replaces its default as a whole.
+/// Per alarm of the tool. What is given for an alarm replaces its default as a whole. Every default was followed in runs in
+/// which it ended its alarm and raised no higher one; `docs/alarms.md` lists them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdviceTable {
-    /// Default: below 80 r/min or above 25 kN.
+    /// Default: below 80 r/min.
     pub backward_whirl: Advice,
-    /// Default: below 60 r/min or below 30 kN.
+    /// Default: below 60 r/min.
     pub forward_whirl: Advice,
-    /// Default: below 60 r/min or below 30 kN.
+    /// Default: below 20 kN.
     pub shock: Advice,
-    /// Default: above 55 r/min or below 8 kN.
+    /// Default: below 8 kN, then above 55 r/min.
     pub stick_slip: Advice,
     /// Default: below 40 kN.
     pub joint_load: Advice,
@@ -90,12 +91,9 @@ pub struct AdviceTable {
 impl Default for AdviceTable {
     fn default() -> Self {
         Self {
-            backward_whirl: Advice {
-                raise_weight_on_bit_kn: Some(25.0),
-                ..Advice::lower(Some(80.0), None)
-            },
-            forward_whirl: Advice::lower(Some(60.0), Some(30.0)),
-            shock: Advice::lower(Some(60.0), Some(30.0)),
+            backward_whirl: Advice::lower(Some(80.0), None),
+            forward_whirl: Advice::lower(Some(60.0), None),
+            shock: Advice::lower(None, Some(20.0)),
             stick_slip: Advice {
                 raise_rotary_speed_rpm: Some(55.0),
                 ..Advice::lower(None, Some(8.0))
@@ -105,8 +103,9 @@ impl Default for AdviceTable {
     }
 }
 
-/// What to bring an input to. Only what changes the present inputs in the right direction, within
-/// the inputs' own limits, is told.
+/// What to bring an input to. Of several limits one is advised at a time: the first, in the order lower speed, lower
+/// weight, raise speed, raise weight, that changes the present inputs within their own limits and agrees with the rules of
+/// the other standing alarms.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Advice {

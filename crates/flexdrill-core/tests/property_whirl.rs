@@ -212,7 +212,7 @@ fn level_rises_holds_and_names_its_evidence() {
         "{level:?}"
     );
     let sequence = level.sequence;
-    bench.run(SPEED, 4.0, |_| [0.0; 2]);
+    bench.run(SPEED, 1.5, |_| [0.0; 2]);
     assert_eq!(bench.analysis.level().severity, Severity::Critical);
     bench.run(SPEED, 60.0, |_| [0.0; 2]);
     let after = bench.analysis.level();
@@ -374,6 +374,45 @@ fn a_second_line_does_not_make_a_whirl_doubtful() {
     // The spectrum's line is good for 2 %, the turns for a part of one in four.
     assert!((bench.ratio() - 1.0).abs() < 0.03, "{}", bench.ratio());
     assert!(bench.report.confidence[0] > 0.85, "{}", bench.report.confidence[0]);
+}
+
+/// Rolling backward whirl that turns into forward whirl: for as long as the level is held, the hazard and the warning keep
+/// the figures of the worst moment and not those of the forward whirl, and say when the motion ended.
+#[test]
+fn a_held_level_keeps_its_worst_moment_and_says_when_it_ended() {
+    let rolling = -63.0 / 17.0;
+    let backward = rotor(0.98 * CLEARANCE, rolling * SPEED);
+    let forward = rotor(0.8 * CLEARANCE, 0.7 * SPEED);
+    let mut bench = Bench::new();
+    bench.run(SPEED, 12.0, backward);
+    let stands = bench.analysis.backward();
+    assert_eq!((stands.severity, stands.ended), (Severity::Critical, None));
+    let (mut held, mut ended) = (0, None);
+    while bench.analysis.backward().severity == Severity::Critical {
+        let time = 12.0 + f64::from(held) * SAMPLE_INTERVAL;
+        bench.push(SPEED, forward(time), 0.0);
+        held += 1;
+        let (hazard, level) = (bench.analysis.backward(), bench.analysis.level());
+        if hazard.severity == Severity::Critical {
+            assert!((hazard.whirl_ratio / rolling - 1.0).abs() < 0.05, "{hazard:?}");
+            assert!((hazard.value / (1.0 - rolling) - 1.0).abs() < 0.05, "{hazard:?}");
+            assert!((level.whirl_ratio / rolling - 1.0).abs() < 0.05, "{level:?}");
+            ended = hazard.ended.or(ended);
+        }
+        assert!(held < 4000, "the level never falls");
+    }
+    let (released, ended) = (
+        12.0 + f64::from(held) * SAMPLE_INTERVAL,
+        ended.expect("it never says that it ended"),
+    );
+    // The new kind leads within two turns of a whirl at 0.7 times the speed, 4.3 s at 40 r/min.
+    assert!((12.0..16.5).contains(&ended), "ended at {ended} s");
+    let held_for = released - ended;
+    let hold_off = WhirlSettings::default().hold_off;
+    assert!(
+        (hold_off - 0.1..hold_off + 0.2).contains(&held_for),
+        "held for {held_for} s"
+    );
 }
 
 /// Doubtful inputs lower every confidence at once, raise nothing that is not beyond doubt, and end nothing.

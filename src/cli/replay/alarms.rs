@@ -117,6 +117,9 @@ impl fmt::Display for AlarmTally {
                 worst.evidence
             )?;
             writeln!(f, "  {:<61}{}", "", worst.what_to_do)?;
+            if !worst.what_the_engineer_can_do.is_empty() {
+                writeln!(f, "  {:<61}Engineer: {}", "", worst.what_the_engineer_can_do)?;
+            }
         }
         writeln!(
             f,

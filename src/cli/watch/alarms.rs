@@ -81,9 +81,39 @@ pub(super) fn headline(alarm: &Alarm) -> String {
     )
 }
 
-/// What is seen and what to do.
+/// What is seen, why it matters, what the driller can do and what the engineer can do.
 pub(super) fn sentences(alarm: &Alarm) -> String {
-    format!("{} {}", alarm.evidence, alarm.what_to_do).trim().to_owned()
+    let mut text = [&alarm.evidence, &alarm.consequence, &alarm.what_to_do]
+        .into_iter()
+        .filter(|sentence| !sentence.is_empty())
+        .cloned()
+        .collect::<Vec<_>>()
+        .join(" ");
+    if !alarm.what_the_engineer_can_do.is_empty() {
+        let _ = write!(text, " Engineer: {}", alarm.what_the_engineer_can_do);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_driller_reads_what_why_and_what_to_do_before_the_engineer() {
+        let alarm = Alarm {
+            evidence: "Backward whirl.".into(),
+            consequence: "Joint fatigue.".into(),
+            what_to_do: "Lower the speed.".into(),
+            what_the_engineer_can_do: "Add lubricant.".into(),
+            ..Alarm::default()
+        };
+        assert_eq!(
+            sentences(&alarm),
+            "Backward whirl. Joint fatigue. Lower the speed. Engineer: Add lubricant."
+        );
+        assert_eq!(sentences(&Alarm::default()), "");
+    }
 }
 
 #[cfg(test)]

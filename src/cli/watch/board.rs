@@ -162,6 +162,7 @@ impl Board {
                 &mut alarm.cause,
                 &mut alarm.consequence,
                 &mut alarm.what_to_do,
+                &mut alarm.what_the_engineer_can_do,
             ] {
                 show(text);
             }

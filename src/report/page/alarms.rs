@@ -27,7 +27,7 @@ pub(super) fn section(summary: &Summary) -> Markup {
                 p { "No alarm stood." }
             } @else {
                 table {
-                    thead { tr { th { "priority" } th { "alarm" } th.n { "times" } th.n { "in all" } th { "what to do" } } }
+                    thead { tr { th { "priority" } th { "alarm" } th.n { "times" } th.n { "in all" } th { "what the driller can do" } th { "what the engineer can do" } } }
                     tbody { @for group in &groups {
                         tr {
                             td { (priority(group.priority)) }
@@ -35,6 +35,7 @@ pub(super) fn section(summary: &Summary) -> Markup {
                             td.n { (group.times) }
                             td.n { (duration(group.active)) }
                             td { (group.what_to_do) }
+                            td { (group.what_the_engineer_can_do) }
                         }
                     } }
                 }

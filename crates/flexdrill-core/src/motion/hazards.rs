@@ -45,7 +45,9 @@ impl HazardKind {
     }
 }
 
-/// How one danger stands.
+/// How one danger stands. While a level stands, place and figures are those of its worst moment since it was reached: the
+/// motion of the present instant may be another one already, and would say the opposite of the level. While all is well
+/// they are those of the present.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hazard {
     /// Which one.
@@ -75,6 +77,20 @@ pub struct Hazard {
     pub confidence: f64,
     /// Model time at which the level was reached (s).
     pub since: f64,
+    /// Model time of place and figures (s).
+    pub seen: f64,
+    /// Model time at which the condition of the level was last met (s), once that is [`ENDED_AFTER`] ago: the level is
+    /// only held. None while the condition is met, and while all is well.
+    pub ended: Option<f64>,
+}
+
+/// Time without its condition after which what holds a level counts as ended (s): a turn of the tool at 40 r/min, so that
+/// a pipe that bounces does not end and begin with every turn. Assumption.
+pub const ENDED_AFTER: f64 = 1.5;
+
+/// When the condition of a level ended: `met` is when it was met last, `now` the present (both model time, s).
+pub(crate) fn ended(severity: Severity, met: f64, now: f64) -> Option<f64> {
+    (severity > Severity::Ok && now - met >= ENDED_AFTER).then_some(met)
 }
 
 impl Hazard {
@@ -94,6 +110,8 @@ impl Hazard {
             friction_power: f64::NAN,
             confidence: 1.0,
             since: 0.0,
+            seen: 0.0,
+            ended: None,
         }
     }
 }

@@ -12,6 +12,8 @@ pub(super) struct Hysteresis {
     pub(super) since: f64,
     /// How long the conditions that hold the level have not been met (s).
     unmet_for: f64,
+    /// Model time at which they were met last (s).
+    pub(super) met: f64,
 }
 
 /// What an update did.
@@ -41,11 +43,13 @@ impl Hysteresis {
                 level: raised,
                 since: time,
                 unmet_for: 0.0,
+                met: time,
             };
             return Change::Rose;
         }
         if held >= self.level {
             self.unmet_for = 0.0;
+            self.met = time;
             return Change::Stands;
         }
         self.unmet_for += elapsed;
@@ -54,6 +58,7 @@ impl Hysteresis {
                 level: held,
                 since: time,
                 unmet_for: 0.0,
+                met: time,
             };
         }
         Change::Fades
@@ -82,6 +87,9 @@ pub struct AlarmThresholds {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Alarm {
     hysteresis: Hysteresis,
+    /// Largest value since the level was reached, and the model time of it (s); the newest while the level is OK.
+    worst: f64,
+    worst_at: f64,
 }
 
 impl Alarm {
@@ -97,16 +105,37 @@ impl Alarm {
                 .unwrap_or_default()
         };
         let (raised, held) = (reached(1.0), reached(1.0 - thresholds.hysteresis));
-        match self.hysteresis.update(time, elapsed, raised, held, thresholds.hold_off) {
+        let before = self.severity();
+        let change = self.hysteresis.update(time, elapsed, raised, held, thresholds.hold_off);
+        let now = self.severity();
+        if now == Severity::Ok || now != before || value > self.worst {
+            (self.worst, self.worst_at) = (value, time);
+        }
+        match change {
             Change::Rose => true,
-            Change::Stands => self.severity() > Severity::Ok,
+            Change::Stands => now > Severity::Ok,
             Change::Fades => false,
         }
+    }
+
+    /// Largest value since the level was reached; the newest while the level is OK.
+    pub fn worst(&self) -> f64 {
+        self.worst
+    }
+
+    /// Model time of that value (s).
+    pub fn worst_at(&self) -> f64 {
+        self.worst_at
     }
 
     /// Model time at which the level was reached (s).
     pub fn since(&self) -> f64 {
         self.hysteresis.since
+    }
+
+    /// Model time at which the condition of the level was met last (s).
+    pub fn met(&self) -> f64 {
+        self.hysteresis.met
     }
 
     /// Where it stands.

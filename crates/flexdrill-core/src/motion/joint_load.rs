@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
+use super::hazards::ended;
 use super::hysteresis::{Alarm, AlarmThresholds};
 
 /// How the stops are judged.
@@ -45,6 +46,11 @@ pub struct JointLoadLevel {
     pub ratio: f64,
     /// Model time at which the level was reached (s).
     pub since: f64,
+    /// Model time of that moment (s).
+    pub seen: f64,
+    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](super::ENDED_AFTER) ago. None while it is held, and
+    /// while all is well.
+    pub ended: Option<f64>,
 }
 
 /// Watches the stops of all joints.
@@ -89,15 +95,15 @@ impl JointLoadWatch {
             *impulse = 0.0;
         }
         let ratio = worst.0 / self.elapsed / self.settings.rated_moment;
-        let before = self.alarm.severity();
         let value = if judged { ratio } else { 0.0 };
-        let counts = self.alarm.update(time, self.elapsed, value, &self.settings.thresholds);
+        self.alarm.update(time, self.elapsed, value, &self.settings.thresholds);
         self.elapsed = 0.0;
         let now = self.alarm.severity();
-        if now == Severity::Ok || counts && (now > before || ratio > self.level.ratio) {
-            (self.level.ratio, self.level.joint) = (ratio, worst.1);
+        if now == Severity::Ok || self.alarm.worst_at() == time {
+            (self.level.ratio, self.level.joint, self.level.seen) = (ratio, worst.1, time);
         }
         (self.level.severity, self.level.since) = (now, self.alarm.since());
+        self.level.ended = ended(now, self.alarm.met(), time);
     }
 
     /// How the joints stand.

@@ -175,4 +175,9 @@ pub struct ShockLevel {
     pub impulse: f64,
     /// Model time at which the level was reached (s).
     pub since: f64,
+    /// Model time of that impulse (s).
+    pub seen: f64,
+    /// Model time of the last impulse that held the level (s), once that is longer ago than impulses that hold it are
+    /// apart. None while they come, and while all is well.
+    pub ended: Option<f64>,
 }

@@ -67,7 +67,8 @@ pub struct WhirlSettings {
     pub forward_power: [f64; 2],
     /// Turns of the tool for which it must last before a level counts, WATCH, WARNING and CRITICAL.
     pub lasting_turns: [f64; 3],
-    /// Time for which a level is held after its conditions have gone (s).
+    /// Time for which a level is held after its conditions have gone (s). A place loses them within a window of four turns
+    /// of the tool, which holds the level already; two turns at 60 r/min bridge a pipe that bounces.
     pub hold_off: f64,
 }
 
@@ -126,7 +127,7 @@ impl Default for WhirlSettings {
             forward_power: [100.0, 300.0],
             // With the two whirl turns of its detection a critical level stands within three turns of the tool.
             lasting_turns: [1.0, 1.5, 1.5],
-            hold_off: 5.0,
+            hold_off: 2.0,
         }
     }
 }

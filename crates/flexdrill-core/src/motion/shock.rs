@@ -10,6 +10,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::hazards::ENDED_AFTER;
 use super::hysteresis::{AlarmThresholds, Change, Hysteresis};
 use super::{Severity, ShockLevel};
 
@@ -145,6 +146,17 @@ impl Shocks {
     }
 }
 
+/// A collision: the largest impulse of an interval.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+struct Collision {
+    /// Model time of the interval's end (s).
+    time: f64,
+    /// N s.
+    impulse: f64,
+    layer: usize,
+    station: usize,
+}
+
 /// Both layers and the level of the tool.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ShockWatch {
@@ -156,6 +168,8 @@ pub struct ShockWatch {
     /// Impulses that reach each level, and those that hold it.
     reaching: [Recent; 3],
     holding: [Recent; 3],
+    /// Per level the newest collision that holds it.
+    newest: [Collision; 3],
     level: ShockLevel,
 }
 
@@ -169,6 +183,7 @@ impl ShockWatch {
             hysteresis: Hysteresis::default(),
             reaching: settings.repeats.map(Recent::new),
             holding: settings.repeats.map(Recent::new),
+            newest: [Collision::default(); 3],
             level: ShockLevel::default(),
         }
     }
@@ -187,30 +202,68 @@ impl ShockWatch {
         if self.elapsed + 0.5 * dt < self.settings.interval {
             return;
         }
-        let mut worst = (0.0, 0, 0);
+        let mut worst = Collision {
+            time,
+            ..Collision::default()
+        };
         for (layer, shocks) in self.layers.iter_mut().enumerate() {
             let (impulse, station) = shocks.end_interval(self.elapsed, &self.settings);
-            if impulse > worst.0 {
-                worst = (impulse, layer, station);
+            if impulse > worst.impulse {
+                (worst.impulse, worst.layer, worst.station) = (impulse, layer, station);
             }
         }
         let (before, elapsed) = (self.hysteresis.level, self.elapsed);
         self.elapsed = 0.0;
-        let (raised, held) = self.count(time, if judged { worst.0 } else { 0.0 });
+        let (raised, held) = self.count(&worst, judged);
         let hold_off = self.settings.thresholds.hold_off;
-        let counts = match self.hysteresis.update(time, elapsed, raised, held, hold_off) {
-            Change::Rose => true,
-            Change::Stands => before > Severity::Ok && worst.0 > self.level.impulse,
-            Change::Fades => false,
+        let change = self.hysteresis.update(time, elapsed, raised, held, hold_off);
+        let now = self.hysteresis.level;
+        (self.level.severity, self.level.since) = (now, self.hysteresis.since);
+        // A level that has fallen is judged by what holds it now.
+        let newest = match now {
+            Severity::Ok => None,
+            level => Some(self.newest[level as usize - 1]),
         };
-        (self.level.severity, self.level.since) = (self.hysteresis.level, self.hysteresis.since);
-        if counts || self.level.severity == Severity::Ok {
-            (self.level.impulse, self.level.layer, self.level.station) = worst;
+        match newest {
+            None => self.show(&worst),
+            Some(newest) if now < before => self.show(&newest),
+            Some(_) if change == Change::Rose => self.show(&worst),
+            Some(_) if change == Change::Stands && worst.impulse > self.level.impulse => self.show(&worst),
+            Some(_) => {}
         }
+        self.level.ended = newest
+            .map(|newest| newest.time)
+            .filter(|met| time - met >= self.gap(now));
     }
 
-    /// Takes the largest impulse (N s) of an interval; gives the levels that the newest impulses reach and hold.
-    fn count(&mut self, time: f64, impulse: f64) -> (Severity, Severity) {
+    fn show(&mut self, collision: &Collision) {
+        let Collision {
+            time,
+            impulse,
+            layer,
+            station,
+        } = *collision;
+        self.level = ShockLevel {
+            impulse,
+            layer,
+            station,
+            seen: time,
+            ..self.level
+        };
+    }
+
+    /// Time without a collision that holds a level after which its collisions have ended (s): those that hold it are
+    /// apart by less on average.
+    fn gap(&self, level: Severity) -> f64 {
+        let repeats = self.settings.repeats[(level as usize).saturating_sub(1)];
+        (self.settings.span / f64::from(repeats.saturating_add(1))).max(ENDED_AFTER)
+    }
+
+    /// Takes the largest impulse of an interval, which counts if it is judged; gives the levels that the newest impulses
+    /// reach and hold.
+    fn count(&mut self, worst: &Collision, judged: bool) -> (Severity, Severity) {
+        let time = worst.time;
+        let impulse = if judged { worst.impulse } else { 0.0 };
         let AlarmThresholds { levels, hysteresis, .. } = self.settings.thresholds;
         let (mut raised, mut held) = (Severity::Ok, Severity::Ok);
         for (index, level) in Severity::RAISED.into_iter().enumerate() {
@@ -219,6 +272,7 @@ impl ShockWatch {
             }
             if impulse >= levels[index] * (1.0 - hysteresis) {
                 self.holding[index].push(time);
+                self.newest[index] = *worst;
             }
             let since = time - self.settings.span;
             if self.reaching[index].are_after(since) {
@@ -260,6 +314,7 @@ impl ShockWatch {
             .iter_mut()
             .chain(&mut self.holding)
             .for_each(Recent::clear);
+        self.newest = [Collision::default(); 3];
         self.level = ShockLevel::default();
     }
 }

@@ -146,6 +146,16 @@ impl StickSlip {
         self.alarm.since()
     }
 
+    /// Largest index since the level was reached and the model time of it (s); the newest while the level is OK.
+    pub fn worst(&self) -> (f64, f64) {
+        (self.alarm.worst(), self.alarm.worst_at())
+    }
+
+    /// Model time at which the level was last held (s).
+    pub fn met(&self) -> f64 {
+        self.alarm.met()
+    }
+
     /// The settings in use.
     pub fn settings(&self) -> &StickSlipSettings {
         &self.settings

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::hazards::{Hazard, HazardKind};
+use super::hazards::{Hazard, HazardKind, ended};
 use super::incidents::IncidentLocation;
 use super::settings::WhirlSettings;
 use super::watched_station::StationWatch;
@@ -31,25 +31,26 @@ impl Lead {
         if severity != self.severity {
             (self.severity, self.since) = (severity, time);
         }
-        // While all is well the place of the strongest motion is shown, if there is any.
+        // Places are compared by their worst moments while a level stands; while all is well by their present motion.
         let (mut worst, mut most) = (self.entry, f64::NEG_INFINITY);
         for (entry, watch) in watches.iter().enumerate() {
-            let strength = watch.strength(kind);
+            let strength = watch.telling(kind).strength;
             if level(watch) == severity && strength > most {
                 (worst, most) = (entry, strength);
             }
         }
         let Some(leader) = watches.get(self.entry) else { return };
-        let outdone = most > (1.0 + LEAD_MARGIN) * leader.strength(kind);
+        let outdone = most > (1.0 + LEAD_MARGIN) * leader.telling(kind).strength;
         self.outdone_for = if outdone { self.outdone_for + elapsed } else { 0.0 };
         if level(leader) != severity || self.outdone_for >= LEAD_TIME {
             (self.entry, self.outdone_for) = (worst, 0.0);
         }
     }
 
-    /// What is to be said of it.
+    /// The hazard at model time `time` (s).
     pub(super) fn hazard(
         &self,
+        time: f64,
         kind: HazardKind,
         watches: &[StationWatch],
         input_trust: f64,
@@ -59,9 +60,10 @@ impl Lead {
             since: self.since,
             ..Hazard::calm(kind)
         };
-        let (thresholds, whirl): (&[f64], _) = match kind {
-            HazardKind::ForwardWhirl => (&settings.forward_power, WhirlKind::Forward),
-            _ => (&settings.backward_cycles, WhirlKind::Backward),
+        let whirl = whirl_of(kind);
+        let thresholds: &[f64] = match whirl {
+            WhirlKind::Forward => &settings.forward_power,
+            _ => &settings.backward_cycles,
         };
         let index = (self.severity as usize).saturating_sub(1).min(thresholds.len() - 1);
         let threshold = thresholds[index];
@@ -71,7 +73,10 @@ impl Lead {
         else {
             return Hazard { threshold, ..calm };
         };
-        let (station, evidence) = (&watch.station, &watch.evidence);
+        let (station, moment) = (&watch.station, watch.telling(whirl));
+        let evidence = &moment.evidence;
+        let standing = watches.iter().filter(|watch| watch.level_of(whirl) == self.severity);
+        let met = standing.map(|watch| watch.met(whirl)).fold(f64::NEG_INFINITY, f64::max);
         Hazard {
             severity: self.severity,
             place: Some(IncidentLocation {
@@ -85,23 +90,34 @@ impl Lead {
                 _ => evidence.cycles,
             },
             threshold,
-            whirl_ratio: watch.whirl_ratio.unwrap_or(f64::NAN),
-            rolling_share: match watch.rolling_share() {
+            whirl_ratio: moment.whirl_ratio.unwrap_or(f64::NAN),
+            rolling_share: match moment.rolling_share {
                 0.0 => f64::NAN,
                 share => share,
             },
-            orbit_speed: watch.orbit_radius * watch.whirl_rate.abs(),
+            orbit_speed: moment.orbit_speed,
             impulse: evidence.impulse,
             impact_rate: evidence.impact_rate,
             friction_power: evidence.friction_power,
             confidence: evidence.confidence * input_trust,
+            seen: moment.time,
+            ended: ended(self.severity, met, time),
             ..calm
         }
     }
 }
 
+/// The kind of whirl of a hazard.
+fn whirl_of(kind: HazardKind) -> WhirlKind {
+    match kind {
+        HazardKind::ForwardWhirl => WhirlKind::Forward,
+        _ => WhirlKind::Backward,
+    }
+}
+
 impl WhirlWarningLevel {
-    /// The worse of the two ways round leads, backward before forward.
+    /// The worse of the two ways round leads, backward before forward. While a level stands the figures are those of its
+    /// worst moment.
     pub(super) fn update(&mut self, backward: &Lead, forward: &Lead, watches: &[StationWatch], input_trust: f64) {
         let (lead, kind) = if forward.severity > backward.severity {
             (forward, WhirlKind::Forward)
@@ -114,6 +130,12 @@ impl WhirlWarningLevel {
         } else {
             kind
         };
+        let moment = watch.telling(if kind == WhirlKind::Forward {
+            kind
+        } else {
+            WhirlKind::Backward
+        });
+        let evidence = &moment.evidence;
         let severity_changed = lead.severity != self.severity;
         // While all is well no place leads.
         let moved = lead.severity > Severity::Ok && lead.entry != self.entry;
@@ -122,14 +144,14 @@ impl WhirlWarningLevel {
             severity: lead.severity,
             kind,
             entry: lead.entry,
-            whirl_ratio: watch.whirl_ratio.unwrap_or(f64::NAN),
-            rolling_share: watch.rolling_share(),
-            rolling: watch.evidence.rolling,
-            clearance_ratio: watch.evidence.clearance_ratio,
-            contact_duty: watch.evidence.contact_duty,
-            peak_force: watch.evidence.peak_force,
-            confidence: watch.evidence.confidence * input_trust,
-            window: watch.used_window,
+            whirl_ratio: moment.whirl_ratio.unwrap_or(f64::NAN),
+            rolling_share: moment.rolling_share,
+            rolling: evidence.rolling,
+            clearance_ratio: evidence.clearance_ratio,
+            contact_duty: evidence.contact_duty,
+            peak_force: evidence.peak_force,
+            confidence: evidence.confidence * input_trust,
+            window: moment.window,
             since: if severity_changed { lead.since } else { self.since },
             sequence: self.sequence + u64::from(changed),
         };

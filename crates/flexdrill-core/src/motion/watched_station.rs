@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::classify::Verdict;
 use super::orbit_window::OrbitWindow;
 use super::settings::WhirlSettings;
-use super::severity::{Elapsed, Evidence, StationSeverity};
+use super::severity::{Elapsed, Evidence, Moment, StationSeverity};
 use super::{Severity, WhirlKind};
 use crate::tool::description::Body;
 
@@ -235,11 +235,43 @@ impl StationWatch {
 
     /// Takes the evidence for the levels, see [`StationSeverity::update`].
     pub(super) fn grade(&mut self, elapsed: Elapsed, trust: f64, settings: &WhirlSettings) {
-        for (level, kind) in [
-            (&mut self.backward, WhirlKind::Backward),
-            (&mut self.forward, WhirlKind::Forward),
-        ] {
-            level.update(kind, elapsed, &self.evidence, trust, settings);
+        for kind in [WhirlKind::Backward, WhirlKind::Forward] {
+            let moment = self.moment(kind);
+            let level = match kind {
+                WhirlKind::Backward => &mut self.backward,
+                _ => &mut self.forward,
+            };
+            level.update(kind, elapsed, &moment, trust, settings);
+        }
+    }
+
+    /// The motion at the newest evaluation, with how bad it is as whirl of this kind.
+    pub(super) fn moment(&self, kind: WhirlKind) -> Moment {
+        Moment {
+            time: self.evaluated,
+            evidence: self.evidence,
+            whirl_ratio: self.whirl_ratio,
+            rolling_share: self.rolling_share(),
+            orbit_speed: self.orbit_radius * self.whirl_rate.abs(),
+            window: self.used_window,
+            strength: self.strength(kind),
+        }
+    }
+
+    /// While a level of this kind of whirl stands, the worst moment since it was reached; else the newest.
+    pub(super) fn telling(&self, kind: WhirlKind) -> Moment {
+        match (kind, self.level_of(kind)) {
+            (_, Severity::Ok) => self.moment(kind),
+            (WhirlKind::Backward, _) => *self.backward.worst(),
+            (_, _) => *self.forward.worst(),
+        }
+    }
+
+    /// Model time at which the conditions of the level of this kind of whirl were met last (s).
+    pub(super) fn met(&self, kind: WhirlKind) -> f64 {
+        match kind {
+            WhirlKind::Backward => self.backward.met(),
+            _ => self.forward.met(),
         }
     }
 

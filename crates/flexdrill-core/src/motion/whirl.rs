@@ -143,8 +143,7 @@ impl WhirlAnalysis {
             self.input_trust = trust;
             // Listeners are told at once that the standing warning is to be read differently.
             self.level.sequence += 1;
-            let watch = self.watches.get(self.level.entry);
-            self.level.confidence = watch.map_or(0.0, |watch| watch.evidence.confidence) * trust;
+            self.level.update(&self.backward, &self.forward, &self.watches, trust);
         }
     }
 
@@ -240,14 +239,19 @@ impl WhirlAnalysis {
     pub fn backward(&self) -> Hazard {
         let kind = HazardKind::BackwardWhirl;
         self.backward
-            .hazard(kind, &self.watches, self.input_trust, &self.settings)
+            .hazard(self.now(), kind, &self.watches, self.input_trust, &self.settings)
     }
 
     /// How forward whirl stands, at its worst place.
     pub fn forward(&self) -> Hazard {
         let kind = HazardKind::ForwardWhirl;
         self.forward
-            .hazard(kind, &self.watches, self.input_trust, &self.settings)
+            .hazard(self.now(), kind, &self.watches, self.input_trust, &self.settings)
+    }
+
+    /// Model time of the newest sample (s).
+    fn now(&self) -> f64 {
+        self.last_time.unwrap_or_default()
     }
 
     /// Forgets everything but the settings and the inputs' trust; the warnings' sequence goes on, so that listeners see

@@ -13,7 +13,7 @@ use crate::elements::gap::{Layer, gap};
 use crate::model::Model;
 use crate::motion::{
     AgeingWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation, JointLoadWatch,
-    RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings,
+    RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings, ended,
 };
 use crate::tool::description::{Body, Direction, JointKind};
 
@@ -292,13 +292,13 @@ impl Observer {
         };
         self.whirl.report(&mut out.whirl);
         out.warning = self.whirl.level();
-        out.hazards = self.hazards(model);
+        out.hazards = self.hazards(model, out.time);
         self.ageing.write(&mut out.ageing);
         out.quality = self.quality();
     }
 
-    /// How every danger stands, each with its worst place.
-    fn hazards(&self, model: &Model) -> Hazards {
+    /// How every danger stands at model time `time` (s), each with its worst place.
+    fn hazards(&self, model: &Model, time: f64) -> Hazards {
         let place = |station: usize, body: Body| {
             model.stations.get(station).map(|at| IncidentLocation {
                 station,
@@ -319,15 +319,22 @@ impl Observer {
                 threshold: self.shock.settings().thresholds.of(shock.severity),
                 impulse: shock.impulse,
                 since: shock.since,
+                seen: shock.seen,
+                ended: shock.ended,
                 ..Hazard::calm(kind)
             },
-            HazardKind::StickSlip => Hazard {
-                severity: self.stick_slip.severity(),
-                value: self.stick_slip.index(),
-                threshold: self.stick_slip.settings().thresholds.of(self.stick_slip.severity()),
-                since: self.stick_slip.since(),
-                ..Hazard::calm(kind)
-            },
+            HazardKind::StickSlip => {
+                let (severity, (worst, seen)) = (self.stick_slip.severity(), self.stick_slip.worst());
+                Hazard {
+                    severity,
+                    value: worst,
+                    threshold: self.stick_slip.settings().thresholds.of(severity),
+                    since: self.stick_slip.since(),
+                    seen,
+                    ended: ended(severity, self.stick_slip.met(), time),
+                    ..Hazard::calm(kind)
+                }
+            }
             HazardKind::JointLoad => Hazard {
                 severity: joint_load.severity,
                 place: model
@@ -337,6 +344,8 @@ impl Observer {
                 value: joint_load.ratio,
                 threshold: joint_settings.thresholds.of(joint_load.severity),
                 since: joint_load.since,
+                seen: joint_load.seen,
+                ended: joint_load.ended,
                 ..Hazard::calm(kind)
             },
         });

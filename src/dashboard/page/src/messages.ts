@@ -97,7 +97,7 @@ export interface Alarm {
   shelved_until: Time;
   /** Shelving ends when the condition goes. */
   shelved_one_shot: boolean;
-  /** Where it is worst now: NOWHERE, PIPE or GUIDE. */
+  /** Where it was worst, see worst_at: NOWHERE, PIPE or GUIDE. */
   body: number;
   /** Place along the bore from the kick-off (m), NaN where there is none. */
   measured_depth: number;
@@ -112,15 +112,18 @@ export interface Alarm {
   /** How far the evidence can be trusted (0 to 1). */
   confidence: number;
   /**
-   * What is seen, in a sentence. This and the next three are of the last time that the condition was seen for as long as it
-   * is to be acknowledged, and empty when nothing is to be known of it.
+   * What was seen at worst_at, in a sentence; it says when the condition has ended. This and the next three are empty while
+   * the alarm is normal.
    */
   evidence: string;
   /** Why it comes. */
   cause: string;
-  /** What it leads to when nobody acts. */
+  /** Why it matters: what it leads to without action. */
   consequence: string;
-  /** What to do. */
+  /**
+   * What the driller can do: weight on bit, rotary speed, pick up, call the engineer. It agrees with that of all other alarms
+   * in the list.
+   */
   what_to_do: string;
   /** How often it has called for somebody since the count began, which a restart goes on with. */
   annunciations: number;
@@ -130,15 +133,26 @@ export interface Alarm {
   category: number;
   /** The present state began in an earlier run of the node; since is a time of that run. */
   from_earlier_run: boolean;
+  /** What the engineer can do: settings of the model and the machine, measurements, inspection. */
+  what_the_engineer_can_do: string;
+  /**
+   * When place, value, confidence and evidence were seen, on the rig's clock: the worst moment since the priority was
+   * reached. Zero while the alarm is normal.
+   */
+  worst_at: Time;
+  /** The condition for this priority has ended: the alarm is held in case it comes back, or waits to be acknowledged. */
+  ended: boolean;
+  /** When the condition for this priority was last met, on the rig's clock; zero unless ended. */
+  ended_at: Time;
 }
 export const Alarm = {
   /** Nothing to do. */
   NORMAL: 0,
-  /** The condition stands, and nobody has said that he knows. */
+  /** The condition stands and is not yet acknowledged. */
   ACTIVE_UNACKNOWLEDGED: 1,
-  /** The condition stands, and somebody knows. */
+  /** The condition stands and is acknowledged. */
   ACTIVE_ACKNOWLEDGED: 2,
-  /** The condition has gone before somebody said that he knew. */
+  /** The condition has ended and is not yet acknowledged. */
   RETURNED_UNACKNOWLEDGED: 3,
   /** An operator has put it aside for a time. */
   SHELVED: 4,
@@ -195,6 +209,10 @@ export function decodeAlarm(reader: CdrReader): Alarm {
     annunciations_last_minute: reader.uint32(),
     category: reader.uint8(),
     from_earlier_run: reader.bool(),
+    what_the_engineer_can_do: reader.string(),
+    worst_at: decodeTime(reader),
+    ended: reader.bool(),
+    ended_at: decodeTime(reader),
   };
 }
 
@@ -219,7 +237,7 @@ export interface AlarmEvent {
    * Alarm.
    */
   priority: number;
-  /** It calls for somebody. A rise of what calls already is the same call. */
+  /** It calls the operator. A rise of an alarm that calls already is the same call. */
   annunciates: boolean;
   /** Who asked for it; empty where nobody did. */
   operator_name: string;
@@ -229,7 +247,7 @@ export interface AlarmEvent {
   shelved_until: Time;
   /** What is seen, in a sentence; empty where the condition is not there. */
   evidence: string;
-  /** What the operator is told to do; empty where nothing is to be done. */
+  /** What the driller can do, as in Alarm; empty where nothing is to be done. */
   what_to_do: string;
   /** Where it was worst, as in Alarm: NOWHERE, PIPE or GUIDE. */
   body: number;
@@ -241,6 +259,15 @@ export interface AlarmEvent {
   value: number;
   /** Whom the alarm is for, as in Alarm: DRILLING or SYSTEM. */
   category: number;
+  /** What the engineer can do, as in Alarm. */
+  what_the_engineer_can_do: string;
+  /** When place, value and evidence were seen, as in Alarm. */
+  worst_at: Time;
+  /**
+   * When the condition ended, as in Alarm: earlier than the stamp of RETURNED and LOWERED by the time for which the alarm was
+   * held. Zero while the condition is met.
+   */
+  ended_at: Time;
 }
 export const AlarmEvent = {
   /** The condition has stood for its on-delay. */
@@ -288,6 +315,9 @@ export function decodeAlarmEvent(reader: CdrReader): AlarmEvent {
     inclination: reader.float64(),
     value: reader.float64(),
     category: reader.uint8(),
+    what_the_engineer_can_do: reader.string(),
+    worst_at: decodeTime(reader),
+    ended_at: decodeTime(reader),
   };
 }
 
