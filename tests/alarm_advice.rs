@@ -1,6 +1,6 @@
 //! Following the advice of an alarm ends it and raises no worse one: every default rule with the real model of the tool
-//! (mesh of `config/coarse.yaml`, whole steps). The motion is chaotic, so that a run with another start is another sample;
-//! `docs/alarms.md` lists several of them:
+//! (mesh of `config/coarse.yaml`, whole steps). The motion is chaotic, so that a run with another start is another
+//! sample; `docs/alarms.md` lists several of them:
 //!
 //!     cargo test --release --test alarm_advice -- --ignored --nocapture --test-threads 1
 
@@ -92,7 +92,8 @@ const JOINT_LOAD: Case = Case {
 
 /// What came of it.
 struct Outcome {
-    /// Model time at which the alarm stood, and from following the advice to the end of the condition and of the alarm (s).
+    /// Model time at which the alarm stood, and from following the advice to the end of the condition and of the alarm
+    /// (s).
     stood: f64,
     ended: Option<f64>,
     returned: Option<f64>,

@@ -238,8 +238,8 @@ fn asked(text: &str) -> (Vec<(bool, bool, f64)>, bool) {
     (asked, text.starts_with("Pick up"))
 }
 
-/// All subsets of the tool's alarms at three levels, over the whole range of speed and weight: all texts together ask for
-/// one change at most, so that no two ask for opposite directions, and it changes the present inputs.
+/// All subsets of the tool's alarms at three levels, over the whole range of speed and weight: all texts together ask
+/// for one change at most, so that no two ask for opposite directions, and it changes the present inputs.
 #[test]
 fn standing_alarms_never_contradict_each_other() {
     let config = config();

@@ -1,9 +1,9 @@
-//! What the driller can do about the tool's alarms, from the rules of the configuration: limits to bring the speed and the
-//! weight on bit to.
+//! What the driller can do about the tool's alarms, from the rules of the configuration: limits to bring the speed and
+//! the weight on bit to.
 //!
-//! All standing alarms are advised together, one change at a time. The alarm of the highest priority leads and gives its
-//! change alone; the others refer to it. Two changes at once, or a choice between two, would be advice that no run has
-//! shown to work (`docs/alarms.md` lists the runs).
+//! All standing alarms are advised together, one change at a time. The alarm of the highest priority leads and gives
+//! its change alone; the others refer to it. Two changes at once, or a choice between two, would be advice that no run
+//! has shown to work (`docs/alarms.md` lists the runs).
 
 use super::catalogue::AlarmId;
 use super::sentence::{capitalized, number};
@@ -14,8 +14,8 @@ use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
 /// The last resort of a driller, for what is high.
 const STOP: &str = "pick up off bottom and stop the drive";
-/// A change raises an input to this many times its present value at most: more is another way of drilling, and no answer to
-/// an alarm. Assumption.
+/// A change raises an input to this many times its present value at most: more is another way of drilling, and no
+/// answer to an alarm. Assumption.
 const MOST_RAISE: f64 = 3.0;
 /// Part of a limit by which an input must be beyond it before its alarm no longer asks for it: a drive's speed and a
 /// weight indicator waver by a few percent, and the advice would come and go with them. Assumption.
@@ -86,8 +86,8 @@ struct Step {
 }
 
 impl Step {
-    /// The steps of a rule in the order in which they are tried. Less speed comes first: it takes energy out of every motion
-    /// of the tool.
+    /// The steps of a rule in the order in which they are tried. Less speed comes first: it takes energy out of every
+    /// motion of the tool.
     fn of(rule: &Advice) -> impl Iterator<Item = Self> {
         let step = |quantity, raise, limit: Option<f64>| limit.map(|limit| Self { quantity, raise, limit });
         [
@@ -111,7 +111,8 @@ impl Step {
         }
     }
 
-    /// Whether its limit lies beyond a limit of another rule, which asks for less where this asks for more or the reverse.
+    /// Whether its limit lies beyond a limit of another rule, which asks for less where this asks for more or the
+    /// reverse.
     fn is_against(&self, other: &Advice) -> bool {
         Self::of(other).any(|other| {
             other.quantity == self.quantity

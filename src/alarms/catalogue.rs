@@ -94,8 +94,8 @@ impl AlarmId {
         }
     }
 
-    /// Whom it is for: a constant of [`Alarm`]. What only the computer, its disk or its network is about must not fill the
-    /// driller's banner; what means that the model no longer follows the tool belongs there.
+    /// Whom it is for: a constant of [`Alarm`]. What only the computer, its disk or its network is about must not fill
+    /// the driller's banner; what means that the model no longer follows the tool belongs there.
     pub const fn category(self) -> u8 {
         match self {
             AlarmId::RealTime | AlarmId::Recording | AlarmId::Network => Alarm::SYSTEM,

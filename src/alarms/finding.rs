@@ -26,8 +26,8 @@ pub struct Finding {
     pub cause: String,
     /// What it leads to.
     pub consequence: String,
-    /// What the driller can do: weight, speed, pick up, call the engineer. It names no file, no parameter and no mesh. The
-    /// book writes it for the alarms of the tool's motion, which are advised together.
+    /// What the driller can do: weight, speed, pick up, call the engineer. It names no file, no parameter and no mesh.
+    /// The book writes it for the alarms of the tool's motion, which are advised together.
     pub what_to_do: String,
     /// What the engineer can do.
     pub what_the_engineer_can_do: String,

@@ -5,8 +5,8 @@
 //! - [`AlarmBook`] joins them: conditions and requests in, [`AlarmList`] and [`AlarmEvent`]s out.
 //! - `catalogue`: which alarms there are. `finding`: a condition with its words.
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
-//!   inputs, pace, solver and recording. `shown`: an alarm shows its worst moment while it stands. `advice`: what the driller
-//!   can do, for all alarms together, from the rules of the configuration. `sentence`: parts of sentences.
+//!   inputs, pace, solver and recording. `shown`: an alarm shows its worst moment while it stands. `advice`: what the
+//!   driller can do, for all alarms together, from the rules of the configuration. `sentence`: parts of sentences.
 //! - `fill`: messages. `state_file`: what is kept over a restart.
 //!
 //! `docs/alarms.md` is for those who use them.
@@ -59,8 +59,8 @@ pub struct AlarmBook {
     restored: Vec<bool>,
     /// Not yet published.
     journal: Vec<AlarmEvent>,
-    /// Stamp of the newest event: the tool's are at the model's instants and the node's at the present, and a journal read
-    /// by time keeps its sequence.
+    /// Stamp of the newest event: the tool's are at the model's instants and the node's at the present, and a journal
+    /// read by time keeps its sequence.
     newest: Time,
     /// When the list was published last, and the newest event in it.
     listed: Option<(Time, u64)>,

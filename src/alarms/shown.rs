@@ -1,13 +1,14 @@
-//! What is shown of an alarm: the condition as it was at its worst, with its time, for as long as the alarm stands or waits
-//! to be acknowledged. The present may already be another motion, whose figures would say the opposite of the alarm.
+//! What is shown of an alarm: the condition as it was at its worst, with its time, for as long as the alarm stands or
+//! waits to be acknowledged. The present may already be another motion, whose figures would say the opposite of the
+//! alarm.
 
 use super::finding::Finding;
 use super::sentence::capitalized;
 use crate::told::time_of_day;
 use flexdrill_alarms::{Priority, Standing, Time};
 
-/// Between a worst moment and the newest observation, from which on the text names the moment (ns): what is newer is "now"
-/// to a person.
+/// Between a worst moment and the newest observation, from which on the text names the moment (ns): what is newer is
+/// "now" to a person.
 const RECENT: Time = 1_000_000_000;
 
 /// An alarm's condition as it is shown.

@@ -11,8 +11,8 @@ section! {
     pub struct Alarms(this) {
         /// Longest time for which an operator can shelve an alarm (s).
         longest_shelving: f64 = 3600.0, within(1.0, 86_400.0), "s", "a shift's end must not be forgotten; a day";
-        /// Time after the start of the node for which an input that has never sent a sample calls nobody (s). The status shows
-        /// it as not received from the first moment.
+        /// Time after the start of the node for which an input that has never sent a sample calls nobody (s). The
+        /// status shows it as not received from the first moment.
         first_sample_within: f64 = 300.0, within(0.0, 86_400.0), "s", "a rig is connected within minutes of the twin's start; a day";
         /// The pipe goes round against the rotation.
         backward_whirl: ToolAlarm = ToolAlarm::default(), below;
@@ -71,8 +71,8 @@ section! {
     }
 }
 
-/// Per alarm of the tool. What is given for an alarm replaces its default as a whole. Every default was followed in runs in
-/// which it ended its alarm and raised no higher one; `docs/alarms.md` lists them.
+/// Per alarm of the tool. What is given for an alarm replaces its default as a whole. Every default was followed in
+/// runs in which it ended its alarm and raised no higher one; `docs/alarms.md` lists them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdviceTable {
@@ -104,8 +104,8 @@ impl Default for AdviceTable {
 }
 
 /// What to bring an input to. Of several limits one is advised at a time: the first, in the order lower speed, lower
-/// weight, raise speed, raise weight, that changes the present inputs within their own limits and agrees with the rules of
-/// the other standing alarms.
+/// weight, raise speed, raise weight, that changes the present inputs within their own limits and agrees with the rules
+/// of the other standing alarms.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Advice {

@@ -45,9 +45,9 @@ impl HazardKind {
     }
 }
 
-/// How one danger stands. While a level stands, place and figures are those of its worst moment since it was reached: the
-/// motion of the present instant may be another one already, and would say the opposite of the level. While all is well
-/// they are those of the present.
+/// How one danger stands. While a level stands, place and figures are those of its worst moment since it was reached:
+/// the motion of the present instant may be another one already, and would say the opposite of the level. While all is
+/// well they are those of the present.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hazard {
     /// Which one.
@@ -84,8 +84,8 @@ pub struct Hazard {
     pub ended: Option<f64>,
 }
 
-/// Time without its condition after which what holds a level counts as ended (s): a turn of the tool at 40 r/min, so that
-/// a pipe that bounces does not end and begin with every turn. Assumption.
+/// Time without its condition after which what holds a level counts as ended (s): a turn of the tool at 40 r/min, so
+/// that a pipe that bounces does not end and begin with every turn. Assumption.
 pub const ENDED_AFTER: f64 = 1.5;
 
 /// When the condition of a level ended: `met` is when it was met last, `now` the present (both model time, s).

@@ -32,8 +32,8 @@ pub struct WhirlSettings {
     /// RMS orbit radius over clearance from which a motion counts as an orbit. Below a tenth of the clearance the
     /// motion is that of a pipe at rest on a wall with a trembling contact.
     pub min_orbit_ratio: f64,
-    /// RMS radius about its own mean over clearance from which a motion is judged as whirl although it does not go round
-    /// the gap's centre. Below half the clearance a body beside the centre keeps to its side of the gap.
+    /// RMS radius about its own mean over clearance from which a motion is judged as whirl although it does not go
+    /// round the gap's centre. Below half the clearance a body beside the centre keeps to its side of the gap.
     pub large_orbit_ratio: f64,
     /// Minor over major axis below which the motion is a line, not an orbit. A pipe that rocks along the low side by
     /// 50 degrees to each side draws an arc of 0.23.
@@ -58,17 +58,17 @@ pub struct WhirlSettings {
     /// Relative difference to the rate of rolling without slip, `- spin * d / (D - d)`, within which backward whirl
     /// counts as rolling.
     pub rolling_tolerance: f64,
-    /// Backward whirl: bending cycles per turn of the tool from which to watch, warn and call critical. A link that goes
-    /// round at `ratio` times the speed of the tool that turns it is bent |1 - ratio| times per turn; in a curved hole
-    /// without whirl once. Rolling is critical whatever the clearances make of it.
+    /// Backward whirl: bending cycles per turn of the tool from which to watch, warn and call critical. A link that
+    /// goes round at `ratio` times the speed of the tool that turns it is bent |1 - ratio| times per turn; in a curved
+    /// hole without whirl once. Rolling is critical whatever the clearances make of it.
     pub backward_cycles: [f64; 3],
     /// Forward whirl: work of the friction per second and metre (W/m) at the place from which to watch and to warn. It
     /// bends the pipe little and breaks nothing by itself, so it is never critical, but always the same side rubs.
     pub forward_power: [f64; 2],
     /// Turns of the tool for which it must last before a level counts, WATCH, WARNING and CRITICAL.
     pub lasting_turns: [f64; 3],
-    /// Time for which a level is held after its conditions have gone (s). A place loses them within a window of four turns
-    /// of the tool, which holds the level already; two turns at 60 r/min bridge a pipe that bounces.
+    /// Time for which a level is held after its conditions have gone (s). A place loses them within a window of four
+    /// turns of the tool, which holds the level already; two turns at 60 r/min bridge a pipe that bounces.
     pub hold_off: f64,
 }
 
@@ -122,8 +122,8 @@ impl Default for WhirlSettings {
             rolling_tolerance: 0.15,
             // Any; one turn against each turn of the tool; two, where links and joints tire three times as fast.
             backward_cycles: [1.0, 2.0, 3.0],
-            // With a casing wear factor of 4e-10 per psi of side load and a friction of 0.2 steel loses 2.9e-13 m3 per J of
-            // friction: 100 W/m take 1 mm off a side 10 mm wide in four days, 300 W/m in 32 h.
+            // With a casing wear factor of 4e-10 per psi of side load and a friction of 0.2 steel loses 2.9e-13 m3 per
+            // J of friction: 100 W/m take 1 mm off a side 10 mm wide in four days, 300 W/m in 32 h.
             forward_power: [100.0, 300.0],
             // With the two whirl turns of its detection a critical level stands within three turns of the tool.
             lasting_turns: [1.0, 1.5, 1.5],

@@ -1,8 +1,8 @@
 //! From whirl to the level of a station: by what harms, for so many turns, with hysteresis and hold-off.
 //!
-//! Backward whirl is judged by the bending cycles that it brings per turn of the tool, forward whirl by the power of its
-//! friction. Neither depends on the stiffness of the contact. Chaotic motion harms by its collisions, which the shock
-//! watch judges; vibration of the joints is part of drilling.
+//! Backward whirl is judged by the bending cycles that it brings per turn of the tool, forward whirl by the power of
+//! its friction. Neither depends on the stiffness of the contact. Chaotic motion harms by its collisions, which the
+//! shock watch judges; vibration of the joints is part of drilling.
 
 use serde::{Deserialize, Serialize};
 

@@ -223,8 +223,8 @@ impl StationWatch {
         };
     }
 
-    /// Bending cycles per turn of the tool: the orbit's turns as the body sees them that is bent. The pipe turns with the
-    /// tool, the guide does not.
+    /// Bending cycles per turn of the tool: the orbit's turns as the body sees them that is bent. The pipe turns with
+    /// the tool, the guide does not.
     fn cycles(&self) -> f64 {
         let own = match self.station.body {
             Body::Pipe => 1.0,
