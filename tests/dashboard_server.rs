@@ -133,6 +133,18 @@ fn steering_needs_the_token_and_that_nobody_else_drives() {
         .unwrap();
     assert_eq!(naked["code"], 401);
     assert_eq!(server.body("/api/control")["driving"], false);
+    // A page of a server that has ended moves nothing either; its own page does.
+    let instance = server.body("/api/pulse")["instance"].as_str().unwrap().to_owned();
+    for (bound, code) in [("0000000000000000", 409), (instance.as_str(), 200)] {
+        let headers = [
+            format!("Authorization=Bearer {TOKEN}"),
+            format!("X-Flexdrill-Instance={bound}"),
+        ];
+        let headers: Vec<&str> = headers.iter().map(String::as_str).collect();
+        let url = format!("{ROOT}/api/control/release");
+        let answer = network.http("POST", &url, &headers, &json!({"operator": "Kim"}).to_string());
+        assert_eq!(answer.unwrap()["code"], code, "{bound}");
+    }
     let (code, said) = server.steer(121.0);
     assert!(code == 400 && text(&said).contains("between 0 and 120 r/min"), "{said}");
     for wrong in [
@@ -277,10 +289,25 @@ fn a_twin_that_went_comes_back_by_itself_and_the_hour_has_a_gap() {
     };
     let status = seen["found"]["/twin/status"]["count"].as_u64().unwrap();
     assert!((7..=11).contains(&status), "5 Hz for 2 s: {status}");
+    let pulse = || server.body("/api/pulse");
+    let age = |pulse: &Value| pulse["newest"]["twin/status"]["age_s"].as_f64().unwrap();
+    let instance = pulse()["instance"].clone();
+    assert_eq!(server.body("/api/session")["instance"], instance);
+    assert_eq!(instance.as_str().map(str::len), Some(16));
+    // At 5 Hz a status is older than a second only where the machine stands still.
+    server.body_with("/api/pulse", |pulse| age(pulse) < 1.0);
     twin.signal("KILL");
     twin.end();
+    let gone = pulse();
     let silent = network.viewer(&["decode", "ws://127.0.0.1:8080/live", "2"]).unwrap();
     assert!(silent["found"].get("/twin/status").is_none(), "{}", silent["found"]);
+    let later = pulse();
+    assert_eq!(
+        gone["newest"]["twin/status"]["time_ns"],
+        later["newest"]["twin/status"]["time_ns"]
+    );
+    // The viewer listened for two seconds.
+    assert!(age(&later) >= age(&gone) + 2.0, "{gone} {later}");
     let mut twin = network.twin(&[]);
     twin.wait_for("model time runs");
     let back = Instant::now();

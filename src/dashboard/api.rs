@@ -20,6 +20,8 @@ use crate::live::{Door, host_is_ours};
 
 /// Longest body of a request (bytes): names and reasons.
 const LONGEST_BODY: usize = 16 << 10;
+/// Header by which a page names the server that it was bound to.
+const INSTANCE: &str = "x-flexdrill-instance";
 
 /// What all answers are made from.
 pub(super) struct Shared {
@@ -32,8 +34,20 @@ pub(super) struct Shared {
     pub namespace: String,
     /// Absolute name of the twin's node.
     pub node: String,
-    /// What is played, else it is live.
+    /// The recording that is played; none when a twin is shown live.
     pub bag: Option<Arc<PlayedBag>>,
+    /// Random text that identifies this run of the server.
+    pub instance: String,
+}
+
+/// Text for [`Shared::instance`].
+///
+/// # Errors
+/// When the system has no random bytes.
+pub(super) fn new_instance() -> anyhow::Result<String> {
+    let mut random = [0; 8];
+    crate::live::fill_random(&mut random)?;
+    Ok(format!("{:016x}", u64::from_le_bytes(random)))
 }
 
 /// A bag that is played.
@@ -53,6 +67,7 @@ pub(super) fn router(shared: Shared) -> Router {
     let api = Router::new()
         .route("/live", any(live))
         .route("/api/session", get(session))
+        .route("/api/pulse", get(pulse))
         .route("/api/history", get(history))
         .route("/api/orbit/{joint}/{time_ns}", get(orbit))
         .route("/api/journal", get(journal))
@@ -93,6 +108,7 @@ async fn session(State(shared): Server) -> Json<Value> {
     });
     Json(json!({
         "version": env!("CARGO_PKG_VERSION"),
+        "instance": shared.instance,
         "mode": if bag.is_some() { "bag" } else { "live" },
         "namespace": shared.namespace,
         "node": shared.node,
@@ -103,6 +119,17 @@ async fn session(State(shared): Server) -> Json<Value> {
         "config_hash": session.as_ref().map(|session| &session.config_hash),
         "start_ns": session.as_ref().map(|session| session.start.to_string()),
     }))
+}
+
+/// The server's clock and the age of its newest data. It has a connection of its own, so that a page whose live data
+/// queue up learns how far behind it is.
+async fn pulse(State(shared): Server) -> Response {
+    let body = json!({
+        "instance": shared.instance,
+        "time_ns": super::now().to_string(),
+        "newest": if shared.bag.is_some() { json!({}) } else { shared.board.newest() },
+    });
+    ([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response()
 }
 
 async fn history(State(shared): Server) -> Response {
@@ -181,6 +208,16 @@ async fn act(State(shared): Server, Path(what): Path<String>, headers: HeaderMap
         return answer(
             StatusCode::UNAUTHORIZED,
             "show the token that was printed when the dashboard started",
+        );
+    }
+    // A page that outlived its server must not act on whatever has taken the server's port.
+    if headers
+        .get(INSTANCE)
+        .is_some_and(|bound| bound.as_bytes() != shared.instance.as_bytes())
+    {
+        return answer(
+            StatusCode::CONFLICT,
+            "the server was restarted since this page was opened; reload the page",
         );
     }
     let done = match what.as_str() {

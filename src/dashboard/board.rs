@@ -1,6 +1,6 @@
 //! What the server itself knows of the twin: session, history, journal and newest status. Fed live or from a bag.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -48,6 +48,8 @@ struct Known {
     events: VecDeque<(i64, AlarmEvent)>,
     incidents: Vec<Incident>,
     status: Option<(TwinStatus, Instant)>,
+    /// Newest message of each topic: the instant that it speaks of (ns since 1970), and when it arrived here.
+    heard: BTreeMap<&'static str, (i64, Instant)>,
 }
 
 /// Shared by who listens and who answers the page.
@@ -72,6 +74,7 @@ impl Board {
             events: VecDeque::new(),
             incidents: Vec::new(),
             status: None,
+            heard: BTreeMap::new(),
         }))
     }
 
@@ -83,7 +86,20 @@ impl Board {
     /// What cannot be read is left to those who can.
     pub fn observe(&self, topic: &TopicInfo, body: &[u8], arrived: i64) -> i64 {
         let mut known = self.known();
-        known.observe(topic, body, arrived).unwrap_or(arrived)
+        let time = known.observe(topic, body, arrived).unwrap_or(arrived);
+        known.heard.insert(topic.name, (time, Instant::now()));
+        time
+    }
+
+    /// The newest message of each topic as the page gets it: the instant that it speaks of, and for how long it has been
+    /// the newest (s), by a clock that is never set.
+    pub fn newest(&self) -> Value {
+        let known = self.known();
+        let newest = known.heard.iter().map(|(name, (time, arrived))| {
+            let message = json!({"time_ns": time.to_string(), "age_s": arrived.elapsed().as_secs_f64()});
+            ((*name).to_owned(), message)
+        });
+        Value::Object(newest.collect())
     }
 
     /// Changes the history.
@@ -322,6 +338,25 @@ mod tests {
             ..AlarmEvent::default()
         };
         board.observe(&topics::ALARM_EVENTS, &to_cdr_body(&event).unwrap(), 0);
+    }
+
+    #[test]
+    fn the_newest_of_a_topic_has_its_own_time_and_the_age_since_it_arrived() {
+        let board = Board::live();
+        assert_eq!(board.newest(), json!({}));
+        for second in [5, 7] {
+            send(&board, second, 1, AlarmEvent::ACTIVATED, Alarm::LOW);
+        }
+        let newest = &board.newest()[topics::ALARM_EVENTS.name];
+        assert_eq!(newest["time_ns"], "7000000000");
+        let age = newest["age_s"].as_f64().unwrap();
+        std::thread::sleep(Duration::from_millis(20));
+        let later = board.newest()[topics::ALARM_EVENTS.name]["age_s"].as_f64().unwrap();
+        // It ages by this clock, whatever its stamp says.
+        assert!(
+            (0.0..60.0).contains(&age) && later >= age + 0.02,
+            "{age} s, then {later} s"
+        );
     }
 
     #[test]

@@ -32,6 +32,8 @@ pub(super) struct History {
     exaggeration: f64,
     /// What holds until it changes, known before the tool's sizes too.
     held: Option<(i64, WhirlWarning)>,
+    /// Body and measured depth (m) of each watched place, so that a page can draw a tool of which nothing comes any more.
+    watched: (Vec<u8>, Vec<f64>),
     /// Nothing more comes.
     complete: bool,
 }
@@ -46,6 +48,7 @@ impl History {
             open: None,
             exaggeration: 1.0,
             held: None,
+            watched: (Vec::new(), Vec::new()),
             complete: true,
         }
     }
@@ -153,6 +156,9 @@ impl History {
         if self.layout.as_ref() != Some(&layout) {
             self.clear();
             self.layout = Some(layout);
+        }
+        if (&self.watched.0, &self.watched.1) != (&message.body, &message.measured_depth) {
+            self.watched = (message.body.clone(), message.measured_depth.clone());
         }
         let Some(mut put) = self.at(time) else { return };
         put.all(Column::WhirlKind, message.kind.iter().copied().map(f64::from));

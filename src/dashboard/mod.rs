@@ -3,6 +3,7 @@
 //! All is behind one address. `/` is the page; `/live` the live data, in the protocol of Foxglove and Lichtblick, which may
 //! use it too; `/api/...` what a page needs beside that, and what it may ask of the twin:
 //! - `GET /api/session`: mode, limits, the tool's places, a bag's incidents;
+//! - `GET /api/pulse`: the server's clock, its instance, the age of its newest data;
 //! - `GET /api/history`: the last hour, a frame a second; `GET /api/journal`: the alarms' events;
 //! - `GET /api/control`: who steers; `POST /api/control/{steer, release, acknowledge, shelve, unshelve, reset, pause}`, with
 //!   the token.
@@ -84,6 +85,7 @@ impl Dashboard {
                     namespace: twin.namespace.clone(),
                     node: twin.full_name(),
                     bag: None,
+                    instance: api::new_instance()?,
                 });
                 ready(&url);
                 live::serve(listener, router, end).await?;
@@ -101,6 +103,7 @@ impl Dashboard {
                     namespace: recorded.namespace.clone(),
                     node: String::new(),
                     bag: Some(Arc::clone(&recorded.played)),
+                    instance: api::new_instance()?,
                 });
                 ready(&url);
                 live::serve(listener, router, end).await?;

@@ -141,3 +141,22 @@ fn a_message_that_is_not_of_this_tool_takes_no_memory() {
     );
     assert!(history.to_bytes().is_none());
 }
+
+/// A page that is opened after the twin has ended draws the tool from this.
+#[test]
+fn the_head_says_which_places_are_watched() {
+    let mut history = History::new(1);
+    let whirl = |depth: f64| WhirlState {
+        kind: vec![0, 0],
+        body: vec![0, 1],
+        measured_depth: vec![0.5, depth],
+        ..WhirlState::default()
+    };
+    for depth in [0.75, 1.25] {
+        history.whirl(0, &whirl(depth), &session());
+    }
+    let (head, _) = parts(&history);
+    assert_eq!(head["watched_body"], serde_json::json!([0, 1]));
+    // The places of a later run with as many of them.
+    assert_eq!(head["watched_depth"], serde_json::json!([0.5, 1.25]));
+}

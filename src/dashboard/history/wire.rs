@@ -27,6 +27,8 @@ impl History {
             "count": count,
             "stride": layout.stride,
             "complete": self.complete,
+            "watched_body": self.watched.0,
+            "watched_depth": self.watched.1,
             "columns": columns,
         })
         .to_string();

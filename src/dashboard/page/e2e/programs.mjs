@@ -1,5 +1,6 @@
 // Programs that a browser's test runs against: a twin, a rig that plays a log into it, the server.
 import { spawn } from "node:child_process";
+import { connect, createServer } from "node:net";
 import { mkdtempSync, openSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -69,6 +70,39 @@ export const rig = () =>
     join(root, "config/field_logs/rig_1hz.yaml"),
   );
 export const server = (...more) => start("server", "dashboard", "--listen", `127.0.0.1:${PORT}`, ...more);
+
+/** Where the server is reached over a slow line. */
+export const SLOW_PORT = 8081;
+
+/**
+ * A line to the server that carries so many bytes of live data a second, and all else as it comes: a page behind it is one
+ * that does not keep up.
+ */
+export function slowLine(rate) {
+  const line = createServer((viewer) => {
+    const server = connect(PORT, "127.0.0.1");
+    for (const [one, other] of [
+      [viewer, server],
+      [server, viewer],
+    ]) {
+      one.on("error", () => other.destroy());
+      one.on("close", () => other.destroy());
+    }
+    let live = false;
+    viewer.on("data", (bytes) => {
+      live ||= bytes.subarray(0, 9).toString() === "GET /live";
+      server.write(bytes);
+    });
+    server.on("data", (bytes) => {
+      viewer.write(bytes);
+      if (!live) return;
+      server.pause();
+      setTimeout(() => server.resume(), (1e3 * bytes.length) / rate);
+    });
+  });
+  line.listen(SLOW_PORT, "127.0.0.1");
+  return line;
+}
 
 /** Ends all of them. */
 export async function stopAll() {

@@ -30,13 +30,25 @@ export interface Tool {
 
 export interface Session {
   version: string;
+  /** Identifies this run of the server. */
+  instance: string;
   mode: "live" | "bag";
   namespace: string;
+  node: string;
   control: boolean;
   limits: { rotary_speed_rpm: Limit; weight_on_bit_kn: Limit } | null;
   bag: { name: string; start_ns: string; end_ns: string; ready?: boolean; incidents: Incident[] } | null;
   tool: Tool | null;
-  config_hash?: string;
+  config_hash?: string | null;
+  /** When the twin's run began (ns since 1970); null until it is known. */
+  start_ns?: string | null;
+}
+
+/** The server's clock, and the age of its newest data. */
+export interface Pulse {
+  instance: string;
+  time_ns: string;
+  newest: Record<string, { time_ns: string; age_s: number }>;
 }
 
 export interface ControlState {
@@ -59,6 +71,9 @@ export interface HistoryHead {
   count: number;
   stride: number;
   complete?: boolean;
+  /** Of each watched place: body and measured depth (m). */
+  watched_body?: number[];
+  watched_depth?: (number | null)[];
   columns: { name: string; unit: string; offset: number; length: number }[];
 }
 
@@ -86,9 +101,10 @@ export interface Answer {
   message: string;
 }
 
-async function json<T>(path: string): Promise<T | null> {
+async function json<T>(path: string, timeout?: number): Promise<T | null> {
   try {
-    const response = await fetch(path, { cache: "no-store" });
+    const signal = timeout === undefined ? null : AbortSignal.timeout(timeout);
+    const response = await fetch(path, { cache: "no-store", signal });
     return response.ok ? ((await response.json()) as T) : null;
   } catch {
     return null;
@@ -96,6 +112,8 @@ async function json<T>(path: string): Promise<T | null> {
 }
 
 export const session = (): Promise<Session | null> => json<Session>("/api/session");
+/** Asked twice a second; an answer that takes longer than this (ms) is of no use. */
+export const pulse = (): Promise<Pulse | null> => json<Pulse>("/api/pulse", 2500);
 export const control = (): Promise<ControlState | null> => json<ControlState>("/api/control");
 
 /** Three seconds of a joint's motion, longer ago than a minute. */
@@ -141,7 +159,8 @@ export function token(): string {
   const match = /(?:^#|&)token=([^&]+)/.exec(location.hash);
   if (match) {
     sessionStorage.setItem(TOKEN_KEY, decodeURIComponent(match[1]));
-    window.history.replaceState(null, "", location.pathname + location.search);
+    const rest = location.hash.replace(match[0], "").replace(/^#?&?/, "");
+    window.history.replaceState(null, "", location.pathname + location.search + (rest === "" ? "" : `#${rest}`));
   }
   return sessionStorage.getItem(TOKEN_KEY) ?? "";
 }
@@ -150,12 +169,23 @@ export function setToken(value: string): void {
   sessionStorage.setItem(TOKEN_KEY, value.trim());
 }
 
+/** The server that this page is bound to: no other one carries its requests out. */
+let bound = "";
+
+export function bindTo(instance: string): void {
+  bound = instance;
+}
+
 /** Asks for something that changes the twin or its alarms. */
 export async function request(path: string, body: object): Promise<Answer> {
   try {
     const response = await fetch(`/api/control/${path}`, {
       method: "POST",
-      headers: { "content-type": "application/json", authorization: `Bearer ${token()}` },
+      headers: {
+        "content-type": "application/json",
+        authorization: `Bearer ${token()}`,
+        ...(bound === "" ? {} : { "x-flexdrill-instance": bound }),
+      },
       body: JSON.stringify(body),
     });
     const answer = (await response.json().catch(() => null)) as Answer | null;

@@ -19,10 +19,12 @@ export interface Playback {
   /** Time in the bag (ns). */
   time: bigint;
   speed: number;
+  /** The player has said so itself; else it is taken from the time that goes on. */
+  told: boolean;
 }
 
 export interface Listener {
-  /** The connection is there or gone. */
+  /** The connection is there or gone. Nothing is subscribed to before {@link Connection.admit}. */
   onConnected(connected: boolean): void;
   /** A message of a topic (without namespace) with its schema and time (ns). */
   onMessage(topic: string, schema: string, time: bigint, data: DataView): void;
@@ -34,10 +36,11 @@ export class Connection {
   private socket: WebSocket | null = null;
   private topics = new Map<number, { topic: string; schema: string }>();
   private nextId = 1;
-  private playback: Playback = { playing: false, ended: false, time: 0n, speed: 1 };
+  private playback: Playback = { playing: false, ended: false, time: 0n, speed: 1, told: false };
   private requests = 0;
-  /** The player has said whether it plays. */
-  private told = false;
+  /** Channels that the server offers and that are not subscribed to yet. */
+  private offered: Channel[] = [];
+  private admitted = false;
 
   constructor(
     private readonly url: string,
@@ -53,7 +56,9 @@ export class Connection {
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     this.topics.clear();
-    this.told = false;
+    this.offered = [];
+    this.admitted = false;
+    this.playback.told = false;
     socket.onopen = () => this.listener.onConnected(true);
     socket.onclose = () => {
       this.listener.onConnected(false);
@@ -67,8 +72,19 @@ export class Connection {
 
   private text(message: { op: string; channels?: Channel[]; channelIds?: number[] }): void {
     if (message.op !== "advertise") return;
+    this.offered.push(...(message.channels ?? []));
+    if (this.admitted) this.subscribe();
+  }
+
+  /** The server is the one that the page is bound to: its data may come. */
+  admit(): void {
+    this.admitted = true;
+    this.subscribe();
+  }
+
+  private subscribe(): void {
     const subscriptions = [];
-    for (const channel of message.channels ?? []) {
+    for (const channel of this.offered.splice(0)) {
       const topic = this.wanted.find((name) => channel.topic === `/${name}` || channel.topic.endsWith(`/${name}`));
       if (topic === undefined) continue;
       const id = this.nextId++;
@@ -90,19 +106,19 @@ export class Connection {
       case 0x02: {
         const time = view.getBigUint64(1, true);
         // The player says how it does only when that changes; until then time that goes on tells.
-        const goesOn = !this.told && this.playback.time !== 0n && time > this.playback.time;
+        const goesOn = !this.playback.told && this.playback.time !== 0n && time > this.playback.time;
         this.playback = { ...this.playback, time, playing: this.playback.playing || goesOn };
         this.listener.onPlayback(this.playback);
         return;
       }
       case 0x05: {
-        this.told = true;
         const status = view.getUint8(1);
         this.playback = {
           playing: status === 0,
           ended: status === 3,
           time: view.getBigUint64(2, true),
           speed: view.getFloat32(10, true),
+          told: true,
         };
         this.listener.onPlayback(this.playback);
         return;

@@ -76,6 +76,14 @@ export function lapse(seconds: number): string {
   return `${Math.floor(seconds / 3600)} h ${Math.floor((seconds % 3600) / 60)} min`;
 }
 
+/** Date and time of day, as the browser's time zone has them. */
+export function dateAndClock(seconds: number): string {
+  if (!Number.isFinite(seconds)) return "–";
+  const date = new Date(seconds * 1e3);
+  const part = (value: number) => String(value).padStart(2, "0");
+  return `${date.getFullYear()}-${part(date.getMonth() + 1)}-${part(date.getDate())} ${clock(seconds)}`;
+}
+
 /** Time of day on the rig's clock, as the browser's time zone has it. */
 export function clock(seconds: number): string {
   if (!Number.isFinite(seconds)) return "--:--:--";

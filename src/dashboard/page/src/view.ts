@@ -5,6 +5,8 @@ import { PALETTES, type Palette, type ThemeName } from "./theme";
 import type { System } from "./units";
 
 const SETTINGS = "flexdrill-settings";
+/** Part of the address that opens the view in large type. */
+const WALL = "#wall";
 
 interface Settings {
   units: System;
@@ -42,7 +44,25 @@ export class Context {
     this.settings = { ...defaults, ...kept };
     this.palette = PALETTES[this.theme];
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.change({}));
+    addEventListener("hashchange", () => this.applyWall());
     this.applyTheme();
+    this.applyWall();
+  }
+
+  /** State, numbers and alarms in large type, instead of all views. */
+  get wall(): boolean {
+    return location.hash === WALL;
+  }
+
+  showWall(shown: boolean): void {
+    // An address without a part keeps the place in the history; the page is not loaded again.
+    history.replaceState(null, "", location.pathname + location.search + (shown ? WALL : ""));
+    this.applyWall();
+  }
+
+  private applyWall(): void {
+    document.body.classList.toggle("wall", this.wall);
+    this.changed();
   }
 
   get theme(): ThemeName {

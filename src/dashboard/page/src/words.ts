@@ -11,7 +11,7 @@ export const RUN_STATE: Record<number, string> = {
 
 export const INPUT_STATE: Record<number, string> = {
   [TwinStatus.INPUT_NOT_RECEIVED]: "not received",
-  [TwinStatus.INPUT_OK]: "ok",
+  [TwinStatus.INPUT_OK]: "good",
   [TwinStatus.INPUT_SLOW]: "slow",
   [TwinStatus.INPUT_STALE]: "STALE",
   [TwinStatus.INPUT_REJECTED]: "REJECTED",
@@ -46,7 +46,7 @@ export const ALARM_STATE: Record<number, string> = {
   [Alarm.ACTIVE_ACKNOWLEDGED]: "active, acknowledged",
   [Alarm.RETURNED_UNACKNOWLEDGED]: "returned, unacknowledged",
   [Alarm.SHELVED]: "shelved",
-  [Alarm.SUPPRESSED_BY_DESIGN]: "suppressed: the drive stands or runs up",
+  [Alarm.SUPPRESSED_BY_DESIGN]: "suppressed while the drive is at standstill or starting",
   [Alarm.OUT_OF_SERVICE]: "out of service",
 };
 
@@ -59,9 +59,9 @@ export const CHANGE: Record<number, string> = {
   [AlarmEvent.SHELVED]: "shelved",
   [AlarmEvent.UNSHELVED]: "unshelved",
   [AlarmEvent.SUPPRESSED]: "suppressed",
-  [AlarmEvent.RELEASED]: "released",
-  [AlarmEvent.TAKEN_OUT]: "taken out",
-  [AlarmEvent.PUT_BACK]: "put back",
+  [AlarmEvent.RELEASED]: "no longer suppressed",
+  [AlarmEvent.TAKEN_OUT]: "taken out of service",
+  [AlarmEvent.PUT_BACK]: "put back into service",
 };
 
 /** A word for a code, a question mark for one that this version does not know. */
@@ -71,3 +71,10 @@ export function word(words: Record<number, string>, code: number): string {
 
 /** Shape that stands for a priority beside its colour and word: square, triangle, circle. */
 export const PRIORITY_SHAPE: Record<number, string> = { 0: "", 1: "●", 2: "▲", 3: "■" };
+
+/**
+ * A publisher for an operator: `node @ host (id of its DDS writer)` without the id, which only tells two of one name apart.
+ */
+export function publisher(named: string): string {
+  return named.replace(/ \([0-9a-f][0-9a-f.:]{7,}\)/gi, "");
+}

@@ -11,9 +11,9 @@ import { DECODERS } from "../src/messages";
 import { fullSpectrum } from "../src/spectrum";
 import { Layout } from "../src/store/layout";
 import { Ring } from "../src/store/ring";
+import { roundUp } from "../src/ticks";
 import { contrast, PALETTES } from "../src/theme";
 import { convert, digits, lapse, number, withUnit } from "../src/units";
-import { roundUp } from "../src/scene/tool";
 import { Camera, project } from "../src/scene/matrix";
 
 interface Reference {

@@ -179,7 +179,7 @@ test("a recording that is brought elsewhere shows that time, and forgets the mot
 test("what was on its way when a recording was brought elsewhere is not shown", () => {
   const store = new Store();
   store.session = { mode: "bag" } as Session;
-  store.takePlayback({ playing: false, ended: false, time: 100_000_000_000n, speed: 1 });
+  store.takePlayback({ playing: false, ended: false, time: 100_000_000_000n, speed: 1, told: true });
   // Bytes that are no message: those that are looked at are counted.
   const none = new DataView(new ArrayBuffer(3));
   for (const [time, looked] of [
@@ -347,11 +347,11 @@ test("events of the journal come once, whether heard or asked for", () => {
 test("a twin is silent without a connection or a heartbeat, a recording never is", () => {
   const store = new Store();
   assert.ok(store.silent);
-  store.connected = true;
+  store.setConnected(true);
   assert.ok(store.silent);
   store.accept("twin/status", { header: header(100), input_name: [] as string[] } as unknown as TwinStatus);
   assert.ok(!store.silent);
-  store.connected = false;
+  store.setConnected(false);
   assert.ok(store.silent);
   store.session = { mode: "bag" } as Session;
   assert.ok(!store.silent);

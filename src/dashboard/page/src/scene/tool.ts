@@ -7,6 +7,7 @@ import type { Tool } from "../api";
 import type { Geometry } from "../store/geometry";
 import type { Moment } from "../store/store";
 import type { Vec3 } from "./matrix";
+import { roundUp } from "../ticks";
 import { Mesh } from "./mesh";
 
 /** Longest arrow (m). */
@@ -193,12 +194,4 @@ export class ToolMeshes {
 
 function point(line: Float32Array, index: number): Vec3 {
   return [line[3 * index], line[3 * index + 1], line[3 * index + 2]];
-}
-
-/** The next of 1, 2, 5, 10, 20, ... that is not below a value. */
-export function roundUp(value: number): number {
-  if (!(value > 0)) return 1;
-  const power = 10 ** Math.floor(Math.log10(value));
-  const digit = value / power;
-  return power * (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10);
 }

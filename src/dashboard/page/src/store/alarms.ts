@@ -30,30 +30,20 @@ export class AlarmBook {
   }
 
   takeEvent(event: AlarmEvent): void {
-    if (this.journal.some((entry) => entry.sequence === event.sequence)) return;
     const { sec, nanosec } = event.header.stamp;
     const { sequence, id, name, change, priority, annunciates, operator_name, reason, evidence } = event;
     const stamp_ns = (BigInt(sec) * 1_000_000_000n + BigInt(nanosec)).toString();
-    this.journal.push({
-      stamp_ns,
-      sequence,
-      id,
-      name,
-      change,
-      priority,
-      annunciates,
-      operator_name,
-      reason,
-      evidence,
-    });
+    const entry = { stamp_ns, sequence, id, name, change, priority, annunciates, operator_name, reason, evidence };
+    if (this.journal.some((known) => identity(known) === identity(entry))) return;
+    this.journal.push(entry);
     if (this.journal.length > JOURNAL) this.journal.shift();
     this.journalRevision++;
   }
 
   /** Takes the server's journal, older than what has been heard here. */
   takeJournal(events: JournalEntry[]): void {
-    const known = new Set(events.map((event) => event.sequence));
-    this.journal = [...events, ...this.journal.filter((event) => !known.has(event.sequence))].slice(-JOURNAL);
+    const known = new Set(events.map(identity));
+    this.journal = [...events, ...this.journal.filter((event) => !known.has(identity(event)))].slice(-JOURNAL);
     this.journalRevision++;
   }
 
@@ -72,6 +62,9 @@ export class AlarmBook {
     this.lists = [];
   }
 }
+
+/** Two twins that follow each other under one name may both count from one. */
+const identity = (entry: JournalEntry): string => `${entry.sequence} ${entry.id} ${entry.stamp_ns}`;
 
 /**
  * Takes from the list before what is the same: a list has all alarms with all their texts, and hardly one changes. 500 of them

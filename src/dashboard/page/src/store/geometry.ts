@@ -1,5 +1,6 @@
 // Where things are along the tool, and how far its pipes are from the bore's axis.
 
+import type { Tool } from "../api";
 import type { ContactForces, JointDeflections, MarkerArray, WhirlState } from "../messages";
 
 /** Where things are along the tool; does not change while a configuration runs. */
@@ -42,6 +43,44 @@ export function geometryOf({ contacts, joints, whirl, shape }: First): Geometry 
     watchedDepth: whirl.measured_depth.slice(),
     watchedBody: whirl.body.slice(),
     watchedStation: Int32Array.from(whirl.measured_depth, (at) => nearest(depth, at)),
+  };
+}
+
+/** The same as the server has it of the session, with the places that are watched for whirl. */
+export function geometryOfTool(
+  tool: Tool,
+  watched: number,
+  bodies: readonly number[],
+  depths: readonly (number | null)[],
+): Geometry {
+  const stationDepth = Float64Array.from(tool.stations, (station) => station.measured_depth);
+  // A server that does not know the watched places leaves them off the tool.
+  const known = bodies.length === watched && depths.length === watched;
+  const watchedDepth = Float64Array.from({ length: watched }, (_, index) => (known ? (depths[index] ?? NaN) : NaN));
+  return {
+    stationDepth,
+    stationInclination: Float64Array.from(tool.stations, (station) => station.inclination),
+    stationPosition: Float32Array.from(tool.stations.flatMap((station) => station.position ?? [NaN, NaN, NaN])),
+    jointDepth: Float64Array.from(tool.joints, (joint) => joint.measured_depth),
+    jointStation: Int32Array.from(tool.joints, (joint) => joint.station),
+    jointLimit: tool.joint_limit,
+    watchedDepth,
+    watchedBody: Uint8Array.from({ length: watched }, (_, index) => (known ? bodies[index] : 0)),
+    watchedStation: Int32Array.from(watchedDepth, (at) => nearest(stationDepth, at)),
+  };
+}
+
+/** The geometry with the places that are watched by a message: those of the server's hour may be of another run. */
+export function watching(geometry: Geometry, { measured_depth: depth, body }: WhirlState): Geometry {
+  const same = depth.every(
+    (at, index) => at === geometry.watchedDepth[index] && body[index] === geometry.watchedBody[index],
+  );
+  if (same) return geometry;
+  return {
+    ...geometry,
+    watchedDepth: depth.slice(),
+    watchedBody: body.slice(),
+    watchedStation: Int32Array.from(depth, (at) => nearest(geometry.stationDepth, at)),
   };
 }
 

@@ -7,7 +7,7 @@ export interface Counts {
   watched: number;
 }
 
-/** Columns of one number. */
+/** Columns of one number. The server's history has all but the impulses of shock. */
 export const SCALARS = [
   "time",
   "state",
@@ -29,6 +29,8 @@ export const SCALARS = [
   "max_pipe_guide_force",
   "max_guide_wall_force",
   "shock_severity",
+  "pipe_guide_shock",
+  "guide_wall_shock",
   "max_bend_angle",
   "joints_at_limit",
   "unacknowledged_alarms",

@@ -11,6 +11,8 @@ const LARGEST: readonly (Scalar | Vector)[] = [
   "max_pipe_guide_force",
   "max_guide_wall_force",
   "shock_severity",
+  "pipe_guide_shock",
+  "guide_wall_shock",
   "max_bend_angle",
   "joints_at_limit",
   "joint_bend_angle",
@@ -20,9 +22,11 @@ const LARGEST: readonly (Scalar | Vector)[] = [
 ];
 
 export class Second {
-  /** The second that runs; what has not been heard in it is NaN or the last value, by column. */
+  /** The second that runs; what has not been heard in it is NaN. */
   readonly row: Float32Array;
   private readonly ended: Float32Array;
+  /** Newest value of every column, of whatever second. */
+  private readonly last: Float32Array;
   private readonly shown: Float32Array;
   private count = 0;
   private readonly sums = new Map<Scalar, number>();
@@ -30,6 +34,7 @@ export class Second {
   constructor(private readonly layout: Layout) {
     this.row = new Float32Array(layout.stride).fill(NaN);
     this.ended = this.row.slice();
+    this.last = this.row.slice();
     this.shown = this.row.slice();
   }
 
@@ -68,14 +73,11 @@ export class Second {
     }
   }
 
-  /** Ends the second: the next one begins with its newest values and without its largest. */
+  /** Ends the second: nothing has been heard in the next one, so that a topic that stops leaves a gap in the hour. */
   end(): void {
     this.ended.set(this.row);
-    for (const name of LARGEST) {
-      const column = this.layout.find(name);
-      if (column) this.row.fill(NaN, column.offset, column.offset + column.length);
-    }
-    this.set("bit_speed_min", NaN);
+    this.keep();
+    this.row.fill(NaN);
     this.count = 0;
     this.sums.clear();
   }
@@ -84,23 +86,30 @@ export class Second {
   clear(): void {
     this.row.fill(NaN);
     this.ended.fill(NaN);
+    this.last.fill(NaN);
     this.count = 0;
     this.sums.clear();
   }
 
+  private keep(): void {
+    const { row, last } = this;
+    for (let index = 0; index < row.length; index++) if (!Number.isNaN(row[index])) last[index] = row[index];
+  }
+
   /** What is shown as the newest: largest values are those of the running second and the one before. */
   live(): Float32Array {
-    const { shown, ended, layout } = this;
-    shown.set(this.row);
+    const { row, shown, ended, layout } = this;
+    this.keep();
+    shown.set(this.last);
     for (const name of LARGEST) {
       const column = layout.find(name);
       if (!column) continue;
       for (let index = column.offset; index < column.offset + column.length; index++) {
-        if (Number.isNaN(shown[index]) || ended[index] > shown[index]) shown[index] = ended[index];
+        shown[index] = Number.isNaN(row[index]) || ended[index] > row[index] ? ended[index] : row[index];
       }
     }
     const low = layout.offset("bit_speed_min");
-    if (Number.isNaN(shown[low]) || ended[low] < shown[low]) shown[low] = ended[low];
+    shown[low] = Number.isNaN(row[low]) || ended[low] < row[low] ? ended[low] : row[low];
     return shown;
   }
 }

@@ -1,6 +1,6 @@
 // What the page knows: the newest messages, the tool's motion, alarms and journal, and the time that is looked at.
 
-import type { History, JournalEntry, Session } from "../api";
+import type { History, JournalEntry, Pulse, Session } from "../api";
 import { CdrReader } from "../cdr";
 import type { Connection, Playback } from "../connection";
 import {
@@ -16,10 +16,11 @@ import {
   type WhirlState,
 } from "../messages";
 import { AlarmBook } from "./alarms";
+import { Freshness } from "./freshness";
 import type { Geometry } from "./geometry";
 import type { Layout } from "./layout";
 import type { Ring } from "./ring";
-import type { Topic } from "./topics";
+import { instant, MOTION, type Topic } from "./topics";
 import { Trace } from "./trace";
 
 /** Topics of which the newest holds, however old. */
@@ -31,6 +32,9 @@ const LATCHED: readonly string[] = ["twin/session", "twin/alarms"];
 const FETCHED = 2.5;
 /** Without a heartbeat for this long the twin is gone (ms): ten beats at 5 Hz, as in the terminal. */
 export const SILENT = 2000;
+/** A page that is this far behind the server (ms) says so until it has caught up to the second bound. */
+const BEHIND = 2000;
+const CAUGHT_UP = 1000;
 
 /** The tool at one instant. */
 export interface Moment {
@@ -59,7 +63,8 @@ export class Store {
     this.cursorTime = null;
   });
   private cursorTime: number | null = null;
-  private arrived = new Map<string, number>();
+  private readonly freshness = new Freshness();
+  private isBehind = false;
 
   get layout(): Layout | null {
     return this.trace.layout;
@@ -122,7 +127,7 @@ export class Store {
       this.unreadable++;
       return;
     }
-    this.accept(topic as Topic, message);
+    this.accept(topic as Topic, message, time);
   }
 
   /**
@@ -135,10 +140,10 @@ export class Store {
     return away <= FETCHED + this.playback.speed / 2;
   }
 
-  /** Takes a message that has been decoded. */
-  accept(topic: Topic, message: unknown): void {
+  /** Takes a message that has been decoded, of that time (ns). */
+  accept(topic: Topic, message: unknown, time: bigint = instant(message)): void {
     const { trace, book } = this;
-    this.arrived.set(topic, performance.now());
+    this.freshness.take(topic, time, performance.now());
     switch (topic) {
       case "twin/status":
         this.status = message as TwinStatus;
@@ -164,16 +169,55 @@ export class Store {
     }
   }
 
-  /** Time since a topic was last heard (ms); infinite before the first. */
+  /** Takes the server's answer to a question that was asked at `asked` (ms). */
+  takePulse(pulse: Pulse, asked: number): void {
+    this.freshness.hear(pulse, asked);
+  }
+
+  /** The connection has come or gone. */
+  setConnected(connected: boolean): void {
+    this.connected = connected;
+    this.freshness.begin(connected ? performance.now() : Infinity);
+    this.isBehind = false;
+  }
+
+  /** Age of what the page shows of a topic by the server's clock (ms); infinite before the first message. */
   age(topic: Topic): number {
-    const at = this.arrived.get(topic);
-    return at === undefined ? Infinity : performance.now() - at;
+    return this.freshness.age(topic, performance.now());
+  }
+
+  /** Time since the server heard the twin (ms); infinite when it never did. */
+  get twinAge(): number {
+    return this.freshness.serverAge("twin/status", performance.now());
+  }
+
+  /** When the server heard the twin last, on the rig's clock (s); NaN when it never did. */
+  get lastHeard(): number {
+    return this.freshness.serverTime("twin/status");
+  }
+
+  /** How far the page is behind the server's newest data (ms); 0 while it keeps up. */
+  get lag(): number {
+    if (this.isBag || !this.connected) return 0;
+    const lag = this.freshness.lag(MOTION, performance.now());
+    this.isBehind = lag > (this.isBehind ? CAUGHT_UP : BEHIND);
+    return this.isBehind ? lag : 0;
+  }
+
+  /** For how long the server has not confirmed how old the data are (ms); 0 while it does. */
+  get unconfirmed(): number {
+    return this.isBag ? 0 : this.freshness.unconfirmed(performance.now());
   }
 
   /** The twin's heart does not beat, or nothing can be heard at all. */
   get silent(): boolean {
     if (this.session?.mode === "bag") return false;
-    return !this.connected || this.age("twin/status") > SILENT;
+    return !this.connected || this.twinAge > SILENT;
+  }
+
+  /** What is shown is the rig now: nothing keeps it from being acted on. */
+  get isLive(): boolean {
+    return !this.isBag && this.cursorTime === null && !this.silent && this.lag === 0 && this.unconfirmed === 0;
   }
 
   get isBag(): boolean {
@@ -185,9 +229,17 @@ export class Store {
     return this.cursorTime;
   }
 
-  /** Newest time on the rig's clock (s), NaN before the first message. */
+  /** Newest time on the rig's clock (s), NaN while none is known. */
   get now(): number {
-    return this.trace.newest;
+    if (!Number.isNaN(this.trace.newest)) return this.trace.newest;
+    // Nothing of the tool has come: a recording is where its player is, a twin that has ended where its hour ends.
+    if (this.isBag) return this.playback ? Number(this.playback.time) / 1e9 : this.span[0];
+    return this.hour.length > 0 ? this.hour.time(this.hour.length - 1) : NaN;
+  }
+
+  /** Messages of the tool have come, not only the server's hour. */
+  get hasLive(): boolean {
+    return this.trace.hasLive;
   }
 
   /** Where the hour or the bag begins and ends (s). */
@@ -222,13 +274,11 @@ export class Store {
   moment(): Moment | null {
     const { layout } = this;
     if (!layout) return null;
-    if (this.cursorTime !== null) {
-      if (this.hour.length === 0) return null;
-      const at = Math.max(0, this.hour.before(this.cursorTime));
-      return { time: this.hour.time(at), live: false, layout, row: this.hour.row(at) };
-    }
-    const row = this.trace.live();
-    return row && { time: this.now, live: true, layout, row };
+    const row = this.cursorTime === null ? this.trace.live() : null;
+    if (row) return { time: this.now, live: true, layout, row };
+    if (this.hour.length === 0) return null;
+    const at = Math.max(0, this.hour.before(this.shown));
+    return { time: this.hour.time(at), live: false, layout, row: this.hour.row(at) };
   }
 
   /** Alarms as they stood at the shown time; null when that is not known. */

@@ -20,3 +20,22 @@ export type Topic = (typeof TOPICS)[number];
 export function stamp(header: Header): number {
   return header.stamp.sec + header.stamp.nanosec * 1e-9;
 }
+
+/** Topics that come all the time, of which the newest counts: what the page's lag is judged by. */
+export const MOTION: readonly Topic[] = [
+  "twin/status",
+  "twin/bit_state",
+  "twin/contact_forces",
+  "twin/joint_deflections",
+  "twin/whirl",
+  "twin/tool_shape",
+];
+/** Topics of which every message counts. */
+export const EVERY: readonly Topic[] = ["twin/alarm_events"];
+
+/** A message's time (ns since 1970); 0 where it has none. */
+export function instant(message: unknown): bigint {
+  const { header, markers } = message as { header?: Header; markers?: { header: Header }[] };
+  const time = (header ?? markers?.[0]?.header)?.stamp;
+  return time ? BigInt(time.sec) * 1_000_000_000n + BigInt(time.nanosec) : 0n;
+}

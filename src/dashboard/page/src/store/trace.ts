@@ -1,6 +1,6 @@
 // The tool's motion as it is heard: the second that runs, the hour, a minute at full rate. Everything that grows is a ring.
 
-import type { History, Session } from "../api";
+import type { History, HistoryHead, Session } from "../api";
 import type {
   AlarmList,
   BitState,
@@ -11,7 +11,7 @@ import type {
   TwinStatus,
   WhirlState,
 } from "../messages";
-import { displacements, geometryOf, type Geometry } from "./geometry";
+import { displacements, geometryOf, geometryOfTool, watching, type Geometry } from "./geometry";
 import { merged } from "./history";
 import { Layout, type Counts } from "./layout";
 import { Ring } from "./ring";
@@ -31,6 +31,13 @@ const SHAPES = 600;
 const SET_BACK = 10;
 const BAG_BACK = 0.5;
 const BAG_AHEAD = 2;
+
+/** Largest of some values; NaN of none, as in messages of before a field was added. */
+function largest(values: ArrayLike<number> = []): number {
+  let most = NaN;
+  for (let index = 0; index < values.length; index++) if (!(most >= values[index])) most = values[index];
+  return most;
+}
 
 /** What the messages come from. */
 export interface Source {
@@ -53,6 +60,8 @@ export class Trace {
   shapeRevision = 0;
   /** Newest time on the rig's clock (s), NaN before the first message. */
   newest = NaN;
+  /** A message of the tool as it is now has been processed; else only the server's hour is known. */
+  hasLive = false;
 
   /** Newest time of each topic (s). */
   private heard = new Map<string, number>();
@@ -71,12 +80,15 @@ export class Trace {
 
   /** The newest second; null until enough has been heard. */
   live(): Float32Array | null {
-    return this.second?.live() ?? null;
+    return this.hasLive ? (this.second?.live() ?? null) : null;
   }
 
   /** Takes the server's hour, older than what has been heard here; with a bag all of it. */
   takeHistory(history: History): void {
-    const { layout, source } = this;
+    const { source } = this;
+    // A page that is opened after the twin has ended hears nothing: sizes and places come from the server then.
+    if (!this.layout) this.buildFrom(history.head);
+    const { layout } = this;
     if (!layout) return;
     this.hour = merged(history, layout, source.isBag ? null : this.hour, HOUR);
     this.period = source.isBag ? Math.max(1, history.head.period_s || 1) : 1;
@@ -123,6 +135,8 @@ export class Trace {
     second.largest("max_pipe_guide_force", contacts.max_pipe_guide_force);
     second.largest("max_guide_wall_force", contacts.max_guide_wall_force);
     second.largest("shock_severity", contacts.shock_severity);
+    second.largest("pipe_guide_shock", largest(contacts.pipe_guide_shock));
+    second.largest("guide_wall_shock", largest(contacts.guide_wall_shock));
     second.setAll("contact_state", contacts.state);
     const quick = this.contacts.push(stamp(contacts.header));
     for (let station = 0; station < stations; station++) {
@@ -158,6 +172,7 @@ export class Trace {
     const second = this.begin("whirl", whirl.header);
     if (!second) return;
     if (whirl.measured_depth.length !== this.layout?.counts.watched) return this.forget();
+    if (this.geometry) this.geometry = watching(this.geometry, whirl);
     second.setAll("whirl_kind", whirl.kind);
     second.setAll("whirl_severity", whirl.severity);
     second.setAll("whirl_ratio", whirl.whirl_ratio);
@@ -193,6 +208,7 @@ export class Trace {
       ? this.newest - time > BAG_BACK || time - this.newest > BAG_AHEAD
       : (this.heard.get(topic) ?? time) - time > SET_BACK;
     if (isElsewhere) this.rewind(time);
+    this.hasLive = true;
     this.heard.set(topic, time);
     this.newest = Number.isNaN(this.newest) ? time : Math.max(this.newest, time);
     const number = Math.floor(time);
@@ -236,6 +252,7 @@ export class Trace {
     this.firstContacts = this.firstJoints = this.firstWhirl = null;
     this.firstShape = null;
     this.newest = this.secondNumber = NaN;
+    this.hasLive = false;
     this.heard.clear();
     this.hourRevision++;
     this.onBreak();
@@ -250,12 +267,30 @@ export class Trace {
       joints: joints.measured_depth.length,
       watched: whirl.measured_depth.length,
     };
+    this.make(counts, geometryOf({ contacts, joints, whirl, shape }));
+  }
+
+  /** The same from what the server says of the tool; nothing where its hour is of another one. */
+  private buildFrom(head: HistoryHead): void {
+    const tool = this.source.session?.tool;
+    const length = (name: string) => head.columns.find((column) => column.name === name)?.length ?? 0;
+    const counts: Counts = {
+      stations: length("contact_state"),
+      joints: length("joint_bend_angle"),
+      watched: length("whirl_kind"),
+    };
+    if (!tool || tool.stations.length !== counts.stations || tool.joints.length !== counts.joints) return;
+    this.make(counts, geometryOfTool(tool, counts.watched, head.watched_body ?? [], head.watched_depth ?? []));
+    this.shapeRevision++;
+  }
+
+  private make(counts: Counts, geometry: Geometry): void {
     this.layout = new Layout(counts);
     this.second = new Second(this.layout);
     this.hour = new Ring(HOUR, this.layout.stride);
     this.joints = new Ring(QUICK, 3 * counts.joints);
     this.contacts = new Ring(QUICK, 2 * counts.stations);
     this.shapes = new Ring(SHAPES, 4 * counts.stations);
-    this.geometry = geometryOf({ contacts, joints, whirl, shape });
+    this.geometry = geometry;
   }
 }

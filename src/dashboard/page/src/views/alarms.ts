@@ -1,13 +1,14 @@
 // The alarms by priority, with cause, consequence and what to do; requests of an operator; the journal.
 
+import { alarmPlace, isOfSystem, title } from "../alarms";
 import * as api from "../api";
 import { h, setText, show } from "../dom";
-import { Alarm } from "../messages";
-import { clock, lapse, number } from "../units";
+import { Alarm, type AlarmList } from "../messages";
+import { stamp } from "../store/topics";
+import { clock, dateAndClock, lapse, number } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { ALARM_STATE, CHANGE, PRIORITY, PRIORITY_SHAPE, word } from "../words";
 import { nearest } from "../store/geometry";
-import { alarmPlace } from "./state";
 
 /** Entries of the journal that are shown. */
 const SHOWN = 100;
@@ -15,13 +16,16 @@ const SHOWN = 100;
 export class Alarms implements View {
   readonly element: HTMLElement;
   private readonly list = h("ul", { class: "alarm-list", id: "alarm-list" });
+  private readonly systemTitle = h("h2", {}, "System");
+  private readonly systemList = h("ul", { class: "alarm-list", id: "system-list" });
+  private readonly notLive = h("p", { class: "not-live", id: "alarms-not-live" });
   private readonly quiet = h("ul", { class: "alarm-list" });
   private readonly quietTitle = h("summary");
   private readonly figures = h("p", { class: "hint" });
   private readonly answer = h("p", { class: "answer", role: "status", id: "alarm-answer" });
   private readonly journal = h("ol", { class: "journal", id: "journal" });
   private readonly operator: HTMLInputElement;
-  private readonly reason = h("input", { type: "text", id: "alarm-reason", maxlength: "200", placeholder: "why" });
+  private readonly reason = h("input", { type: "text", id: "alarm-reason", maxlength: "200", placeholder: "reason" });
   private readonly duration = h(
     "select",
     { id: "shelve-duration", "aria-label": "Shelve for" },
@@ -29,7 +33,7 @@ export class Alarms implements View {
       ["300", "5 min"],
       ["900", "15 min"],
       ["3600", "1 h"],
-      ["once", "until it is gone"],
+      ["once", "until it returns to normal"],
     ].map(([value, text]) => h("option", { value }, text)),
   );
   private readonly every = h("input", {
@@ -74,28 +78,37 @@ export class Alarms implements View {
     this.element = h(
       "section",
       { class: "alarms", "aria-label": "Alarms" },
+      this.notLive,
       this.list,
+      this.systemTitle,
+      this.systemList,
       this.locked,
       this.control,
       this.answer,
       h("details", {}, this.quietTitle, this.quiet),
       this.figures,
-      h("div", { class: "row" }, h("h2", {}, "Journal"), h("label", { class: "hint" }, this.every, " suppression too")),
+      h(
+        "div",
+        { class: "row" },
+        h("h2", {}, "Journal"),
+        h("label", { class: "hint" }, this.every, " show suppression"),
+      ),
       this.journal,
     );
     this.element.addEventListener("pointerdown", () => (this.pressed = true));
   }
 
   private async request(what: "acknowledge" | "shelve" | "unshelve", id: string): Promise<void> {
+    setText(this.answer, "");
     const operator = this.operator.value.trim();
     if (operator === "") {
-      this.say(false, "Say who you are: the journal keeps the name.");
+      this.say(false, "Enter your name: the journal keeps it.");
       this.operator.focus();
       return;
     }
     const reason = this.reason.value.trim();
     if (what === "shelve" && reason === "") {
-      this.say(false, "Say why it is put aside: the journal keeps the reason.");
+      this.say(false, "Enter a reason for shelving: the journal keeps it.");
       this.reason.focus();
       return;
     }
@@ -116,29 +129,29 @@ export class Alarms implements View {
     const { context } = this;
     if (this.element.clientWidth === 0 || !this.pace.due(now, context.revision)) return;
     const { store, settings } = context;
-    const allowed = store.session?.control === true && store.cursor === null && !store.isBag;
+    const { isLive } = store;
+    const allowed = store.session?.control === true && isLive;
     show(this.control, allowed);
-    show(this.locked, !allowed);
-    setText(
-      this.locked,
-      store.isBag || store.cursor !== null
-        ? "Looking at the past: alarms cannot be acknowledged here."
-        : "This server takes no requests; it does when started with --allow-control.",
-    );
+    show(this.locked, !allowed && isLive);
+    setText(this.locked, "This server accepts no requests. To enable them, start it with --allow-control.");
     const list = store.alarmsShown();
+    this.element.classList.toggle("old", !isLive);
+    show(this.notLive, !isLive);
+    setText(this.notLive, this.whyNotLive(list));
     const seen = list?.alarms.map((one) => [one.state, one.priority, one.evidence, one.what_to_do, one.measured_depth]);
-    const key = `${list === null} ${list?.sequence} ${allowed} ${context.revision} ${JSON.stringify(seen)}`;
+    const key = `${list === null} ${list?.sequence} ${allowed} ${isLive} ${context.revision} ${JSON.stringify(seen)}`;
     if (key !== this.key && !this.pressed) {
       this.key = key;
       this.fill(list?.alarms ?? null, allowed);
       setText(
         this.figures,
         list
-          ? `${list.unacknowledged} to acknowledge · ${list.annunciations_last_ten_minutes} calls in ten minutes` +
+          ? `${list.unacknowledged} to acknowledge · ${list.annunciations_last_ten_minutes} alarms in ten minutes` +
               `${list.flood ? " – FLOOD" : ""} · ${number(list.annunciations_per_hour, 1)} per hour`
           : "",
       );
     }
+    // For how long an alarm stands is only known while it is heard of.
     for (const { element, since } of this.ages) setText(element, lapse(Math.max(0, Math.floor(store.shown - since))));
     const journalKey = `${store.journalRevision} ${settings.units} ${Math.floor(store.cursor ?? 0)}`;
     if (journalKey !== this.journalKey) {
@@ -149,20 +162,23 @@ export class Alarms implements View {
 
   private fill(alarms: Alarm[] | null, allowed: boolean): void {
     const calls = (alarm: Alarm) => alarm.state >= 1 && alarm.state <= 4;
-    const loud = (alarms ?? []).filter(calls);
+    const loud = (alarms ?? []).filter((alarm) => calls(alarm) && !isOfSystem(alarm));
+    const system = (alarms ?? []).filter((alarm) => calls(alarm) && isOfSystem(alarm));
     const quiet = (alarms ?? []).filter((alarm) => !calls(alarm));
     this.ages.length = 0;
     // The button that has the keyboard keeps it.
     const focused = (document.activeElement as HTMLElement | null)?.dataset.key;
     const unknown =
       this.context.store.cursor === null
-        ? "Nothing heard of the alarms yet."
-        : "What stood at this time is not known; the journal below goes on.";
-    const empty = alarms ? "No alarm. Nothing to do." : unknown;
+        ? "No alarm list received yet."
+        : "The alarms of this time are not known; see the journal below.";
+    const empty = alarms ? "No alarm." : unknown;
     this.list.replaceChildren(
       ...(loud.length > 0 ? loud.map((alarm) => this.entry(alarm, allowed)) : [h("li", { class: "calm" }, empty)]),
     );
-    setText(this.quietTitle, `${quiet.length} alarms with nothing to do`);
+    show(this.systemTitle, system.length > 0);
+    this.systemList.replaceChildren(...system.map((alarm) => this.entry(alarm, allowed)));
+    setText(this.quietTitle, `${quiet.length} inactive alarms`);
     this.quiet.replaceChildren(
       ...quiet.map((alarm) => {
         const shelve = allowed && alarm.state === Alarm.NORMAL ? this.button("shelve", alarm.id, "Shelve") : null;
@@ -184,16 +200,16 @@ export class Alarms implements View {
     const unacknowledged = alarm.state === Alarm.ACTIVE_UNACKNOWLEDGED || alarm.state === Alarm.RETURNED_UNACKNOWLEDGED;
     const details = h("details", { open: this.open.get(alarm.id) ?? unacknowledged });
     const rows = [
-      ["Do", alarm.what_to_do],
-      ["Seen", alarm.evidence],
+      ["Action", alarm.what_to_do],
+      ["Evidence", alarm.evidence],
       ["Cause", alarm.cause],
-      ["Else", alarm.consequence],
+      ["Consequence", alarm.consequence],
     ].filter(([, text]) => text !== "");
     details.append(
       h(
         "summary",
         { "data-key": `why ${alarm.id}`, onclick: () => this.open.set(alarm.id, !details.open) },
-        "what to do, why",
+        "action and cause",
       ),
       h("dl", {}, ...rows.flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)])),
     );
@@ -203,7 +219,7 @@ export class Alarms implements View {
     const shelved =
       alarm.state === Alarm.SHELVED
         ? alarm.shelved_one_shot
-          ? " until it is gone"
+          ? " until it returns to normal"
           : ` until ${clock(alarm.shelved_until.sec)}`
         : "";
     return h(
@@ -212,13 +228,13 @@ export class Alarms implements View {
         class: "alarm",
         "data-level": String(alarm.priority),
         "data-id": alarm.id,
-        "data-calls": String(unacknowledged),
+        "data-calls": String(unacknowledged && this.context.store.isLive),
       },
       h(
         "div",
         { class: "alarm-head" },
         h("span", { class: "badge" }, `${PRIORITY_SHAPE[alarm.priority] || "○"} ${word(PRIORITY, alarm.priority)}`),
-        h("strong", {}, alarm.name),
+        h("strong", {}, title(alarm)),
         age,
         h("span", { class: "alarm-state" }, `${word(ALARM_STATE, alarm.state)}${shelved}`),
       ),
@@ -230,11 +246,23 @@ export class Alarms implements View {
             { class: "buttons" },
             unacknowledged ? this.button("acknowledge", alarm.id, "Acknowledge") : null,
             alarm.state === Alarm.SHELVED
-              ? this.button("unshelve", alarm.id, "Take off the shelf")
+              ? this.button("unshelve", alarm.id, "Unshelve")
               : this.button("shelve", alarm.id, "Shelve"),
           )
         : null,
     );
+  }
+
+  /** Why the alarms are not those of the rig now; empty where they are. */
+  private whyNotLive(list: AlarmList | null): string {
+    const { store } = this.context;
+    if (store.isLive) return "";
+    if (store.cursor !== null) return `Alarms at ${clock(store.cursor)}. They cannot be acknowledged from here.`;
+    if (store.isBag) return `Alarms in the recording at ${dateAndClock(store.now)}. They are not the rig's now.`;
+    const at = list ? clock(stamp(list.header)) : "";
+    return list
+      ? `Alarms as last received at ${at}. The page has no live data: their present state is not known.`
+      : "The page has no live data.";
   }
 
   private choose(depth: number): void {
@@ -267,6 +295,6 @@ export class Alarms implements View {
           );
         }),
     );
-    if (entries.length === 0) this.journal.append(h("li", { class: "none" }, "no change of an alarm yet"));
+    if (entries.length === 0) this.journal.append(h("li", { class: "none" }, "no entries yet"));
   }
 }

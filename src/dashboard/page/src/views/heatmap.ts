@@ -1,22 +1,30 @@
 // Contact force by depth against time: where along the tool it rubs, and since when.
 
 import { fit, h, setText } from "../dom";
-import { roundUp } from "../scene/tool";
 import type { Vector } from "../store/layout";
 import { nearest } from "../store/geometry";
 import { shade } from "../theme";
-import { digits, withUnit } from "../units";
+import { roundUp, timeTicks, valueTicks } from "../ticks";
+import { convert, number, quantity } from "../units";
 import { type Context, Pace, type View } from "../view";
 
 /** Rows of the picture: finer than the joints are apart. */
 const ROWS = 96;
 /** Least time between two pictures (ms): a column is a second. */
 const INTERVAL = 500;
+/** Room for the marks of depth and of time (pixels). */
+const LEFT = 44;
+const BELOW = 15;
+/** Steps of the colour scale. */
+const STEPS = 32;
 
 export class HeatMap implements View {
   readonly element: HTMLElement;
   private readonly canvas: HTMLCanvasElement;
-  private readonly scale = h("span", { class: "scale" });
+  private readonly bar = h("canvas", { class: "colour-bar", width: String(STEPS), height: "1" });
+  private readonly middle = h("span");
+  private readonly top = h("span");
+  private readonly scale: HTMLElement;
   private readonly picture = document.createElement("canvas");
   private readonly pace = new Pace(INTERVAL);
   private drawn = "";
@@ -28,6 +36,13 @@ export class HeatMap implements View {
     private readonly vector: Vector,
   ) {
     this.canvas = h("canvas", { role: "img", "aria-label": `${title}: force by depth against time` });
+    const bar = h(
+      "span",
+      { class: "bar" },
+      this.bar,
+      h("span", { class: "marks" }, h("span", {}, "0"), this.middle, this.top),
+    );
+    this.scale = h("span", { class: "scale" }, bar, h("span", { class: "no-data" }), "no data");
     this.element = h("section", { class: "heatmap", "aria-label": title }, h("h2", {}, title, this.scale), this.canvas);
     this.canvas.addEventListener("click", (event) => this.look(event));
   }
@@ -37,8 +52,9 @@ export class HeatMap implements View {
     const { context } = this;
     const { geometry } = context.store;
     const [from, to] = context.range;
-    const across = event.offsetX / this.canvas.clientWidth;
-    const down = event.offsetY / this.canvas.clientHeight;
+    const across = (event.offsetX - LEFT) / (this.canvas.clientWidth - LEFT);
+    const down = event.offsetY / (this.canvas.clientHeight - BELOW);
+    if (across < 0 || down > 1) return;
     context.store.lookAt(from + across * (to - from));
     if (!geometry) return;
     const depth = geometry.stationDepth;
@@ -62,7 +78,21 @@ export class HeatMap implements View {
     this.drawn = key;
     this.fill(from, to);
     this.paint(from, to, size);
-    setText(this.scale, `0 to ${withUnit(this.most, "force", context.settings.units)} (root scale)`);
+    this.legend();
+  }
+
+  /** The colours with their forces: shades go with the root of the force, so that half the bar is a quarter of its end. */
+  private legend(): void {
+    const { palette, settings } = this.context;
+    const pencil = this.bar.getContext("2d");
+    for (let step = 0; pencil && step < STEPS; step++) {
+      pencil.fillStyle = `rgb(${shade(step / (STEPS - 1), palette).map((part) => Math.round(255 * part))})`;
+      pencil.fillRect(step, 0, 1, 1);
+    }
+    const most = convert(this.most, "force", settings.units);
+    const places = most / 4 >= 10 ? 0 : most / 4 >= 1 ? 1 : most / 4 >= 0.1 ? 2 : 3;
+    setText(this.middle, number(most / 4, places));
+    setText(this.top, `${Number(most.toPrecision(3))} ${quantity("force", settings.units).unit}`);
   }
 
   /** One column per second or per frame of the hour, one row per part of the depth. */
@@ -133,42 +163,66 @@ export class HeatMap implements View {
     pencil.setTransform(ratio, 0, 0, ratio, 0, 0);
     pencil.clearRect(0, 0, width, height);
     pencil.imageSmoothingEnabled = false;
-    pencil.drawImage(this.picture, 0, 0, width, height);
+    const [wide, tall] = [width - LEFT, height - BELOW];
+    const x = (time: number) => LEFT + ((time - from) / (to - from)) * wide;
+    pencil.fillStyle = palette.ground;
+    pencil.fillRect(LEFT, 0, wide, tall);
+    this.hatch(pencil, wide, tall);
+    pencil.drawImage(this.picture, LEFT, 0, wide, tall);
     const depth = geometry.stationDepth;
     const [top, bottom] = [depth[0], depth[depth.length - 1]];
     pencil.strokeStyle = palette.mark;
     pencil.lineWidth = 1;
     if (place && place.station < depth.length) {
-      const y = ((depth[place.station] - top) / (bottom - top)) * height;
+      const y = ((depth[place.station] - top) / (bottom - top)) * tall;
       pencil.setLineDash([6, 4]);
       pencil.beginPath();
-      pencil.moveTo(0, y);
+      pencil.moveTo(LEFT, y);
       pencil.lineTo(width, y);
       pencil.stroke();
       pencil.setLineDash([]);
     }
     const shown = store.cursor ?? (store.isBag ? store.now : null);
     if (shown !== null) {
-      const x = ((shown - from) / (to - from)) * width;
       pencil.beginPath();
-      pencil.moveTo(x, 0);
-      pencil.lineTo(x, height);
+      pencil.moveTo(x(shown), 0);
+      pencil.lineTo(x(shown), tall);
       pencil.stroke();
     }
     pencil.font = "11px system-ui, sans-serif";
+    pencil.fillStyle = palette.muted;
     pencil.textBaseline = "middle";
-    for (const [share, at] of [
-      [0, top],
-      [0.5, (top + bottom) / 2],
-      [1, bottom],
-    ]) {
-      const text = share === 1 ? withUnit(at, "depth", settings.units) : digits(at, "depth", settings.units);
-      const y = Math.min(Math.max(share * height, 8), height - 8);
-      const wide = pencil.measureText(text).width;
-      pencil.fillStyle = `${palette.panel}d0`;
-      pencil.fillRect(2, y - 7, wide + 6, 14);
-      pencil.fillStyle = palette.ink;
-      pencil.fillText(text, 5, y + 0.5);
+    pencil.textAlign = "right";
+    const factor = convert(1, "depth", settings.units);
+    const marks = valueTicks(top * factor, bottom * factor, Math.max(2, Math.floor(tall / 28)));
+    marks.forEach((mark, index) => {
+      const y = ((mark / factor - top) / (bottom - top)) * tall;
+      const unit = index === 0 ? ` ${quantity("depth", settings.units).unit}` : "";
+      pencil.fillText(`${mark}${unit}`, LEFT - 6, Math.min(Math.max(y, 6), tall - 5));
+      pencil.fillRect(LEFT - 4, Math.min(y, tall - 1), 4, 1);
+    });
+    pencil.textAlign = "center";
+    for (const { time, label } of timeTicks(from, to, wide)) {
+      pencil.fillRect(x(time), tall, 1, 3);
+      const half = pencil.measureText(label).width / 2;
+      pencil.fillText(label, Math.min(Math.max(x(time), half), width - half), tall + 9);
     }
+  }
+
+  /** Ground that no value has the colour of: nothing is known there. */
+  private hatch(pencil: CanvasRenderingContext2D, wide: number, tall: number): void {
+    pencil.save();
+    pencil.beginPath();
+    pencil.rect(LEFT, 0, wide, tall);
+    pencil.clip();
+    pencil.strokeStyle = this.context.palette.line;
+    pencil.lineWidth = 1;
+    pencil.beginPath();
+    for (let at = -tall; at < wide; at += 8) {
+      pencil.moveTo(LEFT + at, tall);
+      pencil.lineTo(LEFT + at + tall, 0);
+    }
+    pencil.stroke();
+    pencil.restore();
   }
 }

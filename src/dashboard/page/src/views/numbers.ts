@@ -1,31 +1,37 @@
 // The numbers that matter, each with its limits, its age and a trail.
 
+import { levelOf } from "../alarms";
 import { configured } from "../configuration";
 import { h, setAttribute, setText } from "../dom";
+import { TwinStatus } from "../messages";
 import type { Layout, Scalar } from "../store/layout";
-import type { Moment } from "../store/store";
+import type { Moment, Store } from "../store/store";
 import type { Topic } from "../store/topics";
 import { convert, digits, type Kind, lapse, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { INPUT_STATE, PRIORITY_SHAPE, SEVERITY, word } from "../words";
-import { Strip } from "./strip";
+import { Strip, withGaps } from "./strip";
 
 /** What one tile shows. */
-interface Reading {
+export interface Reading {
   value: string;
   /** Below the number: what it is held against, what the rig says. */
   note: string;
   /** 0 nothing to say, 1 to 3 as priorities. */
   level: number;
+  /** The value is not the rig's now, but the last good one. */
+  held?: boolean;
 }
 
-interface Tile {
+export interface Tile {
   id: string;
   label: string;
   unit: () => string;
   topic: Topic;
   /** Value, then lower and upper edge of the band around it. */
   columns: [Scalar] | [Scalar, Scalar, Scalar];
+  /** Whether the strip shows what a second has; all of them without. */
+  good?: (row: Float32Array, layout: Layout) => boolean;
   /** Of the strip, in the columns' unit. */
   scale: (value: number) => number;
   range: (min: number, max: number) => [number, number];
@@ -38,14 +44,20 @@ const fromZero =
   (least: number) =>
   (_min: number, max: number): [number, number] => [0, Math.max(least, max * 1.1)];
 
+/** States of an input in which the model runs on another value than the rig's. */
+const NOT_THE_RIGS: readonly number[] = [TwinStatus.INPUT_NOT_RECEIVED, TwinStatus.INPUT_STALE];
+
 export class Numbers implements View {
   readonly element = h("section", { class: "numbers", "aria-label": "Numbers" });
+  /** What the tiles show, for the wall too. */
+  readonly tiles: readonly Tile[];
   private readonly parts: { tile: Tile; strip: Strip; root: HTMLElement; fields: Record<string, HTMLElement> }[] = [];
   private readonly pace = new Pace(100);
   private drawn = "";
 
   constructor(private readonly context: Context) {
-    for (const tile of this.tiles()) {
+    this.tiles = this.make();
+    for (const tile of this.tiles) {
       const strip = new Strip(context, { lines: tile.columns.length, range: tile.range, limits: tile.limits });
       const field = (name: string) => h("span", { class: name });
       const fields = {
@@ -69,7 +81,7 @@ export class Numbers implements View {
     }
   }
 
-  private tiles(): Tile[] {
+  private make(): Tile[] {
     const { context } = this;
     const { store } = context;
     const system = () => context.settings.units;
@@ -93,18 +105,29 @@ export class Numbers implements View {
       scale: scale(kind),
       range: (_min, max) => [0, Math.max(max * 1.05, Number.isFinite(limit()) ? limit() * 1.05 : 1)],
       limits: () => [limit()].filter(Number.isFinite),
+      good: (row, layout) => !NOT_THE_RIGS.includes(layout.scalar(row, `${name}_state`)),
       read: (moment) => {
         const state = at(moment, `${name}_state`);
-        const received = digits(at(moment, `${name}_received`), kind, system());
-        const late = moment.live && store.status ? store.status.input_age[index] + store.age("twin/status") / 1e3 : NaN;
+        const show = (column: Scalar) => withUnit(at(moment, column), kind, system());
+        const status = moment.live ? store.status : null;
+        // In a recording the status is of the shown time, however long ago it was played.
+        const since = store.isBag ? 0 : store.age("twin/status") / 1e3;
+        const age = status ? `, age ${lapse(status.input_age[index] + since)}` : "";
         const limited = Number.isFinite(limit()) ? ` · limit ${number(limit(), kind === "speed" ? 0 : 1)}` : "";
-        const age = Number.isFinite(late) ? ` ${lapse(late)}` : "";
-        const safe = moment.live && store.status?.input_safe[index] ? " · TO SAFE VALUE" : "";
-        return {
-          value: digits(at(moment, `${name}_applied`), kind, system()),
-          note: `rig ${received} · ${word(INPUT_STATE, state)}${age}${safe}${limited}`,
-          level: state === 3 || state === 4 ? 2 : state === 0 ? 1 : 0,
-        };
+        const level = levelOf(store, [`${name}_input`], state === 3 || state === 4 ? 2 : state === 0 ? 1 : 0);
+        const applied = digits(at(moment, `${name}_applied`), kind, system());
+        if (NOT_THE_RIGS.includes(state)) {
+          // What the model runs on meanwhile is not the rig's: it must not stand where the rig's value stands.
+          const safe = status?.input_safe[index] ? "ramp to the safe value" : state === 0 ? "start value" : "held";
+          const last = state === 0 ? "no sample received" : `STALE, last ${show(`${name}_received`)}${age}`;
+          return { value: "–", note: `${last} · model uses ${applied} (${safe})`, level };
+        }
+        if (state === TwinStatus.INPUT_REJECTED) {
+          const note = `newest sample REJECTED, last good value held${age}${limited}`;
+          return { value: applied, note, level, held: true };
+        }
+        const received = digits(at(moment, `${name}_received`), kind, system());
+        return { value: applied, note: `rig ${received} · ${word(INPUT_STATE, state)}${age}${limited}`, level };
       },
     });
     const speedLimit = () => store.session?.limits?.rotary_speed_rpm.max ?? setting("inputs.rotary_speed.max_rpm");
@@ -117,7 +140,8 @@ export class Numbers implements View {
       label: string,
       column: Scalar,
       vector: "pipe_guide_normal_peak" | "guide_wall_normal_peak",
-    ) => ({
+      layer: "pipe_guide_shock" | "guide_wall_shock",
+    ): Tile => ({
       id,
       label,
       unit: unit("force"),
@@ -133,10 +157,14 @@ export class Numbers implements View {
         for (let index = 1; index < peaks.length; index++) if (peaks[index] > peaks[worst]) worst = index;
         const depth = store.geometry?.stationDepth[worst] ?? NaN;
         const where = peaks[worst] > 0 ? `at ${withUnit(depth, "depth", system())}` : "no contact";
+        const impulse = at(moment, layer);
+        const bound = setting("shock.levels.watch");
+        const of = Number.isFinite(bound) ? ` / limit ${number(bound, 0)} N s` : "";
+        const strike = Number.isFinite(impulse) ? `, ${number(impulse, 1)} N s${of}` : "";
         return {
           value: digits(at(moment, column), "force", system()),
-          note: `${where} · shock ${word(SEVERITY, shock)}`,
-          level: shock > 0 ? shock : 0,
+          note: `${where} · shock ${word(SEVERITY, shock)}${strike}`,
+          level: levelOf(store, ["shock"], shock > 0 ? shock : 0),
         };
       },
     });
@@ -156,11 +184,11 @@ export class Numbers implements View {
           const index = at(moment, "stick_slip_index");
           const severity = at(moment, "stick_slip_severity");
           const bound = setting("stick_slip.levels.warning");
-          const of = Number.isFinite(bound) ? ` of ${number(bound, 1)}` : "";
+          const of = Number.isFinite(bound) ? ` / limit ${number(bound, 1)}` : "";
           return {
             value: digits(at(moment, "bit_speed_mean"), "speed", system()),
             note: `stick-slip ${word(SEVERITY, severity)}, index ${number(index, 2)}${of}`,
-            level: severity,
+            level: levelOf(store, ["stick_slip"], severity > 0 ? severity : 0),
           };
         },
       },
@@ -175,15 +203,15 @@ export class Numbers implements View {
         limits: () => [],
         read: (moment) => ({
           value: digits(at(moment, "bit_torque_mean"), "torque", system()),
-          note: `largest ${withUnit(at(moment, "bit_torque_max"), "torque", system())} within a second`,
+          note: `peak of the last second ${withUnit(at(moment, "bit_torque_max"), "torque", system())}`,
           level: 0,
         }),
       },
-      force("pipe-guide", "Pipe on guide", "max_pipe_guide_force", "pipe_guide_normal_peak"),
-      force("guide-wall", "Guide on wall", "max_guide_wall_force", "guide_wall_normal_peak"),
+      force("pipe-guide", "Pipe on guide", "max_pipe_guide_force", "pipe_guide_normal_peak", "pipe_guide_shock"),
+      force("guide-wall", "Guide on wall", "max_guide_wall_force", "guide_wall_normal_peak", "guide_wall_shock"),
       {
         id: "joints",
-        label: "Joints at their stop",
+        label: "Joints at stop",
         unit: () => (store.layout ? `of ${store.layout.counts.joints}` : ""),
         topic: "twin/joint_deflections",
         columns: ["joints_at_limit"],
@@ -194,33 +222,34 @@ export class Numbers implements View {
           const moments = moment.layout.vector(moment.row, "joint_stop_moment");
           const most = moments.reduce((a, b) => Math.max(a, b), 0);
           const limit = store.geometry?.jointLimit ?? NaN;
+          const rated = setting("joint_load.rated_moment_nm");
+          const of = Number.isFinite(rated) ? ` / rated ${withUnit(rated, "torque", system())}` : "";
           return {
             value: number(at(moment, "joints_at_limit"), 0),
             note:
-              `bend ${withUnit(at(moment, "max_bend_angle"), "angle", system())}` +
-              ` / ${withUnit(limit, "angle", system())}` +
-              ` · stop's peak ${withUnit(most, "torque", system())}`,
-            level: 0,
+              `bend ${digits(at(moment, "max_bend_angle"), "angle", system())}` +
+              ` / ${withUnit(limit, "angle", system())} · stop ${digits(most, "torque", system())}${of}`,
+            level: levelOf(store, ["joint_load"], 0),
           };
         },
       },
       {
         id: "pace",
-        label: "Pace of the model",
+        label: "Real-time factor",
         unit: () => "×",
         topic: "twin/status",
         columns: ["real_time_factor"],
         scale: (value) => value,
-        range: (min, max) => [Math.min(0.85, min), Math.max(1.1, max)],
+        range: (min, max) => [Math.min(0.8, Math.floor(5 * min) / 5), Math.max(1.1, max)],
         limits: () => [0.9, 0.98],
         read: (moment) => {
           const factor = at(moment, "real_time_factor");
           const lateness = moment.live ? (store.status?.lateness ?? NaN) : NaN;
-          const late = Number.isFinite(lateness) ? `behind ${number(lateness * 1e3, 1)} ms · ` : "";
+          const late = Number.isFinite(lateness) ? `model late by ${number(lateness * 1e3, 1)} ms · ` : "";
           return {
             value: number(factor, 2),
             note: `${late}limits 0.98, 0.90`,
-            level: factor < 0.9 ? 2 : factor < 0.98 ? 1 : 0,
+            level: levelOf(store, ["real_time"], factor < 0.9 ? 2 : factor < 0.98 ? 1 : 0),
           };
         },
       },
@@ -231,18 +260,23 @@ export class Numbers implements View {
     const { context } = this;
     if (!this.pace.due(now, context.revision)) return;
     const { store } = context;
+    if (this.element.clientWidth === 0) return;
     const moment = store.moment();
+    const { isLive } = store;
     for (const { tile, root, fields } of this.parts) {
-      const reading = moment ? tile.read(moment) : { value: "–", note: "not heard yet", level: 0 };
+      const reading = readTile(tile, moment, store);
       setText(fields.value, reading.value);
       setText(fields.unit, tile.unit());
       setText(fields.note, reading.note);
-      setAttribute(root, "data-level", String(reading.level || 0));
+      setAttribute(fields.note, "title", reading.note);
+      setAttribute(root, "data-level", String(reading.level));
       setText(fields.mark, reading.level > 0 ? (PRIORITY_SHAPE[reading.level] ?? "") : "");
+      root.classList.toggle("held", reading.held === true || reading.value === "–");
       const age = store.age(tile.topic) / 1e3;
-      const old = !store.isBag && moment?.live === true && age > 2;
+      const old = !store.isBag && store.cursor === null && moment !== null && age > 2;
       root.classList.toggle("old", old);
-      setText(fields.age, store.isBag || !moment?.live ? "" : old ? `OLD ${lapse(age)}` : age < 1 ? "" : lapse(age));
+      const words = old ? `OLD ${lapse(age)}` : age < 1 ? "" : lapse(age);
+      setText(fields.age, old || isLive ? words.replace(" –", "") : "");
     }
     const [from, to] = context.range;
     const shown = store.isBag ? Math.floor(2 * store.now) : store.cursor;
@@ -259,17 +293,23 @@ export class Numbers implements View {
     const times: number[] = [];
     for (let index = first; index <= last; index++) times.push(hour.time(index));
     for (const { tile, strip } of this.parts) {
-      const data: (number | null)[][] = [times];
-      for (const name of tile.columns) {
+      const columns = tile.columns.map((name) => {
         const offset = layout.offset(name);
-        const column: (number | null)[] = [];
-        for (let index = first; index <= last; index++) {
-          const value = hour.value(index, offset);
-          column.push(Number.isNaN(value) ? null : tile.scale(value));
-        }
-        data.push(column);
-      }
-      strip.set(data, from, to);
+        return times.map((_, at) => {
+          const row = hour.row(first + at);
+          const value = row[offset];
+          return Number.isNaN(value) || tile.good?.(row, layout) === false ? null : tile.scale(value);
+        });
+      });
+      strip.set(withGaps(times, columns, 2.5 * this.context.store.period), from, to);
     }
   }
+}
+
+/** What a tile shows at a moment. Of what is not the rig now, nothing has a level: nobody can act on it. */
+export function readTile(tile: Tile, moment: Moment | null, store: Store): Reading {
+  if (!moment) return { value: "–", note: "no data yet", level: 0 };
+  const reading = tile.read(moment);
+  const counts = store.isLive || store.isBag || store.cursor !== null;
+  return { ...reading, level: counts ? reading.level || 0 : 0 };
 }

@@ -2,11 +2,16 @@
 
 import { fit } from "../dom";
 import type { Motion } from "../store/motion";
+import { roundUp } from "../ticks";
+import { convert, digits, number, quantity } from "../units";
 import type { Context } from "../view";
-import { digits, quantity } from "../units";
 
 /** Length of the trail (s): two turns at 40 r/min. */
 const TRAIL = 3;
+/** Positions that are further apart in time than this (s) are not joined: what lies between is not known. */
+const APART = 0.5;
+/** The spectrum's least full height, as a part of the clearance: what a tool at rest has is flat. */
+const LEAST = 0.1;
 
 export function drawOrbit(
   canvas: HTMLCanvasElement,
@@ -49,7 +54,7 @@ export function drawOrbit(
   pencil.lineWidth = 2;
   for (let index = 1; index <= last; index++) {
     const age = pipe.times[last] - pipe.times[index];
-    if (age > TRAIL) continue;
+    if (age > TRAIL || pipe.times[index] - pipe.times[index - 1] > APART) continue;
     pencil.globalAlpha = 1 - 0.9 * (age / TRAIL);
     pencil.beginPath();
     pencil.moveTo(cx + pipe.y[index - 1] * scale, cy + pipe.z[index - 1] * scale);
@@ -74,12 +79,22 @@ export function drawOrbit(
   pencil.fillText(`± ${digits(reach, "gap", settings.units)} ${unit}`, width - 4, 11);
 }
 
-/** Full spectrum: backward to the left, forward to the right; marks at multiples of the tool's speed. */
+/** Full height of a spectrum (m) whose highest line is `top`, in a clearance. */
+export function fullHeight(top: number, clearance: number): number {
+  // In whole nanometres: 1e-4 m itself would be rounded up to 2e-4 m.
+  return Math.max(roundUp(Math.round(top * 1e9)) / 1e9, LEAST * clearance);
+}
+
+/**
+ * Full spectrum: backward to the left, forward to the right; marks at multiples of the tool's speed. Its height is an
+ * amplitude, the same for a tool at rest.
+ */
 export function drawSpectrum(
   canvas: HTMLCanvasElement,
   context: Context,
   lines: { frequency: Float64Array; amplitude: Float64Array } | null,
   turns: number,
+  clearance: number,
 ): void {
   const { width, height, ratio } = fit(canvas);
   const pencil = canvas.getContext("2d");
@@ -110,18 +125,26 @@ export function drawSpectrum(
     for (let index = 0; index < lines.frequency.length; index++) {
       if (Math.abs(lines.frequency[index]) <= most) top = Math.max(top, lines.amplitude[index]);
     }
+    const full = fullHeight(top, clearance);
     if (top > 0) {
       pencil.fillStyle = palette.trace;
       const wide = Math.max(1.5, x(lines.frequency[1]) - x(lines.frequency[0]) - 0.5);
       for (let index = 0; index < lines.frequency.length; index++) {
         if (Math.abs(lines.frequency[index]) > most) continue;
-        const tall = (lines.amplitude[index] / top) * (floor - 18);
+        const tall = (lines.amplitude[index] / full) * (floor - 18);
         pencil.fillRect(x(lines.frequency[index]) - wide / 2, floor - tall, wide, tall);
       }
-      pencil.fillStyle = palette.muted;
-      pencil.textAlign = "center";
-      const unit = quantity("gap", settings.units).unit;
-      pencil.fillText(`highest ${digits(top, "gap", settings.units)} ${unit}`, width / 2, 11);
+    }
+    // The scale of the amplitude: its full height, and half of it.
+    const { unit, digits: places } = quantity("gap", settings.units);
+    pencil.fillStyle = palette.muted;
+    pencil.textAlign = "left";
+    for (const share of [1, 0.5]) {
+      const y = floor - share * (floor - 18);
+      pencil.globalAlpha = 0.4;
+      pencil.fillRect(0, y, width, 1);
+      pencil.globalAlpha = 1;
+      pencil.fillText(`${number(convert(share * full, "gap", settings.units), places + 1)} ${unit}`, 4, y + 11);
     }
   }
   pencil.fillStyle = palette.ink;

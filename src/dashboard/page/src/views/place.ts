@@ -1,5 +1,6 @@
 // One place of the tool: orbit, full spectrum, forces, stop moment, what the alarms say of it.
 
+import { title } from "../alarms";
 import * as api from "../api";
 import { configured } from "../configuration";
 import { h, setText, show } from "../dom";
@@ -11,7 +12,7 @@ import { clock, convert, digits, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type Place, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, SEVERITY, WHIRL_KIND, word } from "../words";
 import { drawOrbit, drawSpectrum } from "./orbit";
-import { Strip } from "./strip";
+import { Strip, withGaps } from "./strip";
 
 /** Length of the strips and of the motion that the spectrum is of (s). */
 const SPAN = 30;
@@ -21,7 +22,11 @@ const NEAR = 0.1;
 export class PlaceView implements View {
   readonly element: HTMLElement;
   private readonly title = h("h2", { id: "place-title" });
-  private readonly none = h("p", { class: "none" }, "Click a joint or station of the tool, or go through the joints.");
+  private readonly none = h(
+    "p",
+    { class: "none" },
+    "Select a joint or station in the picture of the tool, or step through the joints.",
+  );
   private readonly body: HTMLElement;
   private readonly orbit = h("canvas", {
     id: "orbit",
@@ -47,7 +52,7 @@ export class PlaceView implements View {
     const strip = (limits: () => number[], least: () => number) =>
       new Strip(context, {
         lines: 1,
-        axes: true,
+        wide: true,
         limits,
         range: (_min, max) => [0, Math.max(least(), max * 1.1)],
       });
@@ -81,7 +86,7 @@ export class PlaceView implements View {
       { class: "place-body" },
       h("div", { class: "orbit-row" }, this.orbit, this.facts),
       this.source,
-      h("h3", {}, "Full spectrum, in multiples of the drive's speed"),
+      h("h3", {}, "Full spectrum, in multiples of the rotary speed"),
       this.spectrum,
       this.innerTitle,
       this.forces.element,
@@ -89,7 +94,7 @@ export class PlaceView implements View {
       this.outer.element,
       this.momentTitle,
       this.moments.element,
-      h("h3", {}, "Alarms here"),
+      h("h3", {}, "Alarms at this location"),
       this.alarms,
     );
     this.element = h(
@@ -117,7 +122,7 @@ export class PlaceView implements View {
     show(this.none, place === null);
     show(this.body, place !== null);
     if (!place || !geometry || place.station >= geometry.stationDepth.length) {
-      setText(this.title, "No place chosen");
+      setText(this.title, "No location selected");
       return;
     }
     if (!this.fast.due(now, context.revision)) return;
@@ -175,7 +180,8 @@ export class PlaceView implements View {
     const rate =
       pipe.times.length > 1 ? (pipe.times.length - 1) / (pipe.times[pipe.times.length - 1] - pipe.times[0]) : 0;
     const turns = layout.scalar(row, "rotary_speed_applied") / (2 * Math.PI);
-    drawSpectrum(this.spectrum, context, fullSpectrum(pipe.y, pipe.z, rate), turns);
+    const clearance = store.session?.tool?.pipe_clearance ?? 0.0085;
+    drawSpectrum(this.spectrum, context, fullSpectrum(pipe.y, pipe.z, rate), turns, clearance);
     setText(this.source, this.words(place, pipe, kept, rate));
     const { stations, joints } = layout.counts;
     const unit = quantity("force", settings.units).unit;
@@ -187,13 +193,15 @@ export class PlaceView implements View {
       ["guide_wall_normal_peak", place.station],
       "force",
     );
-    setText(this.innerTitle, `Pipe on guide (${unit}), largest per interval`);
-    setText(this.outerTitle, `Guide on wall (${unit}), largest per interval`);
+    setText(this.innerTitle, `Pipe on guide (${unit}), peak per interval`);
+    setText(this.outerTitle, `Guide on wall (${unit}), peak per interval`);
     show(this.momentTitle, place.joint !== null);
     show(this.moments.element, place.joint !== null);
     if (place.joint !== null) {
       this.strip(this.moments, store.joints, 2 * joints + place.joint, ["joint_stop_moment", place.joint], "torque");
-      setText(this.momentTitle, `Moment of the stop (${quantity("torque", settings.units).unit}), dashed: rated`);
+      const rated = configured(store.sessionInfo?.configuration ?? "", "joint_load.rated_moment_nm");
+      const of = Number.isFinite(rated) ? `, dashed: rated ${withUnit(rated, "torque", settings.units)}` : "";
+      setText(this.momentTitle, `Stop moment (${quantity("torque", settings.units).unit})${of}`);
     }
     this.list(place);
   }
@@ -201,22 +209,23 @@ export class PlaceView implements View {
   /** What the motion is of, or why there is none. */
   private words(place: Place, pipe: Motion, kept: Motion | null | undefined, rate: number): string {
     if (pipe.times.length === 0) {
-      const hour = "The dot and the strips are of the hour, with a row a second; a recording has it all.";
+      const hour = "Dot and strips come from the hour's history, one row per second; a recording has the full motion.";
       if (place.joint === null) {
-        return `No motion: between joints it is kept for a minute, and this is longer ago; a joint has more. ${hour}`;
+        return `No motion: between joints it is kept for one minute only; joints are kept for longer. ${hour}`;
       }
       return kept === undefined
-        ? "Motion of this time is asked for."
-        : `No motion: the server has kept none of this joint from within 10 s of this time. ${hour}`;
+        ? "Loading the motion of this time."
+        : `No motion: the server has none of this joint within 10 s of this time. ${hour}`;
     }
     const what = kept
       ? `Motion of the ${number(pipe.times[pipe.times.length - 1] - pipe.times[0], 1)} s until ` +
-        `${clock(pipe.times[pipe.times.length - 1])}: further back than a minute, three seconds of every ten are kept. `
+        `${clock(pipe.times[pipe.times.length - 1])}: before the last minute three seconds of every ten are kept. `
       : "";
     return (
-      `${what}Looking down the hole, forward is clockwise. Solid circle: reach of the pipe's axis in the bore; dashed: ` +
-      `in the guide where it is now. Reach is the part of the clearance that is used, contact the part of the time. ` +
-      `${number(rate, 0)} positions a second${place.joint === null ? "; a joint has more." : "."}`
+      `${what}View down the hole; forward whirl is clockwise. Solid circle: limit of the pipe's axis in the bore; ` +
+      `dashed circle: its limit in the guide at the guide's present position. Clearance used: largest deflection over ` +
+      `the clearance. Contact time: share of the time in contact. ` +
+      `${number(rate, 0)} positions per second${place.joint === null ? "; joints have more." : "."}`
     );
   }
 
@@ -243,7 +252,10 @@ export class PlaceView implements View {
       times.push(time);
       values.push(Number.isNaN(value) ? null : value * factor);
     }
-    strip.set([times, values], from, to);
+    // A gap is three intervals of the topic long, and half a second at least.
+    const interval = times.length > 1 ? (times[times.length - 1] - times[0]) / (times.length - 1) : 0;
+    const most = ring === store.hour ? 2.5 * store.period : Math.max(0.5, 3 * interval);
+    strip.set(withGaps(times, [values], most), from, to);
   }
 
   private list(place: Place): void {
@@ -254,7 +266,7 @@ export class PlaceView implements View {
     const { layout, row } = moment;
     const depth = geometry.stationDepth[place.station];
     const facts: [string, string][] = [];
-    for (const [body, title] of [
+    for (const [body, pipe] of [
       [0, "Pipe"],
       [1, "Guide"],
     ] as const) {
@@ -267,22 +279,23 @@ export class PlaceView implements View {
       const severity = layout.vector(row, "whirl_severity")[index];
       const of = Number.isFinite(ratio) ? ` ${number(ratio, 2)}×` : "";
       facts.push([
-        `${title}: whirl`,
+        `${pipe} whirl`,
         `${word(WHIRL_KIND, kind)}${of}${severity > 0 ? `, ${word(SEVERITY, severity)}` : ""}`,
       ]);
-      facts.push([`${title}: reach`, `${number(100 * layout.vector(row, "clearance_ratio")[index], 0)} %`]);
-      facts.push([`${title}: contact`, `${number(100 * layout.vector(row, "contact_duty")[index], 0)} %`]);
+      facts.push([`${pipe} clearance used`, `${number(100 * layout.vector(row, "clearance_ratio")[index], 0)} %`]);
+      facts.push([`${pipe} contact time`, `${number(100 * layout.vector(row, "contact_duty")[index], 0)} %`]);
     }
     if (place.joint !== null) {
       const bend = layout.vector(row, "joint_bend_angle")[place.joint];
       const limit = geometry.jointLimit;
-      const at = bend >= limit ? " ◆ stop" : "";
       facts.push([
-        `Bend${at}`,
+        bend >= limit ? "Bend, at stop" : "Bend",
         `${digits(bend, "angle", settings.units)} / ${withUnit(limit, "angle", settings.units)}`,
       ]);
       const stop = layout.vector(row, "joint_stop_moment")[place.joint];
-      facts.push(["Stop", withUnit(stop, "torque", settings.units)]);
+      const rated = configured(store.sessionInfo?.configuration ?? "", "joint_load.rated_moment_nm");
+      const of = Number.isFinite(rated) ? ` / rated ${withUnit(rated, "torque", settings.units)}` : "";
+      facts.push(["Stop moment", `${digits(stop, "torque", settings.units)}${of}`]);
     }
     const key = JSON.stringify(facts);
     if (key !== this.factsKey) {
@@ -298,7 +311,7 @@ export class PlaceView implements View {
             h(
               "li",
               {},
-              `${PRIORITY_SHAPE[alarm.priority]} ${alarm.name} (${word(PRIORITY, alarm.priority)}): ` +
+              `${PRIORITY_SHAPE[alarm.priority]} ${title(alarm)} (${word(PRIORITY, alarm.priority)}): ` +
                 alarm.what_to_do,
             ),
           )

@@ -3,9 +3,10 @@
 import { fit, h, setText, show } from "../dom";
 import { Camera, project, type Vec3 } from "../scene/matrix";
 import { Renderer } from "../scene/renderer";
+import { ruler, type Ruler } from "../scene/ruler";
 import { ToolMeshes } from "../scene/tool";
 import { channels } from "../theme";
-import { clock, lapse, number, withUnit } from "../units";
+import { clock, convert, lapse, number, withUnit } from "../units";
 import { PRIORITY_SHAPE } from "../words";
 import type { Context, View } from "../view";
 
@@ -14,6 +15,8 @@ const FINE = 1.5;
 const COARSE = 0.66;
 /** After this long without a hand on it the tool is drawn finely again (ms). */
 const STILL = 200;
+/** A page that does not keep up draws for at most this part of its time. */
+const SHARE = 0.3;
 /** How near a click must be to a station (pixels). */
 const REACH = 30;
 
@@ -29,6 +32,7 @@ export class Scene implements View {
       "The tool in its well. Arrow keys turn it, plus and minus zoom, brackets go from joint to joint, F shows all.",
   });
   private readonly overlay = h("div", { class: "overlay", "aria-hidden": "true" });
+  private readonly lines = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   private readonly legend = h("p", { class: "legend" });
   private readonly past = h("p", { class: "past-mark" });
   private readonly trouble = h("p", { class: "trouble" });
@@ -42,6 +46,9 @@ export class Scene implements View {
   private matrix: Float32Array<ArrayBufferLike> = new Float32Array(16);
   private readonly pointers = new Map<number, { x: number; y: number }>();
   private travelled = 0;
+  private ruler: Ruler | null = null;
+  /** No picture before this (ms). */
+  private rest = -Infinity;
 
   constructor(private readonly context: Context) {
     const output = h("output", {}, `×${context.settings.exaggeration}`);
@@ -62,12 +69,15 @@ export class Scene implements View {
       "section",
       { class: "scene", "aria-label": "Tool in its well" },
       this.canvas,
+      this.lines,
       this.overlay,
       this.trouble,
       this.past,
       h("div", { class: "scene-tools" }, h("label", {}, "clearances ", slider, output), all),
       this.legend,
     );
+    this.lines.setAttribute("class", "lines");
+    this.lines.setAttribute("aria-hidden", "true");
     try {
       this.renderer = new Renderer(this.canvas);
     } catch (error) {
@@ -157,7 +167,11 @@ export class Scene implements View {
 
   private frame(): void {
     const { geometry } = this.context.store;
-    if (geometry) this.camera.frame(geometry.stationPosition, this.canvas.clientWidth / this.canvas.clientHeight);
+    if (!geometry) return;
+    const { units } = this.context.settings;
+    this.ruler = ruler(geometry.stationPosition, (depth) => convert(depth, "depth", units));
+    const points = Float32Array.from([...geometry.stationPosition, ...this.ruler.foot, ...this.ruler.head]);
+    this.camera.frame(points, this.canvas.clientWidth / this.canvas.clientHeight);
     this.moved = true;
   }
 
@@ -200,7 +214,7 @@ export class Scene implements View {
     if (store.cursor !== null)
       setText(this.past, `PAST: ${clock(store.cursor)}, ${lapse(store.now - store.cursor)} ago`);
     const known = moment !== null && geometry !== null;
-    if (renderer) setText(this.trouble, known ? "" : "Nothing heard of a tool yet.");
+    if (renderer) setText(this.trouble, known ? "" : "No data of a tool yet.");
     show(this.canvas, known);
     show(this.legend, known);
     if (!known || !renderer || canvas.clientWidth === 0) return;
@@ -211,7 +225,9 @@ export class Scene implements View {
     const past = store.cursor === null ? "" : moment.time;
     const key = `${store.shapeRevision} ${past} ${context.revision} ${width}x${height} ${ratio}`;
     if (key === this.drawnKey && !this.moved) return;
-    const framing = `${geometry.stationDepth.length} ${geometry.stationDepth.at(-1)} ${width}x${height}`;
+    if (now < this.rest) return;
+    const size = `${width}x${height} ${settings.units}`;
+    const framing = `${geometry.stationDepth.length} ${geometry.stationDepth.at(-1)} ${size}`;
     if (framing !== this.framed) {
       this.framed = framing;
       this.frame();
@@ -224,7 +240,10 @@ export class Scene implements View {
     this.moved = false;
     this.pictures++;
     this.paint(renderer, width / height);
+    this.measure(width, height);
     this.annotate(width, height);
+    const taken = performance.now() - now;
+    this.rest = store.lag > 0 ? now + taken / SHARE : -Infinity;
   }
 
   private paint(renderer: Renderer, aspect: number): void {
@@ -248,6 +267,38 @@ export class Scene implements View {
     meshes.whirl.forEach((mesh, level) => renderer.draw(mesh, levels[level], 0.85));
     renderer.draw(meshes.chosen, ink, 0.9);
     renderer.draw(meshes.bore, bore, 0.04, "front", 0.25);
+  }
+
+  /** The scale of vertical depth beside the tool, with the direction of gravity. */
+  private measure(width: number, height: number): void {
+    if (!this.ruler) return;
+    const { settings } = this.context;
+    const at = (point: Vec3) => project(this.matrix, point, width, height);
+    const segments = [[this.ruler.head, this.ruler.foot], ...this.ruler.ticks.map(({ from, to }) => [from, to])];
+    const drawn = segments.map(([from, to]) => [at(from), at(to)]);
+    const path = drawn
+      .map(([from, to]) => (from && to ? `M${from.map(Math.round).join(" ")}L${to.map(Math.round).join(" ")}` : ""))
+      .join("");
+    const texts = this.ruler.ticks.map(({ from, value }) => ({ at: at(from), text: `${value}` }));
+    const unit = settings.units === "field" ? "ft" : "m";
+    texts.push({ at: at(this.ruler.head), text: `vertical depth (${unit})` });
+    const foot = at(this.ruler.foot);
+    const [x, y] = foot ?? [-99, -99];
+    const arrow = foot ? `M${x - 5} ${y - 9}L${x} ${y}L${x + 5} ${y - 9}` : "";
+    texts.push({ at: foot, text: "down" });
+    const label = (entry: (typeof texts)[number], index: number) => {
+      if (!entry.at) return "";
+      const isTick = index < texts.length - 2;
+      const [left, top] = entry.at;
+      const shift = isTick ? [-6, 4] : index === texts.length - 2 ? [0, -8] : [0, 15];
+      const anchor = isTick ? "end" : "middle";
+      // The title of the scale is longer than a narrow picture has room for to its left.
+      const x = isTick ? left + shift[0] : Math.max(left, 56);
+      const place = `x="${Math.round(x)}" y="${Math.round(top + shift[1])}" text-anchor="${anchor}"`;
+      return `<text ${place}>${entry.text}</text>`;
+    };
+    this.lines.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.lines.innerHTML = `<path d="${path}"/><path d="${arrow}"/>${texts.map(label).join("")}`;
   }
 
   private annotate(width: number, height: number): void {
@@ -285,7 +336,7 @@ export class Scene implements View {
     setText(
       this.legend,
       `Clearances ×${number(settings.exaggeration, 0)}. Arrows: largest force of the last second on the pipe (blue) ` +
-        `and on the guide (${this.context.theme === "day" ? "black" : "white"}), longest ${scale}. ` +
+        `and on the guide (${this.context.theme === "day" ? "black" : "white"}), longest arrow ${scale}. ` +
         `Thick collars: joints at their stop. Rings: backward or chaotic whirl.`,
     );
   }

@@ -1,86 +1,119 @@
 // The state of the tool in one word and one line, on top of everything.
 
+import { alarmPlace, standing, title } from "../alarms";
 import { h, setAttribute, setText } from "../dom";
-import { Alarm, TwinStatus } from "../messages";
-import type { Store } from "../store/store";
-import { clock, digits, lapse, number, type System, withUnit } from "../units";
+import { type Alarm, TwinStatus } from "../messages";
+import { SILENT, type Store } from "../store/store";
+import { clock, dateAndClock, digits, lapse, type System, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
-import { PRIORITY_SHAPE, QUALITY, word } from "../words";
+import { PRIORITY, PRIORITY_SHAPE, QUALITY, word } from "../words";
 
-interface State {
-  /** 0 nothing to do, 1 to 3 as priorities, 4 not known. */
+export interface State {
+  /** 0 nothing to do, 1 to 3 as priorities, 4 not known, 5 of a recording. */
   level: number;
   word: string;
   sentence: string;
 }
 
 const CALLS: Record<number, string> = { 1: "WATCH", 2: "ACT SOON", 3: "ACT NOW" };
+const SHAPES: Record<number, string> = { 0: "✓", 4: "✕", 5: "▷" };
 
 /** The state now: what keeps the page from knowing first, then the twin, then alarms, then how far to trust it. */
 export function stateNow(store: Store, system: System): State {
+  return unknown(store) ?? recorded(store, system) ?? ofTwin(store, system);
+}
+
+/** What keeps the page from knowing how the rig is; null where nothing does. */
+function unknown(store: Store): State | null {
+  const say = (word: string, sentence: string): State => ({ level: 4, word, sentence });
   if (!store.connected) {
-    return {
-      level: 4,
-      word: "NO SERVER",
-      sentence: "The page has lost its server and tries again. All values are old.",
-    };
+    return say("NO SERVER", "The connection to the server is lost; the page is reconnecting. All values are old.");
   }
-  const status = store.status;
-  if (!status) return { level: 4, word: "NO DATA", sentence: "Nothing heard of a twin yet." };
-  if (store.silent) {
-    const age = lapse(store.age("twin/status") / 1e3);
-    return { level: 4, word: "TWIN SILENT", sentence: `Last heard of the twin ${age} ago. All values are old.` };
+  if (store.isBag) return null;
+  if (store.unconfirmed > 0) {
+    const since = lapse(store.unconfirmed / 1e3);
+    return say("AGE UNKNOWN", `The server has not answered for ${since}: the age of the values is not known.`);
   }
+  const age = store.twinAge;
+  if (age === Infinity) return say("NO DATA", "No message has been received from a twin yet.");
+  if (age > SILENT) {
+    const at = Number.isNaN(store.lastHeard) ? "" : ` at ${clock(store.lastHeard)}`;
+    return say("TWIN SILENT", `Last message of the twin${at}, ${lapse(age / 1e3)} ago. All values are old.`);
+  }
+  const { lag } = store;
+  if (lag > 0) {
+    const behind = lapse(Math.round(lag / 1e3));
+    return say(
+      `PAGE BEHIND ${behind.replace(".0", "")}`,
+      "The values shown are that old; the twin is running. Browser or network are too slow for this page: close other " +
+        "pages and programs, or use another computer.",
+    );
+  }
+  if (!store.status) return say("NO DATA", "The twin is running; its first values are on their way.");
+  return null;
+}
+
+/** The state at the shown time of a recording: never like that of the rig. */
+function recorded(store: Store, system: System): State | null {
+  if (!store.isBag) return null;
+  const name = store.session?.bag?.name ?? "";
+  const { drilling } = standing(store.alarms?.alarms ?? []);
+  const alarm = drilling[0];
+  const more = drilling.length > 1 ? ` (+${drilling.length - 1} more)` : "";
+  const then = alarm
+    ? `Alarm at that time, ${word(PRIORITY, alarm.priority)}: ${named(alarm, system)}${more}.`
+    : store.alarms
+      ? "No alarm at that time."
+      : "";
+  return { level: 5, word: "RECORDING", sentence: `${name}, ${dateAndClock(store.now)}. Not the rig. ${then}` };
+}
+
+function named(alarm: Parameters<typeof title>[0], system: System): string {
+  const place = alarmPlace(alarm, system);
+  return `${title(alarm)}${place ? `, ${place}` : ""}`;
+}
+
+function ofTwin(store: Store, system: System): State {
+  const { status } = store;
+  if (!status) return { level: 4, word: "NO DATA", sentence: "" };
   if (status.state === TwinStatus.FAILED) {
-    return {
-      level: 3,
-      word: "MODEL FAILED",
-      sentence: `The model stands still: ${status.last_rejection_cause}. Reset it.`,
-    };
+    const cause = status.last_rejection_cause;
+    return { level: 3, word: "MODEL FAILED", sentence: `The model has stopped${cause ? `: ${cause}` : ""}. Reset it.` };
   }
   if (status.state === TwinStatus.STARTING) {
-    return {
-      level: 4,
-      word: "STARTING",
-      sentence: "The tool is being brought to rest under gravity and weight on bit.",
-    };
+    const sentence = "The model is computing the tool at rest under gravity and weight on bit.";
+    return { level: 4, word: "STARTING", sentence };
   }
   if (status.state === TwinStatus.PAUSED) {
-    return { level: 1, word: "PAUSED", sentence: "The model is paused by request; values stand still." };
+    return { level: 1, word: "PAUSED", sentence: "The model is paused on request; its values do not change." };
   }
-  const alarm = store.alarms?.alarms.find((one) => one.priority > 0 && one.state >= 1 && one.state <= 2);
-  if (alarm && store.alarms) {
-    const more = store.alarms.alarms.filter((one) => one.state >= 1 && one.state <= 2).length - 1;
-    const place = alarmPlace(alarm, system);
-    const others = more > 0 ? ` (+${more} more)` : "";
-    const name = alarm.name.charAt(0).toUpperCase() + alarm.name.slice(1);
+  const { drilling } = standing(store.alarms?.alarms ?? []);
+  const alarm = drilling[0];
+  if (alarm) {
+    const others = drilling.length > 1 ? ` (+${drilling.length - 1} more)` : "";
     return {
       level: alarm.priority,
       word: CALLS[alarm.priority] ?? "WATCH",
-      sentence: `${name}${place ? `, ${place}` : ""}: ${alarm.what_to_do || alarm.evidence}${others}`,
+      sentence: `${named(alarm, system)}: ${alarm.what_to_do || alarm.evidence}${others}`,
     };
   }
   if (status.model_quality !== TwinStatus.QUALITY_GOOD) {
     const quality = word(QUALITY, status.model_quality).toLowerCase();
     return { level: 1, word: "DOUBTFUL", sentence: `Model quality is ${quality}: ${status.model_quality_cause}` };
   }
+  return { level: 0, word: "NORMAL", sentence: doing(store, status, system) };
+}
+
+function doing(store: Store, status: TwinStatus, system: System): string {
   const unacknowledged = store.alarms?.unacknowledged ?? 0;
   const speed = status.input_applied[0] ?? NaN;
   const weight = status.input_applied[1] ?? NaN;
-  const doing =
+  const motion =
     Math.abs(speed) < 0.1
-      ? "The drive stands"
-      : `Turning with ${digits(speed, "speed", system)} r/min, ${withUnit(weight, "weight", system)} on the bit`;
-  const returned = unacknowledged > 0 ? `; ${unacknowledged} returned alarm(s) to acknowledge` : "; nothing to do";
-  return { level: 0, word: "NORMAL", sentence: doing + returned + "." };
-}
-
-/** Where an alarm is worst, in words; empty where it has no place. */
-export function alarmPlace(alarm: Alarm, system: System): string {
-  if (alarm.body === Alarm.NOWHERE || !Number.isFinite(alarm.measured_depth)) return "";
-  const body = alarm.body === Alarm.GUIDE ? "guide" : "pipe";
-  const inclination = number((alarm.inclination * 180) / Math.PI, 0);
-  return `${body} at ${withUnit(alarm.measured_depth, "depth", system)} (${inclination}°)`;
+      ? "Drive at standstill"
+      : `Rotating at ${digits(speed, "speed", system)} r/min, ${withUnit(weight, "weight", system)} on bit`;
+  const alarms = unacknowledged === 1 ? "1 returned alarm" : `${unacknowledged} returned alarms`;
+  return `${motion}; ${unacknowledged > 0 ? `${alarms} to acknowledge` : "no action required"}.`;
 }
 
 export class StateLine implements View {
@@ -92,6 +125,7 @@ export class StateLine implements View {
   private readonly clock = h("b", { id: "clock" });
   private readonly age = h("b", { id: "age" });
   private readonly quality = h("b", { id: "quality" });
+  private readonly system = h("p", { class: "system", id: "system-line", role: "status" });
   private readonly pace = new Pace(200);
 
   constructor(private readonly context: Context) {
@@ -99,12 +133,15 @@ export class StateLine implements View {
     const fact = (label: string, value: HTMLElement) => h("div", { class: "fact" }, h("span", {}, label), value);
     const units = h("button", { type: "button", id: "units", onclick: () => this.switchUnits() });
     const theme = h("button", { type: "button", id: "theme", onclick: () => this.switchTheme() });
+    const wall = h("button", { type: "button", id: "wall", onclick: () => context.showWall(!context.wall) });
     const label = () => {
       const field = context.settings.units === "field";
       setText(units, field ? "field units" : "SI units");
       setAttribute(units, "aria-label", `Units: ${field ? "field" : "SI"}; press to switch`);
       setText(theme, context.theme);
       setAttribute(theme, "aria-label", `Colours: ${context.theme}; press to switch`);
+      setText(wall, context.wall ? "all views" : "wall");
+      setAttribute(wall, "aria-label", context.wall ? "Show all views" : "Large type, readable from two metres");
     };
     label();
     context.onChange(label);
@@ -115,12 +152,14 @@ export class StateLine implements View {
       h(
         "div",
         { class: "facts" },
-        fact("rig's clock", this.clock),
+        fact("rig time", this.clock),
         fact("age of data", this.age),
         fact("model quality", this.quality),
         units,
         theme,
+        wall,
       ),
+      this.system,
     );
   }
 
@@ -137,15 +176,30 @@ export class StateLine implements View {
     const { store, settings } = this.context;
     const state = stateNow(store, settings.units);
     this.line.dataset.level = String(state.level);
-    setText(this.shape, state.level === 4 ? "✕" : PRIORITY_SHAPE[state.level] || "✓");
+    const shape = SHAPES[state.level] ?? PRIORITY_SHAPE[state.level];
+    setText(this.shape, shape);
     setText(this.word, state.word);
     setText(this.sentence, state.sentence);
     setText(this.clock, clock(store.now));
-    const age = store.isBag ? NaN : store.age("twin/status") / 1e3;
-    setText(this.age, store.isBag ? "recorded" : lapse(age));
+    setText(this.age, store.isBag ? "recorded" : lapse(store.age("twin/status") / 1e3));
     setText(this.quality, store.status ? word(QUALITY, store.status.model_quality) : "–");
-    document.body.classList.toggle("silent", store.silent && store.cursor === null);
-    document.body.classList.toggle("past", store.cursor !== null);
-    document.title = `${state.level > 0 ? `${PRIORITY_SHAPE[state.level] || "✕"} ` : ""}${state.word} – flexdrill`;
+    setText(this.system, systemLine(store));
+    const { classList } = document.body;
+    // Whatever is not the rig now is not coloured as if somebody had to act on it.
+    classList.toggle("silent", state.level === 4 && state.word !== "STARTING" && store.cursor === null);
+    classList.toggle("recording", store.isBag);
+    classList.toggle("past", store.cursor !== null);
+    document.title = `${state.level > 0 ? `${shape} ` : ""}${state.word} – flexdrill`;
   }
 }
+
+/** What whoever runs the computer reads. It is always there, so that nothing moves when an alarm comes. */
+function systemLine(store: Store): string {
+  if (!store.isLive && store.cursor === null) return "System: not known";
+  const { system } = standing(store.alarms?.alarms ?? []);
+  if (system.length === 0) return "System: no alarm";
+  const texts = system.map((alarm) => `${PRIORITY_SHAPE[alarm.priority]} ${title(alarm)}. ${systemAdvice(alarm)}`);
+  return `System: ${texts.join(" ")}`;
+}
+
+const systemAdvice = (alarm: Alarm): string => alarm.what_to_do || alarm.evidence;

@@ -5,11 +5,14 @@ import { h, setText, show } from "../dom";
 import { TwinStatus } from "../messages";
 import { convert, number, quantity } from "../units";
 import { type Context, Pace, type View } from "../view";
+import { publisher } from "../words";
 
 /** The request is repeated this often (ms); the server stops three seconds after the last. */
 const RENEW = 1000;
 /** How long a request waits for its confirmation (ms). */
 const CONFIRM = 8000;
+/** An answer is of what was asked; later it would be read as one to something else (ms). */
+const ANSWERED = 20_000;
 
 export class Steer implements View {
   readonly element: HTMLElement;
@@ -25,12 +28,13 @@ export class Steer implements View {
   private readonly release = h(
     "button",
     { type: "button", id: "steer-release", onclick: () => void this.end() },
-    "Release: stop steering",
+    "Stop steering",
   );
   private readonly pause = h("button", { type: "button", id: "model-pause", onclick: () => void this.holdModel() });
   private readonly reset = h("button", { type: "button", id: "model-reset", onclick: () => void this.resetModel() });
   private readonly model = h("div", { class: "buttons" }, this.pause, this.reset);
   private resetting = 0;
+  private answered = -Infinity;
   private readonly answer = h("p", { class: "answer", role: "status", id: "steer-answer" });
   private readonly standing = h("dl", { class: "facts-list", id: "steer-state" });
   private readonly pace = new Pace(250);
@@ -65,20 +69,25 @@ export class Steer implements View {
       this.ask,
       this.release,
     );
-    for (const input of [this.speed, this.weight]) input.addEventListener("input", () => (this.confirming = 0));
+    for (const input of [this.speed, this.weight]) {
+      input.addEventListener("input", () => {
+        this.confirming = 0;
+        this.sayNothing();
+      });
+    }
     this.element = h(
       "section",
       { class: "steer", "aria-label": "Steer" },
       h(
         "p",
         { class: "hint" },
-        "Sends targets for rotary speed and weight on bit to the twin, slewed and within its limits.",
+        "Sends set points of rotary speed and weight on bit to the twin, within its limits and slew rates.",
       ),
       this.locked,
       this.form,
       this.model,
       this.answer,
-      h("h2", {}, "Who drives"),
+      h("h2", {}, "Source of the inputs"),
       this.standing,
     );
   }
@@ -90,22 +99,23 @@ export class Steer implements View {
   /** The form's values in the server's units, or why they cannot be sent. */
   private read(): { rpm: number; kilonewton: number } | string {
     const limits = this.context.store.session?.limits;
-    if (!limits) return "The limits of the twin are not known yet.";
+    if (!limits) return "The twin's limits are not known yet.";
     const factor = convert(1e3, "weight", this.context.settings.units);
     const rpm = this.speed.valueAsNumber;
     const kilonewton = this.weight.valueAsNumber / factor;
-    if (Number.isNaN(rpm) || Number.isNaN(kilonewton)) return "Give a number for both targets.";
+    if (Number.isNaN(rpm) || Number.isNaN(kilonewton)) return "Enter a number for both set points.";
     const speed = limits.rotary_speed_rpm;
     const weight = limits.weight_on_bit_kn;
     if (rpm < speed.min || rpm > speed.max) return `Rotary speed must be ${speed.min} to ${speed.max} r/min.`;
     if (kilonewton < weight.min || kilonewton > weight.max) {
       return `Weight on bit must be ${weight.min} to ${weight.max} kN.`;
     }
-    if (this.operator.value.trim() === "") return "Say who you are: all clients see who steers.";
+    if (this.operator.value.trim() === "") return "Enter your name: all clients see who steers.";
     return { rpm, kilonewton };
   }
 
   private confirmFirst(): void {
+    this.sayNothing();
     const wanted = this.read();
     if (typeof wanted === "string") return this.say(false, wanted);
     if (performance.now() > this.confirming) {
@@ -151,7 +161,7 @@ export class Steer implements View {
   /** Asks for something of the model itself, in the operator's name. */
   private async askModel(what: "pause" | "reset", body: object): Promise<void> {
     const operator = this.operator.value.trim();
-    if (operator === "") return this.say(false, "Say who you are.");
+    if (operator === "") return this.say(false, "Enter your name.");
     api.setToken(this.token.value);
     this.context.change({ operator });
     const { ok, message } = await api.request(what, { operator, ...body });
@@ -159,10 +169,12 @@ export class Steer implements View {
   }
 
   private async holdModel(): Promise<void> {
+    this.sayNothing();
     await this.askModel("pause", { paused: !this.paused });
   }
 
   private async resetModel(): Promise<void> {
+    this.sayNothing();
     if (performance.now() > this.resetting) {
       this.resetting = performance.now() + CONFIRM;
       return;
@@ -183,10 +195,16 @@ export class Steer implements View {
 
   private say(ok: boolean, message: string): void {
     this.answer.dataset.ok = String(ok);
-    setText(this.answer, `${ok ? "✓" : "✕"} ${message}`);
+    setText(this.answer, `${ok ? "✓" : "✕"} ${publisher(message)}`);
+    this.answered = performance.now();
   }
 
-  /** Somebody steers: for the line over all views. */
+  /** A new request begins: the answer to the last one is not its. */
+  private sayNothing(): void {
+    setText(this.answer, "");
+  }
+
+  /** Whether an operator steers from this server. */
   get driving(): api.ControlState | null {
     return this.state?.driving ? this.state : null;
   }
@@ -199,19 +217,24 @@ export class Steer implements View {
       void api.control().then((state) => (this.state = state));
     }
     if (this.element.clientWidth === 0 || !this.pace.due(now, context.revision)) return;
-    const allowed = store.session?.control === true && !store.isBag;
+    if (now - this.answered > ANSWERED) this.sayNothing();
+    // Nothing is asked of a twin that does not answer, or by who sees old values.
+    const allowed = store.session?.control === true && !store.isBag && !store.silent;
+    for (const button of [this.ask, this.pause, this.reset]) button.disabled = !store.isLive;
     show(this.locked, !allowed);
     show(this.form, allowed);
     show(this.model, allowed);
-    setText(this.pause, this.paused ? "Let the model go on" : "Pause the model");
+    setText(this.pause, this.paused ? "Resume the model" : "Pause the model");
     const resetting = performance.now() < this.resetting;
     this.reset.classList.toggle("confirm", resetting);
-    setText(this.reset, resetting ? "Confirm: back to the start" : "Reset the model…");
+    setText(this.reset, resetting ? "Confirm: reset to the start" : "Reset the model…");
     setText(
       this.locked,
       store.isBag
         ? "A recording cannot be steered."
-        : "Steering is off: start the server with --allow-control and open the address that it prints.",
+        : store.session?.control
+          ? "The twin does not answer: nothing can be steered."
+          : "Steering is disabled. To enable it, start the server with --allow-control and open the address it prints.",
     );
     const limits = store.session?.limits;
     const unit = quantity("weight", settings.units).unit;
@@ -232,8 +255,8 @@ export class Steer implements View {
       confirming
         ? `Confirm: ${this.speed.value} r/min, ${this.weight.value} ${unit}`
         : this.target
-          ? "Change the targets…"
-          : "Begin to steer…",
+          ? "Change the set points…"
+          : "Start steering…",
     );
     show(this.release, this.state?.driving === true || this.target !== null);
     this.fill();
@@ -247,16 +270,16 @@ export class Steer implements View {
     const pair = (rpm: number | null, weight: number | null) =>
       `${number(rpm ?? NaN, 1)} r/min, ${number((weight ?? NaN) * factor, 1)} ${unit}`;
     const drivers = [...new Set(store.status?.input_driver ?? [])].filter((name) => name !== "");
-    const rows: [string, string][] = [["Publishers", drivers.join("; ") || "nobody"]];
+    const rows: [string, string][] = [["Publisher", drivers.map(publisher).join("; ") || "none"]];
     if (state) {
-      rows.push(["This server", state.driving ? `steers for ${state.by ?? "?"}` : "does not steer"]);
+      rows.push(["This server", state.driving ? `steering, operator ${state.by ?? "?"}` : "not steering"]);
       if (state.driving) {
-        rows.push(["Targets", pair(state.target_rpm, state.target_wob_kn)]);
+        rows.push(["Set points", pair(state.target_rpm, state.target_wob_kn)]);
         rows.push(["Sent", pair(state.sent_rpm, state.sent_wob_kn)]);
       }
       rows.push(["Applied", pair(state.applied_rpm, state.applied_wob_kn)]);
-      if (state.other_driver) rows.push(["In the way", state.other_driver]);
-      if (state.ended) rows.push(["Ended", state.ended]);
+      if (state.other_driver) rows.push(["Conflicting publisher", publisher(state.other_driver)]);
+      if (state.ended) rows.push(["Steering ended", publisher(state.ended)]);
     }
     const key = JSON.stringify(rows);
     if (this.standing.dataset.key === key) return;

@@ -1,6 +1,8 @@
 // A strip chart: one value over the shown window, with its limits and the time that is looked at.
 
 import uPlot from "uplot";
+import { timeTicks, valueTicks } from "../ticks";
+import { number } from "../units";
 import type { Context } from "../view";
 
 export interface StripOptions {
@@ -10,8 +12,28 @@ export interface StripOptions {
   range: (min: number, max: number) => [number, number];
   /** Horizontal lines: limits and levels. */
   limits: () => number[];
-  /** Draws scales too. */
-  axes?: boolean;
+  /** Larger type, for a strip that has the width of a panel. */
+  wide?: boolean;
+}
+
+/** Room for the marks of time and value (pixels): of a tile, of a panel. */
+const ROOM = { tile: { below: 14, left: 30, font: 10, edge: 12 }, wide: { below: 18, left: 46, font: 11, edge: 24 } };
+/** Height that a mark of the values needs (pixels). */
+const APART = 22;
+
+/** Rows of a chart: times and columns, with a row without values wherever nothing came for longer than `most` (s). */
+export function withGaps(times: number[], columns: (number | null)[][], most: number): (number | null)[][] {
+  const out: (number | null)[][] = [[], ...columns.map(() => [])];
+  times.forEach((time, index) => {
+    const last = index > 0 ? times[index - 1] : time;
+    if (time - last > most) {
+      out[0].push((time + last) / 2);
+      columns.forEach((_, column) => out[column + 1].push(null));
+    }
+    out[0].push(time);
+    columns.forEach((column, at) => out[at + 1].push(column[index]));
+  });
+  return out;
 }
 
 export class Strip {
@@ -45,37 +67,58 @@ export class Strip {
   private make(): void {
     this.plot?.destroy();
     this.revision = this.context.revision;
-    const { palette, store } = this.context;
+    const { palette } = this.context;
+    const { options } = this;
+    const room = options.wide ? ROOM.wide : ROOM.tile;
     const axis = {
       stroke: palette.muted,
-      font: "11px system-ui, sans-serif",
+      font: `${room.font}px system-ui, sans-serif`,
       grid: { stroke: palette.line, width: 1 },
       ticks: { show: false },
+      gap: 2,
     };
-    const line: uPlot.Series = { stroke: palette.trace, width: 1.5, points: { show: false } };
-    const edge: uPlot.Series = { stroke: "transparent", width: 0, points: { show: false } };
-    const { options } = this;
+    const line: uPlot.Series = { stroke: palette.trace, width: 1.5, points: { show: false }, spanGaps: false };
+    const edge: uPlot.Series = { stroke: "transparent", width: 0, points: { show: false }, spanGaps: false };
+    const inner = (plot: uPlot) => ({
+      width: plot.bbox.width / devicePixelRatio,
+      height: plot.bbox.height / devicePixelRatio,
+    });
     this.plot = new uPlot(
       {
         width: this.element.clientWidth,
         height: this.element.clientHeight,
         legend: { show: false },
         cursor: { show: false },
-        padding: options.axes ? [6, 8, 0, 0] : [2, 0, 2, 0],
+        padding: [5, 4, 0, 0],
         scales: {
           x: { time: false },
           y: { range: (_plot, min, max) => options.range(min ?? 0, max ?? 1) },
         },
-        axes: options.axes
-          ? [
-              {
-                ...axis,
-                size: 20,
-                values: (_plot, ticks) => ticks.map((tick) => `${Math.round(tick - store.shown)} s`),
-              },
-              { ...axis, size: 46 },
-            ]
-          : [{ show: false }, { show: false }],
+        axes: [
+          {
+            ...axis,
+            size: room.below,
+            splits: (plot, _axis, from, to) => timeTicks(from, to, inner(plot).width).map(({ time }) => time),
+            values: (plot, splits) => {
+              const { min, max } = plot.scales.x;
+              const ticks = timeTicks(min ?? 0, max ?? 0, inner(plot).width);
+              // A label that does not fit in before the edge is left out; its line stands.
+              const edge = (plot.posToVal(inner(plot).width - room.edge, "x") as number) || Infinity;
+              return splits.map((time) => (time < edge ? (ticks.find((tick) => tick.time === time)?.label ?? "") : ""));
+            },
+          },
+          {
+            ...axis,
+            size: room.left,
+            splits: (plot, _axis, from, to) =>
+              valueTicks(from, to, Math.max(2, Math.floor(inner(plot).height / APART))),
+            values: (_plot, splits) => {
+              const step = splits.length > 1 ? splits[1] - splits[0] : 1;
+              const places = Math.min(3, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+              return splits.map((value) => number(value, places).replace("-", "−"));
+            },
+          },
+        ],
         series: options.lines === 3 ? [{}, line, edge, edge] : [{}, line],
         bands: options.lines === 3 ? [{ series: [3, 2], fill: `${palette.trace}40` }] : [],
         hooks: { draw: [(plot) => this.drawMarks(plot)] },

@@ -1,7 +1,8 @@
 // The time line: the hour or the bag at a glance, dragged back through; the player of a bag.
 
 import { fit, h, setAttribute, setText, show } from "../dom";
-import { clock, lapse } from "../units";
+import { timeTicks } from "../ticks";
+import { clock, dateAndClock, lapse, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 
 const SPEEDS = ["0.25", "0.5", "1", "2", "5", "10"];
@@ -29,6 +30,8 @@ export class TimeLine implements View {
   private readonly speed: HTMLSelectElement;
   private readonly time = h("output", { class: "shown-time", id: "shown-time" });
   private readonly incident = h("span", { class: "incident", role: "status" });
+  private readonly legendSpeed = h("span", {}, h("i", { class: "swatch speed" }));
+  private readonly legendText = h("span");
   private readonly pace = new Pace(100);
   private drawn = "";
   private dragging = false;
@@ -39,7 +42,7 @@ export class TimeLine implements View {
       tabindex: "0",
       role: "slider",
       "aria-label":
-        "Time shown. Arrows go by a second, with shift by ten, page keys by a minute, Escape to the newest.",
+        "Time shown. Arrow keys step one second, with shift ten; page keys step one minute; Escape returns to live.",
     });
     this.speed = h(
       "select",
@@ -61,10 +64,27 @@ export class TimeLine implements View {
       "footer",
       { class: "time", "aria-label": "Time" },
       h("div", { class: "time-tools" }, this.live, this.play, this.speed, this.before, this.after, this.time, window_),
-      this.canvas,
+      h("div", { class: "time-line" }, this.legend(), this.canvas),
       this.incident,
     );
     this.listen();
+  }
+
+  /** What the bars and the marks of the time line mean. */
+  private legend(): HTMLElement {
+    const mark = (level: number, letter: string, text: string) =>
+      h("span", {}, h("i", { class: "swatch", "data-level": String(level) }, letter), text);
+    this.legendSpeed.append(this.legendText);
+    return h(
+      "p",
+      { class: "time-legend" },
+      this.legendSpeed,
+      h("span", {}, h("i", { class: "swatch window" }), "time of strips and maps"),
+      h("span", {}, "alarms raised:"),
+      mark(3, "H", "high"),
+      mark(2, "M", "medium"),
+      mark(1, "L", "low"),
+    );
   }
 
   private get playing(): boolean {
@@ -73,8 +93,10 @@ export class TimeLine implements View {
 
   private toggle(): void {
     const { store } = this.context;
-    // At its end a recording begins anew.
-    const again = store.playback?.ended ? BigInt(store.session?.bag?.start_ns ?? "0") : null;
+    // At its end a recording begins anew; a player that was brought there is not "ended".
+    const [, end] = store.span;
+    const over = store.playback?.ended === true || (!this.playing && store.now > end - 0.5);
+    const again = over ? BigInt(store.session?.bag?.start_ns ?? "0") : null;
     store.connection?.play(!this.playing, Number(this.speed.value), again);
   }
 
@@ -158,15 +180,15 @@ export class TimeLine implements View {
     for (const element of [this.play, this.speed]) show(element, bag);
     show(this.live, !bag);
     setText(this.play, this.playing ? "❚❚ pause" : "▶ play");
-    setText(this.live, store.cursor === null ? "● LIVE" : "back to live (Esc)");
-    this.live.classList.toggle("on", store.cursor === null);
+    setText(this.live, store.cursor !== null ? "back to live (Esc)" : store.isLive ? "● LIVE" : "○ NOT LIVE");
+    this.live.classList.toggle("on", store.isLive);
     const shown = bag ? store.now : store.shown;
     const [from, to] = store.span;
     const back = to - shown;
     setText(
       this.time,
       bag
-        ? `${clock(shown)} · ${lapse(shown - from)} of ${lapse(to - from)}`
+        ? `${dateAndClock(shown)} · ${lapse(shown - from)} of ${lapse(to - from)}`
         : store.cursor === null
           ? clock(shown)
           : `${clock(shown)} · ${lapse(back)} ago`,
@@ -209,6 +231,7 @@ export class TimeLine implements View {
     const speed = layout.offset("rotary_speed_applied");
     let most = 1;
     for (let index = 0; index < hour.length; index++) most = Math.max(most, hour.value(index, speed) || 0);
+    setText(this.legendText, `rotary speed, 0 to ${withUnit(most, "speed", this.context.settings.units)}`);
     pencil.fillStyle = `${palette.trace}59`;
     const wide = Math.max(1, (width * store.period) / (to - from) + 0.5);
     for (let index = 0; index < hour.length; index++) {
@@ -229,12 +252,11 @@ export class TimeLine implements View {
     }
     pencil.fillStyle = palette.muted;
     pencil.font = "11px system-ui, sans-serif";
-    const ticks = [60, 300, 600, 1200, 3600].find((step) => (to - from) / step <= Math.max(2, width / 90)) ?? 3600;
     pencil.textAlign = "center";
-    for (let tick = Math.ceil(from / ticks) * ticks; tick <= to; tick += ticks) {
-      if (x(tick) < 26 || x(tick) > width - 26) continue;
-      pencil.fillText(clock(tick).slice(0, 5), x(tick), height - 2);
-      pencil.fillRect(x(tick), height - 16, 1, 4);
+    for (const { time, label } of timeTicks(from, to, width)) {
+      pencil.fillRect(x(time), height - 16, 1, 4);
+      const half = pencil.measureText(label).width / 2;
+      pencil.fillText(label, Math.min(Math.max(x(time), half), width - half), height - 2);
     }
     pencil.fillStyle = palette.mark;
     const at = Math.min(Math.max(x(shown), 2), width - 2);
@@ -247,6 +269,6 @@ export class TimeLine implements View {
     const here = this.incidents()
       .reverse()
       .find(({ time }) => time <= shown + 0.5 && time > shown - 10);
-    setText(this.incident, (store.cursor !== null || store.isBag) && here ? `incident: ${here.text}` : "");
+    setText(this.incident, (store.cursor !== null || store.isBag) && here ? `alarm raised: ${here.text}` : "");
   }
 }

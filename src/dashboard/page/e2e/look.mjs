@@ -1,0 +1,80 @@
+// The page at four sizes, by day and at night: nothing is cut off or runs out of the picture, fingers find every button.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+
+export const SIZES = [
+  [1920, 1080],
+  [1280, 800],
+  [820, 1180],
+  [390, 844],
+];
+/** Narrower than this the page is for fingers. */
+const TOUCH = 1100;
+/** Least height and width of what is pressed (pixels). */
+const FINGER = 44;
+
+/** What is wrong with the page as it is. */
+function faults([touch, finger]) {
+  const out = [];
+  const { scrollWidth } = document.documentElement;
+  if (scrollWidth > innerWidth) out.push(`the page is ${scrollWidth} pixels wide, the screen ${innerWidth}`);
+  const words = (element) => (element.textContent || element.id || element.className).trim().slice(0, 40);
+  const seen = (element) => element.getClientRects().length > 0;
+  for (const selector of ["#state-word", "#state-sentence", "#system-line"]) {
+    const element = document.querySelector(selector);
+    if (!element || !seen(element)) continue;
+    const { right } = element.getBoundingClientRect();
+    if (
+      right > innerWidth + 1 ||
+      element.scrollWidth > element.clientWidth + 1 + (element.clientWidth === 0 ? 1e6 : 0)
+    ) {
+      out.push(`${selector} is cut off: ${words(element)}`);
+    }
+  }
+  if (innerWidth >= touch) return out;
+  for (const element of document.querySelectorAll("button, select, input:not([type=checkbox]), summary")) {
+    if (!seen(element)) continue;
+    const { width, height } = element.getBoundingClientRect();
+    if (height < finger - 0.5 || width < (element.matches(".link, summary") ? 0 : finger - 0.5)) {
+      out.push(`${element.tagName} "${words(element)}" is ${Math.round(width)} x ${Math.round(height)} pixels`);
+    }
+  }
+  return out;
+}
+
+/** Looks at the page in all sizes; keeps pictures where a folder is given. */
+export async function look(page, name, shots) {
+  const before = page.viewportSize();
+  const theme = await page.evaluate(() => window.flexdrill.context.settings.theme);
+  const found = [];
+  for (const [width, height] of SIZES) {
+    await page.setViewportSize({ width, height });
+    for (const colours of shots === "" ? ["day"] : ["day", "night"]) {
+      for (const wall of [false, true]) {
+        await page.evaluate(
+          ([theme, wall]) => {
+            const { context } = window.flexdrill;
+            context.change({ theme });
+            context.showWall(wall);
+          },
+          [colours, wall],
+        );
+        await page.waitForTimeout(shots === "" ? 300 : 1200);
+        const which = `${name}_${width}_${colours}${wall ? "_wall" : ""}`;
+        for (const fault of await page.evaluate(faults, [TOUCH, FINGER])) found.push(`${which}: ${fault}`);
+        if (shots !== "") await page.screenshot({ path: join(shots, `${which}.png`) });
+      }
+    }
+    // A panel is as long as what it holds: the whole of it.
+    if (shots !== "" && width < TOUCH) {
+      await page.evaluate(() => window.flexdrill.context.showWall(false));
+      await page.screenshot({ path: join(shots, `${name}_${width}_full.png`), fullPage: true });
+    }
+  }
+  await page.evaluate((theme) => {
+    window.flexdrill.context.change({ theme });
+    window.flexdrill.context.showWall(false);
+  }, theme);
+  await page.setViewportSize(before);
+  assert.deepEqual(found, [], "what is wrong with the page");
+}

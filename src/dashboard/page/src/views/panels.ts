@@ -1,0 +1,81 @@
+// The panels next to the tool: alarms, place, steering; one of them is shown.
+
+import { h, setAttribute, setText, show } from "../dom";
+import type { Context, View } from "../view";
+import { Alarms } from "./alarms";
+import { PlaceView } from "./place";
+import type { Steer } from "./steer";
+
+export class Panels implements View {
+  readonly element: HTMLElement;
+  private readonly tabs: { name: string; tab: HTMLButtonElement; panel: HTMLElement; view: View }[] = [];
+  private place: unknown = null;
+
+  constructor(
+    private readonly context: Context,
+    private readonly steer: Steer,
+  ) {
+    const bar = h("div", { class: "tabs", role: "tablist", "aria-label": "Panels" });
+    const holder = h("div", { class: "panels" });
+    for (const [name, view] of [
+      ["Alarms", new Alarms(context)],
+      ["Place", new PlaceView(context)],
+      ["Steer", steer],
+    ] as const) {
+      const id = name.toLowerCase();
+      const tab = h(
+        "button",
+        {
+          type: "button",
+          role: "tab",
+          id: `tab-${id}`,
+          "aria-controls": `panel-${id}`,
+          onclick: () => this.open(name),
+        },
+        name,
+      );
+      tab.addEventListener("keydown", (event) => {
+        const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+        if (by === 0) return;
+        const at = this.tabs.findIndex((entry) => entry.tab === tab);
+        const next = this.tabs[(at + by + this.tabs.length) % this.tabs.length];
+        this.open(next.name);
+        next.tab.focus();
+      });
+      const panel = h(
+        "div",
+        { role: "tabpanel", id: `panel-${id}`, "aria-labelledby": `tab-${id}`, class: "panel" },
+        view.element,
+      );
+      bar.append(tab);
+      holder.append(panel);
+      this.tabs.push({ name, tab, panel, view });
+    }
+    this.element = h("aside", { class: "side" }, bar, holder);
+    this.open("Alarms");
+    context.onChange(() => {
+      if (context.place !== null && context.place !== this.place) this.open("Place");
+      this.place = context.place;
+    });
+  }
+
+  open(name: string): void {
+    for (const entry of this.tabs) {
+      const on = entry.name === name;
+      show(entry.panel, on);
+      setAttribute(entry.tab, "aria-selected", String(on));
+      setAttribute(entry.tab, "tabindex", on ? "0" : "-1");
+    }
+  }
+
+  draw(now: number): void {
+    const { store } = this.context;
+    // Alarms of a recording or of a twin that has ended wait for nobody.
+    const count = store.isBag || store.silent ? 0 : (store.alarms?.unacknowledged ?? 0);
+    setText(this.tabs[0].tab, count > 0 ? `Alarms (${count})` : "Alarms");
+    const driving = this.steer.driving;
+    setText(this.tabs[2].tab, driving ? `Steer: ${driving.by ?? "on"}` : "Steer");
+    this.tabs[2].tab.classList.toggle("driving", driving !== null);
+    for (const { view } of this.tabs) view.draw(now);
+  }
+}

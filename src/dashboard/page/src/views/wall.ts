@@ -1,0 +1,79 @@
+// State, five numbers and the alarms in type that is read from two metres, for a screen on a wall or a phone on a stand.
+
+import { alarmPlace, standing, title } from "../alarms";
+import { h, setAttribute, setText } from "../dom";
+import { type Context, Pace, type View } from "../view";
+import { PRIORITY, PRIORITY_SHAPE, word } from "../words";
+import { type Numbers, readTile } from "./numbers";
+
+/** The numbers that it shows, by their tiles. */
+const SHOWN = ["rpm", "wob", "bit-speed", "torque", "joints"];
+/** Most alarms that have room. */
+const MOST = 3;
+
+export class Wall implements View {
+  readonly element: HTMLElement;
+  private readonly alarms = h("ul", { class: "wall-alarms", id: "wall-alarms" });
+  private readonly fields: {
+    id: string;
+    root: HTMLElement;
+    value: HTMLElement;
+    unit: HTMLElement;
+    mark: HTMLElement;
+  }[];
+  private readonly pace = new Pace(250);
+  private key = "";
+
+  constructor(
+    private readonly context: Context,
+    private readonly numbers: Numbers,
+  ) {
+    this.fields = numbers.tiles
+      .filter((tile) => SHOWN.includes(tile.id))
+      .map((tile) => {
+        const [mark, unit] = [h("span", { class: "mark" }), h("span", { class: "unit" })];
+        const value = h("output", { class: "value", id: `wall-${tile.id}` });
+        const root = h("article", { class: "wall-number" }, h("h2", {}, tile.label, mark), value, unit);
+        return { id: tile.id, root, value, unit, mark };
+      });
+    const numbersRow = h("div", { class: "wall-numbers" }, ...this.fields.map(({ root }) => root));
+    this.element = h("section", { class: "wall-view", "aria-label": "Large type" }, numbersRow, this.alarms);
+  }
+
+  draw(now: number): void {
+    const { context } = this;
+    if (!context.wall || !this.pace.due(now, context.revision)) return;
+    const { store, settings } = context;
+    const moment = store.moment();
+    for (const { id, root, value, unit, mark } of this.fields) {
+      const tile = this.numbers.tiles.find((one) => one.id === id);
+      if (!tile) continue;
+      const reading = readTile(tile, moment, store);
+      setText(value, reading.value);
+      setText(unit, tile.unit());
+      setText(mark, reading.level > 0 ? ` ${PRIORITY_SHAPE[reading.level] ?? ""}` : "");
+      setAttribute(root, "data-level", String(reading.level));
+      root.classList.toggle("held", reading.held === true || reading.value === "–");
+    }
+    const { drilling } = standing(store.alarmsShown()?.alarms ?? []);
+    const { isLive } = store;
+    const key = JSON.stringify([isLive, settings.units, drilling.map((one) => [one.id, one.priority, one.what_to_do])]);
+    if (key === this.key) return;
+    this.key = key;
+    this.alarms.classList.toggle("old", !isLive);
+    this.alarms.replaceChildren(
+      ...drilling.slice(0, MOST).map((alarm) => {
+        const place = alarmPlace(alarm, settings.units);
+        return h(
+          "li",
+          { class: "wall-alarm", "data-level": String(alarm.priority) },
+          h("strong", {}, `${PRIORITY_SHAPE[alarm.priority]} ${title(alarm)}`),
+          h("span", {}, `${word(PRIORITY, alarm.priority)}${place ? `, ${place}` : ""}`),
+          h("p", {}, alarm.what_to_do),
+        );
+      }),
+      ...(drilling.length > MOST ? [h("li", {}, `and ${drilling.length - MOST} more`)] : []),
+      ...(drilling.length === 0 ? [h("li", { class: "none" }, isLive ? "No alarm." : "")] : []),
+    );
+  }
+}
