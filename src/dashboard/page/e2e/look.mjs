@@ -31,6 +31,9 @@ function faults([touch, finger]) {
       out.push(`${selector} is cut off: ${words(element)}`);
     }
   }
+  for (const element of document.querySelectorAll(".value")) {
+    if (seen(element) && element.scrollWidth > element.parentElement.clientWidth) out.push(`${element.id} is cut off`);
+  }
   if (innerWidth >= touch) return out;
   for (const element of document.querySelectorAll("button, select, input:not([type=checkbox]), summary")) {
     if (!seen(element)) continue;

@@ -182,7 +182,8 @@ export class ToolMeshes {
       this.whirl[Math.min(level, 3)].collar(centre, this.axis(geometry, station), guideRadius * 1.03, 0.02);
       if (level > 0) {
         const word = kind[index] === 2 ? "backward" : kind[index] === 3 ? "chaotic" : "forward";
-        const text = Number.isFinite(ratio[index]) ? `${word} ${ratio[index].toFixed(1)}` : word;
+        const turns = ratio[index].toFixed(1).replace("-", "−");
+        const text = Number.isFinite(ratio[index]) ? `${word} ${turns}×` : word;
         this.labels.push({ at: centre, text, level });
       }
     }

@@ -70,8 +70,8 @@ export class Numbers implements View {
       const root = h(
         "article",
         { class: "tile", id: `tile-${tile.id}`, "aria-label": tile.label },
-        h("h2", {}, tile.label, fields.mark),
-        h("div", { class: "big" }, fields.value, fields.unit),
+        h("h2", {}, tile.label, fields.unit, fields.mark),
+        h("div", { class: "big" }, fields.value),
         fields.note,
         fields.age,
         strip.element,

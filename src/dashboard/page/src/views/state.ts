@@ -195,7 +195,7 @@ export class StateLine implements View {
 
 /** What whoever runs the computer reads. It is always there, so that nothing moves when an alarm comes. */
 function systemLine(store: Store): string {
-  if (!store.isLive && store.cursor === null) return "System: not known";
+  if (store.silent || store.lag > 0 || store.unconfirmed > 0) return "System: not known";
   const { system } = standing(store.alarms?.alarms ?? []);
   if (system.length === 0) return "System: no alarm";
   const texts = system.map((alarm) => `${PRIORITY_SHAPE[alarm.priority]} ${title(alarm)}. ${systemAdvice(alarm)}`);
