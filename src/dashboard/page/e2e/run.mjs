@@ -263,7 +263,9 @@ try {
         levels.every((level) => level === "0"),
         `${levels}`,
       );
-      assert.ok(await page.isDisabled("#steer-ask"));
+      await page.click("#tab-steer");
+      await until("nothing to steer with", 5, async () => !(await page.isVisible("#steer-ask")));
+      await page.click("#tab-alarms");
     }
     await look("dead");
     node();
@@ -272,7 +274,10 @@ try {
   });
 
   await step("time is dragged back and all views follow; Escape leads to the newest", async () => {
+    // What it is dragged through has been heard: the twin was away before.
+    const back = await page.evaluate(() => window.flexdrill.store.now);
     await until("a rotary speed", 60, async () => (await value("rpm")) > 20);
+    await until("some seconds", 60, () => page.evaluate((back) => window.flexdrill.store.now > back + 16, back));
     const box = await page.locator("#timeline").boundingBox();
     await page.mouse.move(box.x + box.width - 4, box.y + 20);
     await page.mouse.down();

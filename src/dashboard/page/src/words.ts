@@ -76,5 +76,5 @@ export const PRIORITY_SHAPE: Record<number, string> = { 0: "", 1: "●", 2: "▲
  * A publisher for an operator: `node @ host (id of its DDS writer)` without the id, which only tells two of one name apart.
  */
 export function publisher(named: string): string {
-  return named.replace(/ \([0-9a-f][0-9a-f.:]{7,}\)/gi, "");
+  return named.replace(/ \((?:id )?[0-9a-f][0-9a-f.:]{7,}\)/gi, "");
 }

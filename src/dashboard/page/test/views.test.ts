@@ -196,6 +196,10 @@ test("a page keeps to what it was opened on", () => {
 test("publishers are named without the id of their writer", () => {
   assert.equal(publisher("/rig/top_drive @ rig7 (01:0f:a2:b3:c4:d5:e6:f7.00000103)"), "/rig/top_drive @ rig7");
   assert.equal(publisher("/a @ h (010fa2b3c4d5e6f700000000.00000103), /b @ h (ab0fa2b3c4d5e6f7.01)"), "/a @ h, /b @ h");
+  assert.equal(
+    publisher("asked by node /a at 10.0.2.7 (id 0112be9d9ce50d8027da13d900001e03)"),
+    "asked by node /a at 10.0.2.7",
+  );
   assert.equal(publisher("no publisher (yet)"), "no publisher (yet)");
 });
 
