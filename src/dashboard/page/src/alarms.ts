@@ -9,8 +9,7 @@ const OF_THE_SYSTEM = ["real_time", "recording", "network"];
 
 /** Whether an alarm is for whoever runs the computer, not for the driller. */
 export function isOfSystem(alarm: Alarm): boolean {
-  const { category } = alarm as Alarm & { category?: number };
-  return category === 1 || OF_THE_SYSTEM.includes(alarm.id);
+  return alarm.category === Alarm.SYSTEM || OF_THE_SYSTEM.includes(alarm.id);
 }
 
 /** Its condition stands, and it is neither shelved nor suppressed. */

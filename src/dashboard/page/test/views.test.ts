@@ -84,6 +84,8 @@ test("an alarm of the computer never fills the driller's line", () => {
   assert.ok(isOfSystem(alarm("real_time", 2)));
   const state = stateNow(store, "si");
   assert.deepEqual([state.word, state.sentence], ["WATCH", "Shock: act on shock"]);
+  assert.ok(isOfSystem({ ...alarm("disk", 2), category: Alarm.SYSTEM }));
+  assert.ok(!isOfSystem(alarm("shock", 2)));
   const { drilling, system } = standing(store.alarms?.alarms ?? []);
   assert.deepEqual([drilling.length, system.length], [1, 1]);
   assert.equal(stateNow(live(alarm("recording", 3)), "si").word, "NORMAL");

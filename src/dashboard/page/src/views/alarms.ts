@@ -196,7 +196,9 @@ export class Alarms implements View {
     const { settings } = this.context;
     const place = alarmPlace(alarm, settings.units);
     const age = h("span", { class: "since" });
-    if (alarm.since.sec > 0) this.ages.push({ element: age, since: alarm.since.sec + alarm.since.nanosec * 1e-9 });
+    // Since a time of an earlier run of the node: how long it has stood is not known.
+    if (alarm.from_earlier_run) setText(age, "from an earlier run");
+    else if (alarm.since.sec > 0) this.ages.push({ element: age, since: alarm.since.sec + alarm.since.nanosec * 1e-9 });
     const unacknowledged = alarm.state === Alarm.ACTIVE_UNACKNOWLEDGED || alarm.state === Alarm.RETURNED_UNACKNOWLEDGED;
     const details = h("details", { open: this.open.get(alarm.id) ?? unacknowledged });
     const rows = [

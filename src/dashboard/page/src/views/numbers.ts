@@ -58,7 +58,9 @@ export class Numbers implements View {
   constructor(private readonly context: Context) {
     this.tiles = this.make();
     for (const tile of this.tiles) {
-      const strip = new Strip(context, { lines: tile.columns.length, range: tile.range, limits: tile.limits });
+      const { range, limits } = tile;
+      const last = tile === this.tiles[this.tiles.length - 1];
+      const strip = new Strip(context, { lines: tile.columns.length, range, limits, last });
       const field = (name: string) => h("span", { class: name });
       const fields = {
         mark: field("mark"),

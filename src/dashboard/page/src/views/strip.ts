@@ -14,12 +14,16 @@ export interface StripOptions {
   limits: () => number[];
   /** Larger type, for a strip that has the width of a panel. */
   wide?: boolean;
+  /** The lowest of a column: it has the column's marks of time where the others are too low for their own. */
+  last?: boolean;
 }
 
 /** Room for the marks of time and value (pixels): of a tile, of a panel. */
 const ROOM = { tile: { below: 14, left: 30, font: 10, edge: 12 }, wide: { below: 18, left: 46, font: 11, edge: 24 } };
 /** Height that a mark of the values needs (pixels). */
 const APART = 22;
+/** Least height with marks of time (pixels). */
+const TALL = 46;
 
 /** Rows of a chart: times and columns, with a row without values wherever nothing came for longer than `most` (s). */
 export function withGaps(times: number[], columns: (number | null)[][], most: number): (number | null)[][] {
@@ -41,6 +45,7 @@ export class Strip {
   private plot: uPlot | null = null;
   private revision = -1;
   private data: uPlot.AlignedData = [[], []];
+  private hasTimes = true;
 
   constructor(
     private readonly context: Context,
@@ -49,7 +54,9 @@ export class Strip {
     this.element.className = "strip";
     new ResizeObserver(() => {
       const { clientWidth: width, clientHeight: height } = this.element;
-      if (this.plot && width > 0 && height > 0) this.plot.setSize({ width, height });
+      if (!this.plot || width === 0 || height === 0) return;
+      this.plot.setSize({ width, height });
+      if (this.hasTimes !== this.timesFit()) this.revision = -1;
     }).observe(this.element);
   }
 
@@ -64,8 +71,13 @@ export class Strip {
     });
   }
 
+  private timesFit(): boolean {
+    return this.options.wide === true || this.options.last === true || this.element.clientHeight >= TALL;
+  }
+
   private make(): void {
     this.plot?.destroy();
+    this.hasTimes = this.timesFit();
     this.revision = this.context.revision;
     const { palette } = this.context;
     const { options } = this;
@@ -97,9 +109,10 @@ export class Strip {
         axes: [
           {
             ...axis,
-            size: room.below,
+            size: this.hasTimes ? room.below : 2,
             splits: (plot, _axis, from, to) => timeTicks(from, to, inner(plot).width).map(({ time }) => time),
             values: (plot, splits) => {
+              if (!this.hasTimes) return splits.map(() => "");
               const { min, max } = plot.scales.x;
               const ticks = timeTicks(min ?? 0, max ?? 0, inner(plot).width);
               // A label that does not fit in before the edge is left out; its line stands.
