@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { isOfSystem, levelOf, standing } from "../src/alarms";
+import { endedAt, isOfSystem, levelOf, standing, worstAt } from "../src/alarms";
 import type { History, Pulse, Session } from "../src/api";
 import { judge } from "../src/binding";
 import { Alarm, type AlarmList, type TwinStatus } from "../src/messages";
@@ -89,6 +89,16 @@ test("an alarm of the computer never fills the driller's line", () => {
   const { drilling, system } = standing(store.alarms?.alarms ?? []);
   assert.deepEqual([drilling.length, system.length], [1, 1]);
   assert.equal(stateNow(live(alarm("recording", 3)), "si").word, "NORMAL");
+});
+
+test("an alarm whose condition has ended says so, and since when", () => {
+  const time = 1_700_000_000;
+  const held = { ...alarm("backward_whirl", 3), ended: true, ended_at: { sec: time, nanosec: 0 } };
+  const { word, sentence } = stateNow(live(held), "si");
+  assert.equal(word, "ACT NOW");
+  assert.match(sentence, /^Backward_whirl: ended at \d\d:\d\d:\d\d, being watched\. act on/);
+  assert.equal(endedAt(held), time);
+  assert.ok(Number.isNaN(endedAt(alarm("shock", 1))) && Number.isNaN(worstAt(alarm("shock", 1))));
 });
 
 test("what belongs to an alarm has the alarm's level", () => {

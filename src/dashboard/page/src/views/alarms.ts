@@ -1,6 +1,6 @@
 // The alarms by priority, with cause, consequence and what to do; requests of an operator; the journal.
 
-import { alarmPlace, isOfSystem, title } from "../alarms";
+import { alarmPlace, endedAt, engineersAction, isOfSystem, title, worstAt } from "../alarms";
 import * as api from "../api";
 import { h, setText, show } from "../dom";
 import { Alarm, type AlarmList } from "../messages";
@@ -138,7 +138,10 @@ export class Alarms implements View {
     this.element.classList.toggle("old", !isLive);
     show(this.notLive, !isLive);
     setText(this.notLive, this.whyNotLive(list));
-    const seen = list?.alarms.map((one) => [one.state, one.priority, one.evidence, one.what_to_do, one.measured_depth]);
+    const seen = list?.alarms.map((one) => [
+      ...[one.state, one.priority, one.evidence, one.what_to_do, one.measured_depth],
+      ...[engineersAction(one), endedAt(one)],
+    ]);
     const key = `${list === null} ${list?.sequence} ${allowed} ${isLive} ${context.revision} ${JSON.stringify(seen)}`;
     if (key !== this.key && !this.pressed) {
       this.key = key;
@@ -201,9 +204,11 @@ export class Alarms implements View {
     else if (alarm.since.sec > 0) this.ages.push({ element: age, since: alarm.since.sec + alarm.since.nanosec * 1e-9 });
     const unacknowledged = alarm.state === Alarm.ACTIVE_UNACKNOWLEDGED || alarm.state === Alarm.RETURNED_UNACKNOWLEDGED;
     const details = h("details", { open: this.open.get(alarm.id) ?? unacknowledged });
+    const [worst, ended] = [worstAt(alarm), endedAt(alarm)];
     const rows = [
       ["Action", alarm.what_to_do],
-      ["Evidence", alarm.evidence],
+      ["Engineer", engineersAction(alarm)],
+      [Number.isNaN(worst) ? "Evidence" : `Evidence, ${clock(worst)}`, alarm.evidence],
       ["Cause", alarm.cause],
       ["Consequence", alarm.consequence],
     ].filter(([, text]) => text !== "");
@@ -224,6 +229,7 @@ export class Alarms implements View {
           ? " until it returns to normal"
           : ` until ${clock(alarm.shelved_until.sec)}`
         : "";
+    const end = Number.isNaN(ended) ? "" : ` · condition ended at ${clock(ended)}, being watched`;
     return h(
       "li",
       {
@@ -238,7 +244,7 @@ export class Alarms implements View {
         h("span", { class: "badge" }, `${PRIORITY_SHAPE[alarm.priority] || "○"} ${word(PRIORITY, alarm.priority)}`),
         h("strong", {}, title(alarm)),
         age,
-        h("span", { class: "alarm-state" }, `${word(ALARM_STATE, alarm.state)}${shelved}`),
+        h("span", { class: "alarm-state" }, `${word(ALARM_STATE, alarm.state)}${shelved}${end}`),
       ),
       where,
       details,

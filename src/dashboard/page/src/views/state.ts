@@ -1,6 +1,6 @@
 // The state of the tool in one word and one line, on top of everything.
 
-import { alarmPlace, standing, title } from "../alarms";
+import { alarmPlace, endedAt, engineersAction, standing, title } from "../alarms";
 import { h, setAttribute, setText } from "../dom";
 import { type Alarm, TwinStatus } from "../messages";
 import { SILENT, type Store } from "../store/store";
@@ -91,10 +91,12 @@ function ofTwin(store: Store, system: System): State {
   const alarm = drilling[0];
   if (alarm) {
     const others = drilling.length > 1 ? ` (+${drilling.length - 1} more)` : "";
+    const ended = endedAt(alarm);
+    const end = Number.isNaN(ended) ? "" : `ended at ${clock(ended)}, being watched. `;
     return {
       level: alarm.priority,
       word: CALLS[alarm.priority] ?? "WATCH",
-      sentence: `${named(alarm, system)}: ${alarm.what_to_do || alarm.evidence}${others}`,
+      sentence: `${named(alarm, system)}: ${end}${alarm.what_to_do || alarm.evidence}${others}`,
     };
   }
   if (status.model_quality !== TwinStatus.QUALITY_GOOD) {
@@ -202,4 +204,4 @@ function systemLine(store: Store): string {
   return `System: ${texts.join(" ")}`;
 }
 
-const systemAdvice = (alarm: Alarm): string => alarm.what_to_do || alarm.evidence;
+const systemAdvice = (alarm: Alarm): string => engineersAction(alarm) || alarm.what_to_do || alarm.evidence;
