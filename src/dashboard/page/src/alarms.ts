@@ -12,31 +12,22 @@ export function isOfSystem(alarm: Alarm): boolean {
   return alarm.category === Alarm.SYSTEM || OF_THE_SYSTEM.includes(alarm.id);
 }
 
-/** Fields that twins of before do not send. */
-interface Newer {
-  what_the_engineer_can_do?: string;
-  worst_at?: Time;
-  ended?: boolean;
-  ended_at?: Time;
-}
-
 /** What whoever looks after model and computer can do; empty where nothing is said. */
 export function engineersAction(alarm: Alarm): string {
-  return (alarm as Alarm & Newer).what_the_engineer_can_do ?? "";
+  return alarm.what_the_engineer_can_do;
 }
 
 /** When what the alarm says was seen (s); NaN where that is not said. */
 export function worstAt(alarm: Alarm): number {
-  return seconds((alarm as Alarm & Newer).worst_at);
+  return seconds(alarm.worst_at);
 }
 
 /** When the condition was last met (s) of an alarm whose condition has ended; NaN of any other. */
 export function endedAt(alarm: Alarm): number {
-  const { ended, ended_at } = alarm as Alarm & Newer;
-  return ended ? seconds(ended_at) : NaN;
+  return alarm.ended ? seconds(alarm.ended_at) : NaN;
 }
 
-const seconds = (time?: Time): number => (time && time.sec > 0 ? time.sec + time.nanosec * 1e-9 : NaN);
+const seconds = (time: Time): number => (time.sec > 0 ? time.sec + time.nanosec * 1e-9 : NaN);
 
 /** Its condition stands, and it is neither shelved nor suppressed. */
 export function isActive(alarm: Alarm): boolean {
