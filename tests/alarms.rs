@@ -397,7 +397,8 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
         }
         let (_, list) = publish(&mut book, 4);
         let alarm = find(&list.unwrap(), "recording").clone();
-        (alarm.priority, alarm.evidence, alarm.cause)
+        let cause = format!("{} {}", alarm.cause, alarm.what_the_engineer_can_do);
+        (alarm.priority, alarm.evidence, cause)
     };
     let good = RecordingState::default();
     assert_eq!(calls(&|_| good.clone()).0, Alarm::NO_PRIORITY);

@@ -221,7 +221,9 @@ fn real_time(state: &NodeState<'_>) -> Finding {
                 .to_owned(),
         what_to_do: "Nothing at the rig: tell whoever runs the twin's computer.".to_owned(),
         what_the_engineer_can_do:
-            "End other programs on the computer, or take one with faster cores that have AVX2 or AVX-512.".to_owned(),
+            "End other programs on the computer, or take one with faster cores that have AVX2 or AVX-512. With \
+             solver.step: auto the twin takes whole steps by itself while time is short."
+                .to_owned(),
         ..Finding::default()
     }
 }
@@ -316,16 +318,21 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
             None => return Finding::default(),
         },
     };
+    let healthy = recording.error.is_none() && recording.notice.is_none();
+    let flooded = healthy && memory.losses.is_some_and(|(lost, _)| lost.flooded == lost.total());
     Finding {
         priority: Some(priority),
         evidence,
         cause,
         consequence: "The run cannot be replayed to the bit, and the journal of alarms has gaps.".to_owned(),
         what_to_do: "Nothing at the rig: tell whoever runs the twin's computer.".to_owned(),
-        what_the_engineer_can_do:
-            "Free the disk: the recording then goes on in another file by itself. Or start the node \
-                                   again with --record on another disk."
-                .to_owned(),
+        what_the_engineer_can_do: if flooded {
+            "Find the program that floods an input: twin/status names the publishers of each."
+        } else {
+            "Free the disk: the recording then goes on in another file by itself. Or start the node again with \
+             --record on another disk."
+        }
+        .to_owned(),
         ..Finding::default()
     }
 }

@@ -9,8 +9,8 @@ pub const FAR_BEHIND: f64 = 0.9;
 
 /// Time that the judged factor spans (s): a machine that falls behind for single steps is not too slow.
 const WINDOW: f64 = 10.0;
-/// Time that the factor must stay below a limit before the level rises (ns). Longer than the window, so that one stall,
-/// which is in the window for all of its length, changes nothing.
+/// Time that the factor must stay below a limit before the level rises (ns). Longer than the window, which shows a stall
+/// for its own length and that of the window: one of up to two seconds changes nothing.
 const RISE: u64 = 12_000_000_000;
 /// Time that the factor must stay above a limit and its deadband before the level falls (ns): load on a computer comes and
 /// goes within half a minute.
@@ -175,12 +175,12 @@ mod tests {
         assert_eq!(model.run(6, &[1.0]), [Pace::FarBehind, Pace::Late, Pace::Kept]);
     }
 
-    /// One stall of five seconds, as of a machine that writes its memory out.
+    /// One stall of a second, as of a machine that writes its memory out.
     #[test]
     fn a_single_stall_changes_nothing() {
         let mut model = Model::default();
         model.run(30, &[1.0]);
-        assert_eq!(model.run(5, &[0.0]), [Pace::Kept]);
+        assert_eq!(model.run(1, &[0.0]), [Pace::Kept]);
         assert_eq!(model.run(60, &[1.0]), [Pace::Kept]);
     }
 
