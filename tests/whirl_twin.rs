@@ -98,7 +98,9 @@ fn rolling_by_physics_is_backward_and_rolling() {
     );
     let hazard = *bench.frame.snapshot.hazards.of(HazardKind::BackwardWhirl);
     assert_eq!((hazard.severity, hazard.threshold), (Severity::Critical, 3.0));
-    assert!((hazard.value - 4.0).abs() < 0.05, "{hazard:?}");
+    assert!((whirl.bending_cycles[0] - 4.0).abs() < 0.05, "{whirl:?}");
+    // The hazard keeps its worst moment; the estimated rate of a whirl that begins is off by up to a tenth of its 3 turns.
+    assert!((3.95..4.3).contains(&hazard.value), "{hazard:?}");
     assert!(warning.message.contains("rolling"), "{}", warning.message);
     assert_eq!(warning.input_quality, WhirlWarning::INPUT_OK);
 }

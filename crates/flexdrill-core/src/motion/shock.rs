@@ -359,6 +359,22 @@ mod tests {
     }
 
     #[test]
+    fn collisions_that_have_ended_say_when() {
+        let mut watch = ShockWatch::new(&ShockSettings::default(), 5);
+        // At 0, 1 and 2 s.
+        run(&mut watch, 0.0, 0.0, 15e3, 10_000, 2.5);
+        assert_eq!((watch.level().severity, watch.level().ended), (Severity::Warning, None));
+        run(&mut watch, 2.5, 0.0, 0.0, 10, 4.0);
+        let level = watch.level();
+        assert_eq!(level.severity, Severity::Warning);
+        // At the end of its interval of 20 ms.
+        assert!(
+            level.ended.is_some_and(|ended| (ended - 2.0).abs() < 0.05) && level.ended >= Some(level.seen),
+            "{level:?}"
+        );
+    }
+
+    #[test]
     fn one_that_may_break_the_tool_is_enough() {
         let mut watch = ShockWatch::new(&ShockSettings::default(), 5);
         run(&mut watch, 0.0, 0.0, 40e3, 10_000, 0.1);

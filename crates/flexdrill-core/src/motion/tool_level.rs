@@ -34,13 +34,13 @@ impl Lead {
         // Places are compared by their worst moments while a level stands; while all is well by their present motion.
         let (mut worst, mut most) = (self.entry, f64::NEG_INFINITY);
         for (entry, watch) in watches.iter().enumerate() {
-            let strength = watch.telling(kind).strength;
+            let strength = watch.shown_moment(kind).strength;
             if level(watch) == severity && strength > most {
                 (worst, most) = (entry, strength);
             }
         }
         let Some(leader) = watches.get(self.entry) else { return };
-        let outdone = most > (1.0 + LEAD_MARGIN) * leader.telling(kind).strength;
+        let outdone = most > (1.0 + LEAD_MARGIN) * leader.shown_moment(kind).strength;
         self.outdone_for = if outdone { self.outdone_for + elapsed } else { 0.0 };
         if level(leader) != severity || self.outdone_for >= LEAD_TIME {
             (self.entry, self.outdone_for) = (worst, 0.0);
@@ -73,7 +73,7 @@ impl Lead {
         else {
             return Hazard { threshold, ..calm };
         };
-        let (station, moment) = (&watch.station, watch.telling(whirl));
+        let (station, moment) = (&watch.station, watch.shown_moment(whirl));
         let evidence = &moment.evidence;
         let standing = watches.iter().filter(|watch| watch.level_of(whirl) == self.severity);
         let met = standing.map(|watch| watch.met(whirl)).fold(f64::NEG_INFINITY, f64::max);
@@ -130,7 +130,7 @@ impl WhirlWarningLevel {
         } else {
             kind
         };
-        let moment = watch.telling(if kind == WhirlKind::Forward {
+        let moment = watch.shown_moment(if kind == WhirlKind::Forward {
             kind
         } else {
             WhirlKind::Backward

@@ -259,7 +259,7 @@ impl StationWatch {
     }
 
     /// While a level of this kind of whirl stands, the worst moment since it was reached; else the newest.
-    pub(super) fn telling(&self, kind: WhirlKind) -> Moment {
+    pub(super) fn shown_moment(&self, kind: WhirlKind) -> Moment {
         match (kind, self.level_of(kind)) {
             (_, Severity::Ok) => self.moment(kind),
             (WhirlKind::Backward, _) => *self.backward.worst(),
