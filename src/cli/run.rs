@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::{WrongUse, numbers, record_name, signals};
 use crate::alarms::state_file;
+use crate::bag::Losses;
 use crate::cli::output::say;
 use crate::dds::network::Network;
 use crate::live::Token;
@@ -264,8 +265,18 @@ fn print_summary(summary: &RunSummary) {
             recording.messages,
             recording.path.display()
         );
-        if recording.losses.total() > 0 {
-            say!("messages missing in the recording: {}", recording.losses);
+        if recording.lost > 0 {
+            let lost = Losses {
+                refused: 0,
+                ..recording.losses
+            };
+            say!("{} messages did not get into the recording: {lost}", recording.lost);
+        }
+        if recording.doubtful > 0 {
+            say!(
+                "{} messages of the recording may be lost: the disk refused to keep them",
+                recording.doubtful
+            );
         }
     }
 }
