@@ -20,7 +20,7 @@ function faults([touch, finger]) {
   if (scrollWidth > innerWidth) out.push(`the page is ${scrollWidth} pixels wide, the screen ${innerWidth}`);
   const words = (element) => (element.textContent || element.id || element.className).trim().slice(0, 40);
   const seen = (element) => element.getClientRects().length > 0;
-  for (const selector of ["#state-word", "#state-sentence", "#system-line"]) {
+  for (const selector of ["#state-word", "#state-sentence"]) {
     const element = document.querySelector(selector);
     if (!element || !seen(element)) continue;
     const { right } = element.getBoundingClientRect();

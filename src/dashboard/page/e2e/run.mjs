@@ -173,7 +173,7 @@ try {
     // The rig's value is not known: the model's own does not stand in its place.
     await until("no value", 20, async () => (await page.textContent("#value-rpm")) === "–");
     await until("what the model uses", 5, async () =>
-      /STALE, last .* r\/min.*model uses/.test(await page.textContent("#tile-rpm .note")),
+      /STALE .* s, last .* · model uses/.test(await page.textContent("#tile-rpm .note")),
     );
     await until("tile and list in one colour", 5, async () => {
       const level = await alarm("rotary_speed_input").getAttribute("data-level");
@@ -227,11 +227,12 @@ try {
   await step("a page on a slow line says how far it is behind", async () => {
     await slow.goto(`http://127.0.0.1:${SLOW_PORT}/`);
     await until("PAGE BEHIND", 60, async () => /^PAGE BEHIND \d+ s$/.test(await wordOf(slow)));
-    const { lag, age, lost } = await slow.evaluate(() => {
-      const { store } = window.flexdrill;
-      return { lag: store.lag, age: store.age("twin/status"), lost: document.body.classList.contains("silent") };
-    });
-    assert.ok(lag > 1000 && age >= lag - 1000 && lost, JSON.stringify({ lag, age, lost }));
+    await until("values of that age, struck through", 60, () =>
+      slow.evaluate(() => {
+        const { store } = window.flexdrill;
+        return store.age("twin/status") > 2000 && store.lag > 2000 && document.body.classList.contains("silent");
+      }),
+    );
     if (shots !== "") await slow.screenshot({ path: join(shots, "behind.png") });
   });
 
@@ -299,7 +300,7 @@ try {
     });
     const source = () => page.textContent(".place .hint");
     await until("the server's motion", 20, async () => /three seconds of every ten are kept/.test(await source()));
-    assert.ok(/2[0-9] positions a second/.test(await source()), await source());
+    assert.ok(/2[0-9] positions per second/.test(await source()), await source());
     await shot("past_place");
     await page.focus("#timeline");
     await page.keyboard.press("Escape");

@@ -18,7 +18,7 @@ test("a message from a queue is as old as the server says, not as young as its p
   const freshness = new Freshness();
   freshness.begin(0);
   // Asked at 50 s of the page's clock: the server's newest speaks of 112 s and came 0.1 s ago. The page processes 100 s.
-  freshness.hear(pulse(112n * SECOND, 0.1), 50_000);
+  freshness.hear(pulse(112n * SECOND, 0.1), 50_000, 50_000);
   freshness.take("twin/status", 100n * SECOND, 50_000);
   assert.equal(freshness.age("twin/status", 50_000), 12_100);
   assert.equal(freshness.age("twin/status", 50_400), 12_500);
@@ -38,26 +38,35 @@ test("a twin that has gone is seen by the server's word while the page still wor
     const now = 1000 * second;
     // The page is ten seconds behind and processes messages all the time; the server has heard nothing since 0 s.
     freshness.take("twin/status", BigInt(90 + second) * SECOND, now);
-    freshness.hear(pulse(100n * SECOND, second), now);
+    freshness.hear(pulse(100n * SECOND, second), now, now);
     assert.equal(freshness.serverAge("twin/status", now), now);
   }
+});
+
+test("a slow answer makes data old, not the page behind", () => {
+  const freshness = new Freshness();
+  freshness.begin(0);
+  freshness.take("twin/status", 100n * SECOND, 4900);
+  freshness.hear(pulse(100n * SECOND + SECOND / 5n, 0), 2000, 5000);
+  assert.equal(freshness.lag(["twin/status"], 5000), 200);
+  assert.equal(freshness.age("twin/status", 5000), 3200);
 });
 
 test("what the server heard before a connection is no lag of that connection", () => {
   const freshness = new Freshness();
   freshness.begin(60_000);
   // A twin that ended 30 s before the page was opened: nothing of it comes over the connection.
-  freshness.hear(pulse(100n * SECOND, 30), 60_100);
+  freshness.hear(pulse(100n * SECOND, 30), 60_100, 60_100);
   assert.equal(freshness.lag(["twin/status"], 70_000), 0);
   assert.equal(freshness.age("twin/status", 70_000), Infinity);
   // One that runs, and nothing comes for 4 s.
-  freshness.hear(pulse(104n * SECOND, 0.1), 64_000);
+  freshness.hear(pulse(104n * SECOND, 0.1), 64_000, 64_000);
   assert.equal(freshness.lag(["twin/status"], 64_000), 4000);
 });
 
 test("without an answer of the server no age is known", () => {
   const freshness = new Freshness();
-  freshness.hear(pulse(100n * SECOND, 0), 1000);
+  freshness.hear(pulse(100n * SECOND, 0), 1000, 1000);
   assert.equal(freshness.unconfirmed(3900), 0);
   assert.equal(freshness.unconfirmed(4500), 3500);
 });

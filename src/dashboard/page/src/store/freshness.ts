@@ -24,8 +24,9 @@ interface Newest {
 export class Freshness {
   private readonly taken = new Map<string, Taken>();
   private newest = new Map<string, Newest>();
-  /** When the newest answer was asked for (ms, the page's clock). */
+  /** When the newest answer was asked for, and when it came (ms, the page's clock). */
   private asked = NaN;
+  private answered = NaN;
   /** When the connection began (ms). */
   private begun = Infinity;
 
@@ -34,9 +35,10 @@ export class Freshness {
     this.taken.set(topic, { time, at: now });
   }
 
-  /** The server has answered a question that was asked at `asked` (ms, the page's clock). */
-  hear(pulse: Pulse, asked: number): void {
+  /** The server has answered at `answered` a question that was asked at `asked` (ms, the page's clock). */
+  hear(pulse: Pulse, asked: number, answered: number): void {
     this.asked = asked;
+    this.answered = answered;
     // The question's time, not the answer's: ages err towards old.
     this.newest = new Map(
       Object.entries(pulse.newest).map(([topic, { time_ns, age_s }]) => [
@@ -80,7 +82,8 @@ export class Freshness {
 
   /**
    * How far the page is behind the server in these topics (ms): the largest, 0 while it keeps up. What the server heard
-   * before the connection began does not come over it.
+   * before the connection began does not come over it. Counted from the answer, not from the question: a slow answer is
+   * not a page that is behind.
    */
   lag(topics: readonly string[], now: number): number {
     let most = 0;
@@ -91,7 +94,7 @@ export class Freshness {
       if (!taken) {
         if (newest.arrived > this.begun) most = Math.max(most, now - this.begun);
       } else if (newest.time > taken.time) {
-        most = Math.max(most, Number(newest.time - taken.time) / 1e6 + now - this.asked);
+        most = Math.max(most, Number(newest.time - taken.time) / 1e6 + now - this.answered);
       }
     }
     return most;

@@ -171,7 +171,7 @@ export class Store {
 
   /** Takes the server's answer to a question that was asked at `asked` (ms). */
   takePulse(pulse: Pulse, asked: number): void {
-    this.freshness.hear(pulse, asked);
+    this.freshness.hear(pulse, asked, performance.now());
   }
 
   /** The connection has come or gone. */

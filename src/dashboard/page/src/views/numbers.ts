@@ -110,18 +110,19 @@ export class Numbers implements View {
       good: (row, layout) => !NOT_THE_RIGS.includes(layout.scalar(row, `${name}_state`)),
       read: (moment) => {
         const state = at(moment, `${name}_state`);
-        const show = (column: Scalar) => withUnit(at(moment, column), kind, system());
+        const show = (column: Scalar) => digits(at(moment, column), kind, system());
         const status = moment.live ? store.status : null;
         // In a recording the status is of the shown time, however long ago it was played.
         const since = store.isBag ? 0 : store.age("twin/status") / 1e3;
-        const age = status ? `, age ${lapse(status.input_age[index] + since)}` : "";
+        const old = status ? ` ${lapse(status.input_age[index] + since)}` : "";
+        const age = old === "" ? "" : `, age${old}`;
         const limited = Number.isFinite(limit()) ? ` · limit ${number(limit(), kind === "speed" ? 0 : 1)}` : "";
         const level = levelOf(store, [`${name}_input`], state === 3 || state === 4 ? 2 : state === 0 ? 1 : 0);
         const applied = digits(at(moment, `${name}_applied`), kind, system());
         if (NOT_THE_RIGS.includes(state)) {
           // What the model runs on meanwhile is not the rig's: it must not stand where the rig's value stands.
-          const safe = status?.input_safe[index] ? "ramp to the safe value" : state === 0 ? "start value" : "held";
-          const last = state === 0 ? "no sample received" : `STALE, last ${show(`${name}_received`)}${age}`;
+          const safe = status?.input_safe[index] ? "safe value" : state === 0 ? "start value" : "held";
+          const last = state === 0 ? "no sample received" : `STALE${old}, last ${show(`${name}_received`)}`;
           return { value: "–", note: `${last} · model uses ${applied} (${safe})`, level };
         }
         if (state === TwinStatus.INPUT_REJECTED) {

@@ -186,6 +186,7 @@ export class StateLine implements View {
     setText(this.age, store.isBag ? "recorded" : lapse(store.age("twin/status") / 1e3));
     setText(this.quality, store.status ? word(QUALITY, store.status.model_quality) : "–");
     setText(this.system, systemLine(store));
+    setAttribute(this.system, "title", this.system.textContent ?? "");
     const { classList } = document.body;
     // Whatever is not the rig now is not coloured as if somebody had to act on it.
     classList.toggle("silent", state.level === 4 && state.word !== "STARTING" && store.cursor === null);
