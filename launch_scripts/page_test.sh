@@ -5,18 +5,20 @@
 #   --shots FOLDER   keep screenshots
 #   --no-browser     only the build's check and the unit tests
 #   --heap MINUTES   only the page's memory, measured so long beside a twin and a rig; fails where it grows
+#   --pictures FOLDER  only the pictures of the documents, written there
 # FLEXDRILL_BINARY names the program if it is built already.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 # Longest time of the browser's tests (s).
 limit=${FLEXDRILL_PAGE_TEST_LIMIT:-900}
-shots="" browser=yes heap=""
+shots="" browser=yes heap="" pictures=""
 while [ $# -gt 0 ]; do
     case $1 in
     --shots) shots=$(realpath -m "${2:?--shots needs a folder}") && shift ;;
     --no-browser) browser="" ;;
     --heap) heap=${2:?--heap needs minutes} && shift ;;
-    *) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+    --pictures) pictures=$(realpath -m "${2:?--pictures needs a folder}") && shift ;;
+    *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
     esac
     shift
 done
@@ -47,6 +49,11 @@ in_browser() {
 if [ -n "$heap" ]; then
     say "the page's memory over $heap minutes"
     in_browser $((60 * heap + 300)) heap.mjs --minutes "$heap"
+fi
+if [ -n "$pictures" ]; then
+    say "the pictures of the documents"
+    mkdir -p "$pictures"
+    in_browser "$limit" pictures.mjs --out "$pictures"
 fi
 say "step 2 of 3: dist/ is what the sources give; unit tests"
 npm run --silent check || fail "dist/ is not what the sources give"
