@@ -14,6 +14,7 @@ const MORE: &[Case] = &[
     Case {
         name: "contact 1e8 / 5e8 N/m, 10 kN",
         wob: 10.0,
+        rpm: None,
         changes: |config| {
             config
                 .with_value("contact.inner.stiffness", 1e8)?
@@ -23,6 +24,7 @@ const MORE: &[Case] = &[
     Case {
         name: "66 links, 10 kN",
         wob: 10.0,
+        rpm: None,
         changes: |config| config.with_links(66),
     },
 ];

@@ -1,6 +1,6 @@
 //! `--cases real-time`: the default tool and the hard cases, each with its speed.
 
-use super::cases::CASES;
+use super::cases::{CASES, WHIRLING};
 use super::document::Table;
 use super::measure::{Load, Measured, percentiles, run};
 use crate::cli::output::tell;
@@ -28,10 +28,15 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         .collect();
     let mut phases = Table::with_head(&names);
     let mut failures = String::new();
-    for case in CASES {
+    for case in CASES.iter().chain([&WHIRLING]) {
         tell!("{}: {duration} s of model time", case.name);
         let config = (case.changes)(config)?;
-        let measured = run(&config, Load { wob: case.wob, ..load }, duration, |_| {})?;
+        let load = Load {
+            wob: case.wob,
+            rpm: case.rpm.unwrap_or(load.rpm),
+            ..load
+        };
+        let measured = run(&config, load, duration, |_| {})?;
         speed.row(speed_row(case.name, &measured));
         let times = Phase::ALL.map(|phase| measured.phase(phase));
         let cells: Vec<String> = std::iter::once(case.name.to_owned())
@@ -51,7 +56,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         }
     }
     Ok(format!(
-        "Each {duration} s of model time from rest, up to {} r/min, one thread; {} links x {} elements, step {} ms, {}.\n\n{}{failures}\nMean processor time per step (us), shared out as the phases share the wall time:\n\n{}",
+        "Each {duration} s of model time from rest, up to {} r/min unless the case says otherwise, one thread; {} links x {} elements, step {} ms, {}.\n\n{}{failures}\nMean processor time per step (us), shared out as the phases share the wall time:\n\n{}",
         load.rpm,
         config.tool.links,
         config.tool.elements_per_link,

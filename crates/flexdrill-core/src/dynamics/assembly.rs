@@ -63,6 +63,13 @@ impl Assembler {
         }
     }
 
+    /// Begins the corrections of a step: what those of the step before have learned of friction is forgotten.
+    pub(crate) fn begin(&mut self) {
+        self.bit.begin();
+        self.inner.begin();
+        self.outer.begin();
+    }
+
     /// Vector instructions in use.
     pub fn instructions(&self) -> Instructions {
         self.instructions

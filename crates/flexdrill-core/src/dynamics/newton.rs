@@ -6,7 +6,6 @@ use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
-use crate::elements::bit::BitTorque;
 use crate::linear::Singular;
 use crate::model::Model;
 use crate::simd::vector::Vector;
@@ -30,7 +29,8 @@ pub(crate) struct Stride {
 
 /// The equations of a step in some numbering of the unknowns, with the room that Newton's iteration needs.
 pub(crate) trait Equations {
-    /// Begins a step: axial forces of `to` are those foreseen from `from`, limits those of its size.
+    /// Begins a step: axial forces of `to` are those foreseen from `from`, limits those of its size; what the corrections
+    /// of the step before have learned is forgotten.
     fn begin(&mut self, model: &Model, stride: Stride, from: &State, to: &mut State);
     /// Evaluates the residual at `to`, Eq. 35, after `iterations` corrections by
     /// [`Equations::solve`] with `factors`.
@@ -59,10 +59,8 @@ pub(crate) trait Equations {
     fn weights(&self, accuracy: Accuracy) -> &[f64];
     /// The last correction, and per unknown 1, or 0 for multipliers.
     fn correction(&self) -> (&[f64], &[f64]);
-    /// The torque on the bit.
-    fn bit(&mut self) -> &mut BitTorque;
-    /// Unknowns that the drive prescribes and that the bit turns by.
-    fn driven_and_bit(&self, model: &Model) -> (Option<usize>, usize);
+    /// The unknown that the drive prescribes.
+    fn driven(&self, model: &Model) -> Option<usize>;
     /// The first unknown beyond what is possible, with its value.
     fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)>;
     /// Station and pipe of an unknown.
@@ -120,14 +118,12 @@ impl<E: Equations> Kernel for Step<'_, E> {
         let Stride {
             scheme, h, accuracy, ..
         } = stride;
-        equations.bit().begin();
         equations.begin(model, stride, from, to);
         scheme.predict(h, from, to);
         to.time = conditions.time;
         let drive_angle = conditions.drive_angle;
         to.drive_angle = drive_angle;
-        let (driven, spin) = equations.driven_and_bit(model);
-        if let Some(driven) = driven {
+        if let Some(driven) = equations.driven(model) {
             to.q[driven] = drive_angle;
             (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
         }
@@ -179,22 +175,14 @@ impl<E: Equations> Kernel for Step<'_, E> {
                 };
                 return Err((iterations, failure));
             }
-            correct(equations, to, conditions, factors, spin);
+            correct(equations, to, factors);
         }
     }
 }
 
 /// Moves `to` by the last correction, velocities and accelerations with it.
 #[inline(always)]
-pub(crate) fn correct(
-    equations: &mut impl Equations,
-    to: &mut State,
-    conditions: &Conditions,
-    factors: TangentFactors,
-    spin: usize,
-) {
-    let by = factors.damping * equations.correction().0[spin];
-    equations.bit().corrected(conditions.bit_torque, by);
+pub(crate) fn correct(equations: &impl Equations, to: &mut State, factors: TangentFactors) {
     let (correction, moving) = equations.correction();
     let rates = to.v.iter_mut().zip(&mut to.a);
     for ((q, (v, a)), (dq, moving)) in to.q.iter_mut().zip(rates).zip(correction.iter().zip(moving)) {

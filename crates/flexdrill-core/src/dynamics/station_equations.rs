@@ -7,7 +7,6 @@ use crate::dynamics::newton::{Equations, LARGEST_DISPLACEMENT, Stride, correct, 
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
-use crate::elements::bit::BitTorque;
 use crate::elements::joint::rotation::LARGEST_TILT;
 use crate::linear::{CondensedElimination, CondensedSystem, LinearSolver, Singular};
 use crate::model::Model;
@@ -134,6 +133,7 @@ impl StationEquations {
         h: f64,
     ) -> Result<(), Singular> {
         state.a.fill(0.0);
+        self.assembler.begin();
         self.assembler.residual(model, state, conditions);
         self.assembler.drop_reactions(model);
         let factors = TangentFactors {
@@ -170,7 +170,7 @@ impl StationEquations {
             damping: 0.0,
             mass: 0.0,
         };
-        self.assembler.bit.begin();
+        self.assembler.begin();
         self.assembler.residual(model, state, conditions);
         let mut best = worst(&self.assembler.residual, self.limits.weights(Accuracy::Rest));
         for _ in 0..self.tolerances.max_iterations {
@@ -178,7 +178,7 @@ impl StationEquations {
             if self.solve(model, scratch, conditions, factors).is_err() {
                 return;
             }
-            correct(self, scratch, conditions, factors, model.bit_spin());
+            correct(self, scratch, factors);
             scratch.update_axial(model);
             self.assembler.residual(model, scratch, conditions);
             let ratio = worst(&self.assembler.residual, self.limits.weights(Accuracy::Rest));
@@ -193,6 +193,7 @@ impl StationEquations {
 
 impl Equations for StationEquations {
     fn begin(&mut self, model: &Model, stride: Stride, from: &State, to: &mut State) {
+        self.assembler.begin();
         to.predict_axial(model, from, stride.foresight);
         self.foreseen.0.copy_from_slice(&to.pipe_axial);
         self.foreseen.1.copy_from_slice(&to.guide_axial);
@@ -245,12 +246,8 @@ impl Equations for StationEquations {
         (&self.correction, &self.moving)
     }
 
-    fn bit(&mut self) -> &mut BitTorque {
-        &mut self.assembler.bit
-    }
-
-    fn driven_and_bit(&self, model: &Model) -> (Option<usize>, usize) {
-        (model.driven, model.bit_spin())
+    fn driven(&self, model: &Model) -> Option<usize> {
+        model.driven
     }
 
     fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)> {

@@ -6,3 +6,4 @@ pub mod element_form;
 pub mod gap;
 pub mod joint;
 pub mod point_body;
+pub mod slip;

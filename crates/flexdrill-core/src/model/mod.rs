@@ -192,11 +192,6 @@ impl Model {
         self.stations.len() - 1
     }
 
-    /// Spin of the pipe's last node, which carries the bit.
-    pub fn bit_spin(&self) -> usize {
-        self.stations[self.last()].pipe_above + Direction::Psi as usize
-    }
-
     /// Total mass of both pipes without point masses (kg).
     pub fn mass(&self) -> f64 {
         let of = |beam: &Beam| beam.section.mass * beam.length;

@@ -13,7 +13,6 @@ use crate::dynamics::newton::{Equations, LARGEST_DISPLACEMENT, Stride, correct, 
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
-use crate::elements::bit::BitTorque;
 use crate::elements::joint::rotation::LARGEST_TILT;
 use crate::linear::{JointIncrement, Singular, Touching, add_joint, sixteen, take};
 use crate::model::Model;
@@ -317,7 +316,7 @@ impl ReducedEquations<'_> {
         };
         self.reduced.prepare(model, conditions, factors);
         self.reduced.iterations = SINGLE_CORRECTIONS;
-        self.assembler.bit.begin();
+        self.assembler.begin();
         self.evaluate(model, state, conditions, false);
         let mut best = worst(&self.reduced.residual, self.reduced.limits.weights(Accuracy::Rest));
         // Geometric stiffness is not in the tangent, so that this converges linearly.
@@ -326,8 +325,7 @@ impl ReducedEquations<'_> {
             if self.solve(model, scratch, conditions, factors).is_err() {
                 return;
             }
-            let spin = self.reduced.places.bit_spin;
-            correct(self, scratch, conditions, factors, spin);
+            correct(self, scratch, factors);
             self.evaluate(model, scratch, conditions, false);
             let ratio = worst(&self.reduced.residual, self.reduced.limits.weights(Accuracy::Rest));
             if ratio.is_nan() || ratio >= best {
@@ -357,6 +355,7 @@ impl ReducedEquations<'_> {
         };
         self.reduced.prepare(model, conditions, factors);
         self.reduced.iterations = SINGLE_CORRECTIONS;
+        self.assembler.begin();
         self.evaluate(model, state, conditions, false);
         for residual in self.reduced.residual.iter_mut().skip(MULTIPLIER).step_by(NODE) {
             *residual = 0.0;
@@ -375,6 +374,7 @@ impl ReducedEquations<'_> {
 
 impl Equations for ReducedEquations<'_> {
     fn begin(&mut self, _: &Model, stride: Stride, from: &State, _: &mut State) {
+        self.assembler.begin();
         self.reduced.accuracy = stride.accuracy;
         self.reduced.foresee(from, stride.foresight, stride.foreseen_part);
         self.reduced.limits.for_step(stride.h);
@@ -431,12 +431,8 @@ impl Equations for ReducedEquations<'_> {
         (&self.reduced.correction, &self.reduced.moving)
     }
 
-    fn bit(&mut self) -> &mut BitTorque {
-        &mut self.assembler.bit
-    }
-
-    fn driven_and_bit(&self, _: &Model) -> (Option<usize>, usize) {
-        (self.reduced.places.driven, self.reduced.places.bit_spin)
+    fn driven(&self, _: &Model) -> Option<usize> {
+        self.reduced.places.driven
     }
 
     fn out_of_range(&self, _: &Model, state: &State) -> Option<(usize, f64)> {

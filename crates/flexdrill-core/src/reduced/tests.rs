@@ -454,14 +454,13 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
         reduced.reach.set_windows(&residual, &weights);
         assert!(reduced.solve_in_single(&mut assembler, &model, &state, by));
         assert_eq!(reduced.reach.windows.len(), 2);
-        let spin = reduced.places.bit_spin;
         let moved: Vec<bool> = reduced
             .correction
             .chunks_exact(NODE)
             .map(|node| node.iter().any(|dq| *dq != 0.0))
             .collect();
         let mut newton = equations(&mut reduced, &mut assembler);
-        correct(&mut newton, &mut state, &conditions, factors, spin);
+        correct(&newton, &mut state, factors);
         newton.residual(&model, &mut state, &conditions, factors, 3);
         let kept = moved.iter().filter(|moved| !**moved).count();
         assert!(kept >= 5, "all but {kept} of the nodes move");

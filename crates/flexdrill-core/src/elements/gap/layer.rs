@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::memory::LayerMemory;
 use super::{GapLaw, Touch};
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
@@ -25,6 +26,7 @@ pub struct Layer {
     lateral: [Lane; 2],
     clearance: Lane,
     velocities: [Lane; 8],
+    memory: LayerMemory,
 }
 
 /// A station with a place.
@@ -49,7 +51,13 @@ impl Layer {
             lateral: [Aligned([1.0; 8]); 2],
             clearance: Lane::default(),
             velocities: [Lane::default(); 8],
+            memory: LayerMemory::new(stations),
         }
+    }
+
+    /// Begins the corrections of a step: what those of the step before have learned is forgotten.
+    pub(crate) fn begin(&mut self) {
+        self.memory.begin();
     }
 
     /// Opens all gaps.
@@ -127,14 +135,19 @@ impl Layer {
         }
         let lateral = [Eight::load(&self.lateral[0]), Eight::load(&self.lateral[1])];
         let touch = law.touch(lateral, Eight::load(&self.clearance), &velocity);
+        let waiting = &self.waiting[..self.count];
+        let stations = waiting.iter().map(|&place| self.found[place].station);
         if self.again {
             let mut lanes = Touch::default();
             touch.store(&mut lanes);
-            for (lane, &place) in self.waiting[..self.count].iter().enumerate() {
+            self.memory.follow(law, stations, &mut lanes);
+            for (lane, &place) in waiting.iter().enumerate() {
                 self.touches[place / 8].put(place % 8, &lanes.lane(lane));
             }
         } else {
-            touch.store(&mut self.touches[self.waiting[0] / 8]);
+            let lanes = &mut self.touches[waiting[0] / 8];
+            touch.store(lanes);
+            self.memory.follow(law, stations, lanes);
         }
         self.count = 0;
     }

@@ -14,11 +14,13 @@
 //! torques and couples act on both, Eq. 25 and 26.
 
 mod layer;
+mod memory;
 
 pub use layer::Layer;
 
 use nalgebra::{SVector, Vector2};
 
+use super::slip::Slip;
 use crate::simd::number::{Lane, Number};
 use crate::tool::description::GapDescription;
 
@@ -57,9 +59,8 @@ pub struct Touch<N = f64> {
     normal_by: [N; 3],
     /// d sliding speed / d displacement along t (1/s), around and along.
     sliding_by: [N; 2],
-    /// d friction / d normal (-) and d friction / d sliding speed (N s/m), around and along; friction as it opposes
-    /// positive sliding.
-    friction_by: [[N; 2]; 2],
+    /// Sliding around and along, with its friction per normal force.
+    slip: [Slip<N>; 2],
 }
 
 /// The derivative of a gap's force: the force changes by minus the sum of four products, each a local force times what
@@ -150,7 +151,9 @@ impl Touch {
     /// The exact derivative with factors on those in displacement and in velocity, Eq. 22.
     #[inline(always)]
     pub fn tangent(&self, stiffness: f64, damping: f64) -> GapTangent {
-        let [[share_around, slope_around], [share_along, slope_along]] = self.friction_by;
+        let [around, along] = &self.slip;
+        let (share_around, share_along) = (around.friction, along.friction);
+        let (slope_around, slope_along) = (self.normal * around.slope, self.normal * along.slope);
         let normal = self.normal_by[0] * stiffness + self.normal_by[2] * damping;
         let across = self.normal_by[1] * stiffness;
         // The directions turn with the displacement: dn = t (t.dd)/distance, dt = -n (t.dd)/distance. Friction is minus
@@ -188,7 +191,7 @@ impl Touch<Lane> {
             curvature: self.curvature[k],
             normal_by: [self.normal_by[0][k], self.normal_by[1][k], self.normal_by[2][k]],
             sliding_by: two(&self.sliding_by),
-            friction_by: [two(&self.friction_by[0]), two(&self.friction_by[1])],
+            slip: [self.slip[0].lane(k), self.slip[1].lane(k)],
         }
     }
 
@@ -208,9 +211,27 @@ impl Touch<Lane> {
             x[k] = *from;
         }
         two(&mut self.sliding_by, &from.sliding_by);
-        for (x, from) in self.friction_by.iter_mut().zip(&from.friction_by) {
-            two(x, from);
+        for (x, from) in self.slip.iter_mut().zip(&from.slip) {
+            x.put(k, from);
         }
+    }
+}
+
+impl Slip<Lane> {
+    /// The slip in a lane.
+    #[inline(always)]
+    fn lane(&self, k: usize) -> Slip {
+        Slip {
+            speed: self.speed[k],
+            friction: self.friction[k],
+            slope: self.slope[k],
+        }
+    }
+
+    /// Writes the slip in a lane.
+    #[inline(always)]
+    fn put(&mut self, k: usize, from: &Slip) {
+        (self.speed[k], self.friction[k], self.slope[k]) = (from.speed, from.friction, from.slope);
     }
 }
 
@@ -230,8 +251,9 @@ impl<N: Number> Touch<N> {
             self.direction[k].store(&mut to.direction[k]);
             self.normal_by[k].store(&mut to.normal_by[k]);
             self.sliding_by[k].store(&mut to.sliding_by[k]);
-            self.friction_by[k][0].store(&mut to.friction_by[k][0]);
-            self.friction_by[k][1].store(&mut to.friction_by[k][1]);
+            self.slip[k].speed.store(&mut to.slip[k].speed);
+            self.slip[k].friction.store(&mut to.slip[k].friction);
+            self.slip[k].slope.store(&mut to.slip[k].slope);
         }
     }
 }
@@ -242,6 +264,12 @@ pub fn gap(lateral: Vector2<f64>, clearance: f64) -> f64 {
 }
 
 impl GapLaw {
+    /// Coefficients of friction around and along.
+    #[inline(always)]
+    fn friction(&self) -> [f64; 2] {
+        [self.surface.friction_tangential, self.surface.friction_axial]
+    }
+
     /// The contact of a closed gap at lateral displacement `lateral` (y, z; offsets included) and local velocity
     /// `velocity`.
     ///
@@ -267,14 +295,12 @@ impl GapLaw {
         let around = swinging + velocity[3];
         let along = velocity[0] + (velocity[4] * z - velocity[5] * y);
         let tilting = (velocity[4] * y).plus_product(velocity[5], z);
-        let (share_around, slope_around) = regularised_sign(around, self.slip_speed);
-        let (share_along, slope_along) = regularised_sign(along, self.slip_speed);
-        let (mu_around, mu_along) = (
-            N::of(self.surface.friction_tangential),
-            N::of(self.surface.friction_axial),
-        );
-        let by_normal = [mu_around * share_around, mu_along * share_along];
-        let (tangential, axial) = (-(by_normal[0] * normal), -(by_normal[1] * normal));
+        let [full_around, full_along] = self.friction().map(N::of);
+        let slip = [
+            Slip::at(around, full_around, self.slip_speed),
+            Slip::at(along, full_along, self.slip_speed),
+        ];
+        let (tangential, axial) = (-(slip[0].friction * normal), -(slip[1].friction * normal));
         Touch {
             normal,
             tangential,
@@ -286,20 +312,9 @@ impl GapLaw {
             curvature,
             normal_by: [k * viscous, by_rate * swinging * curvature, by_rate],
             sliding_by: [-(closing * curvature), tilting * curvature],
-            friction_by: [
-                [by_normal[0], mu_around * normal * slope_around],
-                [by_normal[1], mu_along * normal * slope_along],
-            ],
+            slip,
         }
     }
-}
-
-/// Smooth sign of `speed` with width `width`, v / sqrt(v^2 + width^2), and its derivative.
-#[inline(always)]
-pub fn regularised_sign<N: Number>(speed: N, width: f64) -> (N, N) {
-    let square = N::of(width * width);
-    let over = N::of(1.0).over(square.plus_product(speed, speed).root());
-    (speed * over, square * over * over * over)
 }
 
 #[cfg(test)]
