@@ -114,11 +114,6 @@ mod tests {
         );
         assert_eq!(sentences(&Alarm::default()), "");
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
 
     #[test]
     fn alarms_of_the_computer_follow_the_drillers_and_say_so() {
