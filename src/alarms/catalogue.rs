@@ -20,6 +20,8 @@ pub enum AlarmId {
     StickSlip,
     /// Joints beyond their rating.
     JointLoad,
+    /// The pipe is thrown about without direction.
+    ChaoticWhirl,
     /// The model contradicts itself.
     ModelQuality,
     /// Rotary speed not received, refused or stale.
@@ -40,12 +42,13 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All of them; where they are equally bad, the first goes first.
-    pub const ALL: [AlarmId; 13] = [
+    pub const ALL: [AlarmId; 14] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
         AlarmId::StickSlip,
         AlarmId::JointLoad,
+        AlarmId::ChaoticWhirl,
         AlarmId::ModelQuality,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
@@ -64,6 +67,7 @@ impl AlarmId {
             AlarmId::Shock => "shock",
             AlarmId::StickSlip => "stick_slip",
             AlarmId::JointLoad => "joint_load",
+            AlarmId::ChaoticWhirl => "chaotic_whirl",
             AlarmId::ModelQuality => "model_quality",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
@@ -83,6 +87,7 @@ impl AlarmId {
             AlarmId::Shock => "lateral shock",
             AlarmId::StickSlip => "stick-slip",
             AlarmId::JointLoad => "joints beyond their rating",
+            AlarmId::ChaoticWhirl => "chaotic whirl",
             AlarmId::ModelQuality => "model not to be relied on",
             AlarmId::RotarySpeedInput => "rotary speed not known",
             AlarmId::WeightOnBitInput => "weight on bit not known",
@@ -120,6 +125,7 @@ impl AlarmId {
             HazardKind::Shock => AlarmId::Shock,
             HazardKind::StickSlip => AlarmId::StickSlip,
             HazardKind::JointLoad => AlarmId::JointLoad,
+            HazardKind::ChaoticWhirl => AlarmId::ChaoticWhirl,
         }
     }
 
@@ -141,6 +147,7 @@ impl AlarmId {
             AlarmId::Shock => tool(&alarms.shock),
             AlarmId::StickSlip => tool(&alarms.stick_slip),
             AlarmId::JointLoad => tool(&alarms.joint_load),
+            AlarmId::ChaoticWhirl => tool(&alarms.chaotic_whirl),
             AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),

@@ -126,6 +126,7 @@ pub(super) fn rule(kind: HazardKind, table: &AdviceTable) -> Advice {
         HazardKind::Shock => table.shock,
         HazardKind::StickSlip => table.stick_slip,
         HazardKind::JointLoad => table.joint_load,
+        HazardKind::ChaoticWhirl => table.chaotic_whirl,
     }
 }
 
@@ -215,6 +216,16 @@ fn words(hazard: &Hazard) -> Words {
             consequence: "A cracked joint or a broken pin".to_owned(),
             engineer: "Check joint_load.rated_moment_nm against the maker's rating. At the next trip inspect the joint near \
                        this depth.",
+        },
+        HazardKind::ChaoticWhirl => Words {
+            unit: "W/m",
+            evidence: format!(
+                "The flexible pipe is thrown about in the guide without direction; its collisions take {value:.1} W per \
+                 metre and are hardest{at}."
+            ),
+            cause: "Friction between pipe and guide throws the pipe about at this speed.",
+            consequence: "Blows all along the tool: fatigue of the joints, loosened connections, damaged instruments."
+                .to_owned(),
         },
     }
 }

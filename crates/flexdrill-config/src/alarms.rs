@@ -24,6 +24,8 @@ section! {
         stick_slip: ToolAlarm = ToolAlarm::default(), below;
         /// Joints beyond their rating.
         joint_load: ToolAlarm = ToolAlarm::default(), below;
+        /// The pipe is thrown about without direction.
+        chaotic_whirl: ToolAlarm = ToolAlarm::default(), below;
         /// The model contradicts itself.
         model_quality: ToolAlarm = ToolAlarm::default(), below;
         /// `rig/rotary_speed_rpm` not received, refused or stale.
@@ -86,6 +88,8 @@ pub struct AdviceTable {
     pub stick_slip: Advice,
     /// Default: below 40 kN.
     pub joint_load: Advice,
+    /// Default: below 50 r/min.
+    pub chaotic_whirl: Advice,
 }
 
 impl Default for AdviceTable {
@@ -99,6 +103,7 @@ impl Default for AdviceTable {
                 ..Advice::lower(None, Some(8.0))
             },
             joint_load: Advice::lower(None, Some(40.0)),
+            chaotic_whirl: Advice::lower(Some(50.0), None),
         }
     }
 }
@@ -159,6 +164,7 @@ impl Alarms {
                 ("shock", advice.shock),
                 ("stick_slip", advice.stick_slip),
                 ("joint_load", advice.joint_load),
+                ("chaotic_whirl", advice.chaotic_whirl),
             ] {
                 c.below(key, |c| advice.check(c));
             }

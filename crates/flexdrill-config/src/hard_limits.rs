@@ -17,7 +17,8 @@ section! {
         max_rpm: f64 = 300.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
         /// `inputs.rotary_speed.safe_rpm` is not set above this.
         safe_rpm: f64 = 120.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
-        /// `inputs.rotary_speed.slew_rpm_per_s` and `safe_ramp_rpm_per_s` are not set above this.
+        /// `inputs.rotary_speed.slew_rpm_per_s`, `downhole_slew_rpm_per_s` and `safe_ramp_rpm_per_s` are not set above
+        /// this.
         slew_rpm_per_s: f64 = 200.0, above(0.0, 1e6), "r/min per s", "a jump in speed is an infinite torque";
         /// `inputs.rotary_speed.safe_ramp_rpm_per_s` is not set below this.
         slowest_ramp_rpm_per_s: f64 = 0.5, within(0.0, 1e6), "r/min per s", "too slow a ramp never gets there";
@@ -75,6 +76,13 @@ impl HardBounds {
             (speed, "max_rpm", High, "max_rpm", limits.max_rpm),
             (speed, "safe_rpm", High, "safe_rpm", limits.safe_rpm),
             (speed, "slew_rpm_per_s", High, "slew_rpm_per_s", limits.slew_rpm_per_s),
+            (
+                speed,
+                "downhole_slew_rpm_per_s",
+                High,
+                "slew_rpm_per_s",
+                limits.slew_rpm_per_s,
+            ),
             (
                 speed,
                 "safe_ramp_rpm_per_s",

@@ -64,8 +64,13 @@ section! {
         min_rpm: f64 = 0.0, within(-5000.0, this.max_rpm), "r/min", "not above max_rpm";
         /// Greatest speed that is taken.
         max_rpm: f64 = 120.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
-        /// Fastest change that the model follows.
+        /// `surface` or `downhole`: where the rig measures it. Default surface.
+        measured: Measured = Measured::Surface;
+        /// Fastest change that the model follows of a speed that is measured at the surface.
         slew_rpm_per_s: f64 = 20.0, above(0.0, 1e6), "r/min per s",
+            "0 would never follow; a jump in speed is an infinite torque";
+        /// The same of a speed that is measured downhole, which swings faster than any drive.
+        downhole_slew_rpm_per_s: f64 = 200.0, above(0.0, 1e6), "r/min per s",
             "0 would never follow; a jump in speed is an infinite torque";
         /// Acts until the first sample.
         initial_rpm: f64 = 0.0, within(this.min_rpm, this.max_rpm), "r/min", "within min_rpm and max_rpm";
@@ -79,6 +84,27 @@ section! {
         max_age: f64 = 5.0, above(0.0, 3600.0), "s", "an hour is not live any more";
         /// How long the last good value is held after that (s).
         hold_before_safe: f64 = 10.0, within(0.0, 86_400.0), "s", "a day is not live any more";
+    }
+}
+
+/// Where the rotary speed is measured.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Measured {
+    /// At the top drive, whose inertia limits how fast it changes.
+    #[default]
+    Surface,
+    /// Above the tool: with the swing of the string in it.
+    Downhole,
+}
+
+impl RotarySpeed {
+    /// Fastest change that the model follows (r/min per s), by where the speed is measured.
+    pub fn fastest_change_rpm_per_s(&self) -> f64 {
+        match self.measured {
+            Measured::Surface => self.slew_rpm_per_s,
+            Measured::Downhole => self.downhole_slew_rpm_per_s,
+        }
     }
 }
 

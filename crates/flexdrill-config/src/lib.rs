@@ -52,7 +52,7 @@ pub use derived::Unknowns;
 pub use environment::Environment;
 pub use error::{ConfigError, Problem};
 pub use hard_limits::{HardBounds, HardLimits};
-pub use inputs::{DriverPolicy, DriverRule, InputsConfig, RotarySpeed, StampRule, WeightOnBit};
+pub use inputs::{DriverPolicy, DriverRule, InputsConfig, Measured, RotarySpeed, StampRule, WeightOnBit};
 pub use json_schema::json_schema;
 pub use loads::{History, Load, Mass};
 pub use network::{Network, Reach, is_peer};
@@ -63,7 +63,7 @@ pub use run::Run;
 pub use solver::{Solver, TimeScheme};
 pub use start::{Initial, Start};
 pub use tool::{Bit, Damping, Joint, Material, Tool};
-pub use vibration::{JointLoad, Repeats, Shock, Steps, StickSlip};
+pub use vibration::{ChaoticWhirl, JointLoad, Repeats, Shock, Steps, StickSlip};
 pub use well::{Section, Well};
 pub use whirl::{ForwardPower, InputTrust, Watched, Whirl};
 
@@ -146,6 +146,9 @@ pub struct Schema {
     /// Load of the joints' stops.
     #[serde(default)]
     pub joint_load: JointLoad,
+    /// Power of the collisions.
+    #[serde(default)]
+    pub chaotic_whirl: ChaoticWhirl,
     /// What calls for an operator.
     #[serde(default)]
     pub alarms: Alarms,
@@ -307,12 +310,13 @@ impl Config {
                 rotary_speed: rpm_to_rad_per_s(speed.initial_rpm),
                 weight_on_bit: kn_to_n(weight.initial_kn),
             },
-            rotary_speed_slew: rpm_to_rad_per_s(speed.slew_rpm_per_s),
+            rotary_speed_slew: rpm_to_rad_per_s(speed.fastest_change_rpm_per_s()),
             weight_on_bit_slew: kn_to_n(weight.slew_kn_per_s),
             whirl: self.whirl_settings(),
             stick_slip: self.stick_slip.describe(),
             shock: self.shock.describe(),
             joint_load: self.joint_load.describe(),
+            chaotic_whirl: self.chaotic_whirl.describe(),
             ageing: self.joint_load.describe_ageing(),
             watched: self.whirl.places(self.mesh().last_station()),
             whirl_sample_interval: 1.0 / self.whirl.sample_rate,
@@ -409,6 +413,7 @@ impl Schema {
         c.below("stick_slip", |c| self.stick_slip.check(c));
         c.below("shock", |c| self.shock.check(c));
         c.below("joint_load", |c| self.joint_load.check(c));
+        c.below("chaotic_whirl", |c| self.chaotic_whirl.check(c));
         c.below("alarms", |c| self.alarms.check(c));
         c.below("outputs", |c| self.outputs.check(c));
     }

@@ -1,4 +1,5 @@
-//! `stick_slip`, `shock` and `joint_load`: levels of the bit's speed ripple, of collisions and of the joints' stops.
+//! `stick_slip`, `shock`, `chaotic_whirl` and `joint_load`: levels of the bit's speed swing, of single collisions, of the
+//! power of all collisions, and of the joints' stops.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,7 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::checker::{Bound, Checker};
 use super::section::section;
 use flexdrill_core::motion::{
-    AgeingSettings, AlarmThresholds, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings,
+    AgeingSettings, AlarmThresholds, ChaoticWhirlSettings, JointLoadSettings, MOST_REPEATS, ShockSettings,
+    StickSlipSettings,
 };
 use flexdrill_core::units::{rad_per_s_to_rpm, rpm_to_rad_per_s};
 
@@ -14,9 +16,9 @@ section! {
     /// Stick-slip of the bit.
     #[derive(Copy)]
     pub struct StickSlip(this) {
-        /// Window of the index (s): 3, two turns at 40 r/min.
+        /// Window of the index (s). Swings of up to this period are judged.
         window: f64 = StickSlipSettings::default().window, within(0.1, 60.0), "s",
-            "must hold a period of the ripple; longer than a minute warns too late";
+            "must hold a period of the swing; longer than a minute warns too late";
         /// Speed of the drive below which the index is 0: 10, a quarter of 40 r/min (1.05 rad/s is 10.03 r/min).
         gate_speed_rpm: f64 = rad_per_s_to_rpm(StickSlipSettings::default().gate_speed).round(),
             within(0.0, 1000.0), "r/min", "near standstill the quotient means nothing";
@@ -74,6 +76,24 @@ impl Default for Repeats {
             warning,
             critical,
         }
+    }
+}
+
+section! {
+    /// Chaotic whirl of the pipe.
+    #[derive(Copy)]
+    pub struct ChaoticWhirl(this) {
+        /// Time over which the power of the collisions is averaged (s).
+        window: f64 = ChaoticWhirlSettings::default().window, within(0.1, 60.0), "s",
+            "shorter shows single blows; longer than a minute warns too late";
+        /// A level is left below threshold x (1 - hysteresis).
+        hysteresis: f64 = ChaoticWhirlSettings::default().thresholds.hysteresis, within(0.0, 0.9), "",
+            "at 1 a level would never be left";
+        /// And after this long there (s).
+        hold_off: f64 = ChaoticWhirlSettings::default().thresholds.hold_off, within(0.0, 3600.0), "s", "an hour";
+        /// Power that collisions take per metre of the tool, times the part of the pipe that moves chaotically (W/m), from
+        /// which to watch, warn and call critical. Default 0.6, 2, 6.
+        levels: Steps = Steps::from(ChaoticWhirlSettings::default().thresholds.levels);
     }
 }
 
@@ -193,6 +213,24 @@ impl Shock {
             },
             repeats: [self.repeats.watch, self.repeats.warning, self.repeats.critical],
             span: self.span,
+        }
+    }
+}
+
+impl ChaoticWhirl {
+    pub(super) fn check(&self, c: &mut Checker) {
+        self.check_numbers(c);
+        c.below("levels", |c| self.levels.check(c, 1e6, "W/m"));
+    }
+
+    pub(super) fn describe(&self) -> ChaoticWhirlSettings {
+        ChaoticWhirlSettings {
+            window: self.window,
+            thresholds: AlarmThresholds {
+                levels: self.levels.levels(),
+                hysteresis: self.hysteresis,
+                hold_off: self.hold_off,
+            },
         }
     }
 }

@@ -26,6 +26,10 @@ section! {
         watched: Watched = Watched::Joints;
         /// Below this rotary speed the tool counts as standing and no ratio is given.
         gate_speed_rpm: f64 = 5.0, within(0.0, 1000.0), "r/min", "a tool that does not turn does not whirl";
+        /// How long the speed must have been below that for the drive to stand (s): what follows is a run-up, in which no
+        /// alarm of the tool is raised.
+        standstill_time: f64 = WhirlSettings::default().standstill_time, within(0.0, 600.0), "s",
+            "longer than the bit sticks in one swing of the string, shorter than a connection";
         /// RMS orbit radius over clearance below which nothing is called whirl.
         min_orbit_ratio: f64 = WhirlSettings::default().min_orbit_ratio, within(0.0, 1.0), "",
             "a ratio; 1 fills the gap";
@@ -161,6 +165,7 @@ impl Whirl {
             window_turns: self.window_turns,
             max_window: self.max_window,
             min_rotary_speed: rpm_to_rad_per_s(self.gate_speed_rpm),
+            standstill_time: self.standstill_time,
             min_orbit_ratio: self.min_orbit_ratio,
             steady_direction: self.steady_direction,
             min_repetition: self.min_repetition,

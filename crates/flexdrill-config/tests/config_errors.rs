@@ -233,6 +233,7 @@ fn live_parameters_stop_at_the_hard_limits() {
     for (key, within, beyond) in [
         ("inputs.rotary_speed.min_rpm", 10.0, -1.0),
         ("inputs.rotary_speed.slew_rpm_per_s", 200.0, 200.1),
+        ("inputs.rotary_speed.downhole_slew_rpm_per_s", 200.0, 200.1),
         ("inputs.rotary_speed.safe_ramp_rpm_per_s", 0.5, 0.4),
         ("inputs.rotary_speed.safe_ramp_rpm_per_s", 200.0, 1e5),
         ("inputs.weight_on_bit.max_kn", 200.0, 200.1),

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use flexdrill_config::Config;
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::twin::SimulationSettings;
+use flexdrill_core::units::rpm_to_rad_per_s;
 
 fn shipped() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config");
@@ -64,4 +65,15 @@ fn default_file_is_what_the_core_calls_the_papers_case() {
     let file = Config::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config/default.yaml")).unwrap();
     assert_eq!(file.tool(), ToolDescription::paper());
     assert_eq!(file.simulation(), SimulationSettings::default());
+}
+
+#[test]
+fn a_speed_that_is_measured_downhole_is_followed_faster() {
+    let config = Config::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config/default.yaml")).unwrap();
+    let slew = |config: &Config| config.simulation().rotary_speed_slew;
+    assert_eq!(slew(&config), rpm_to_rad_per_s(20.0));
+    let downhole = config.with_value("inputs.rotary_speed.measured", "downhole").unwrap();
+    assert_eq!(slew(&downhole), rpm_to_rad_per_s(200.0));
+    let error = config.with_value("inputs.rotary_speed.measured", "bit").unwrap_err();
+    assert!(error.to_string().contains("inputs.rotary_speed.measured"), "{error}");
 }

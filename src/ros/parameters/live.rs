@@ -23,7 +23,11 @@ const LIVE: [&str; 14] = [
     "outputs.exaggeration",
 ];
 /// Keys within those groups that only count at the start.
-const START_ONLY: [&str; 2] = ["inputs.rotary_speed.initial_rpm", "inputs.weight_on_bit.initial_kn"];
+const START_ONLY: [&str; 3] = [
+    "inputs.rotary_speed.initial_rpm",
+    "inputs.rotary_speed.measured",
+    "inputs.weight_on_bit.initial_kn",
+];
 
 /// Whether a parameter may change while running.
 pub fn is_live(key: &str) -> bool {
@@ -45,7 +49,7 @@ pub(super) fn why_fixed(key: &str) -> String {
         "solver" => "the time step and the solver's limits are fixed when the model is built",
         "contact" | "environment" | "boundary" | "loads" => "the model is built with it",
         "start" | "initial" | "run" | "inputs" => "it only counts at the start",
-        "whirl" | "stick_slip" | "shock" | "joint_load" => "the analysis is built with it",
+        "whirl" | "stick_slip" | "shock" | "chaotic_whirl" | "joint_load" => "the analysis is built with it",
         USE_SIM_TIME => "the clock is chosen at the start",
         CONFIG_FILE => "the configuration is read at the start",
         _ => "it is fixed at the start",
@@ -67,6 +71,8 @@ mod tests {
             ("solver.time_step", false),
             ("inputs.rotary_speed.slew_rpm_per_s", true),
             ("inputs.rotary_speed.initial_rpm", false),
+            ("inputs.rotary_speed.downhole_slew_rpm_per_s", true),
+            ("inputs.rotary_speed.measured", false),
             ("inputs.hard_limits.max_rpm", false),
             ("inputs.driver.policy", false),
             ("whirl.backward_cycles.warning", true),

@@ -21,12 +21,13 @@ const LEAVE_GATE: f64 = 0.8;
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
 pub enum DriveState {
-    /// Below the gate speed.
+    /// The speed has been below the gate speed for the standstill time.
     #[default]
     Standing = 0,
     /// From standstill until the speed has not risen by a tenth for two turns, half a minute at most.
     RunningUp = 1,
-    /// Turning.
+    /// The drive turns, or has been below the gate speed for less than the standstill time: a bit that sticks once per
+    /// swing of its string stands for seconds and is no tool that is started anew.
     Turning = 2,
 }
 
@@ -38,20 +39,25 @@ pub(super) struct DriveWatch {
     reference: f64,
     steady_turns: f64,
     running_up_for: f64,
+    /// How long the speed has been below the gate (s).
+    below_gate_for: f64,
 }
 
 impl DriveWatch {
-    /// Takes the speed of the drive (rad/s) over `elapsed` (s); below `gate` (rad/s) it stands.
-    pub(super) fn update(&mut self, elapsed: f64, rotary_speed: f64, gate: f64) {
+    /// Takes the speed of the drive (rad/s) over `elapsed` (s). It stands once it has been below `gate` (rad/s) for
+    /// `standstill_time` (s).
+    pub(super) fn update(&mut self, elapsed: f64, rotary_speed: f64, gate: f64, standstill_time: f64) {
         let speed = rotary_speed.abs();
-        let gate = if self.state == DriveState::Standing {
-            gate
-        } else {
-            LEAVE_GATE * gate
-        };
+        let standing = self.state == DriveState::Standing;
+        let gate = if standing { gate } else { LEAVE_GATE * gate };
         if speed < gate || speed == 0.0 {
-            *self = Self::default();
-            return;
+            self.below_gate_for += elapsed;
+            if standing || self.below_gate_for >= standstill_time {
+                *self = Self::default();
+                return;
+            }
+        } else {
+            self.below_gate_for = 0.0;
         }
         if self.state == DriveState::Turning {
             return;
@@ -74,12 +80,13 @@ mod tests {
     use super::*;
 
     const GATE: f64 = 0.5;
+    const STANDSTILL: f64 = 5.0;
 
     fn states(speed: impl Fn(f64) -> f64, seconds: f64) -> Vec<DriveState> {
         let mut watch = DriveWatch::default();
         (0..(seconds * 100.0) as u32)
             .map(|step| {
-                watch.update(0.01, speed(f64::from(step) * 0.01), GATE);
+                watch.update(0.01, speed(f64::from(step) * 0.01), GATE, STANDSTILL);
                 watch.state
             })
             .collect()
@@ -105,10 +112,23 @@ mod tests {
             (restless[2900], restless[3100]),
             (DriveState::RunningUp, DriveState::Turning)
         );
-        let stopping = states(|time| 4.0 * (1.0 - time / 10.0).max(0.0), 12.0);
+        // Below 0.8 of the gate from 9 s on.
+        let stopping = states(|time| 4.0 * (1.0 - time / 10.0).max(0.0), 16.0);
         assert_eq!(
-            (stopping[800], stopping[1000]),
+            (stopping[1390], stopping[1410]),
             (DriveState::Turning, DriveState::Standing)
         );
+    }
+
+    #[test]
+    fn a_swing_through_standstill_is_no_run_up() {
+        // 4 rad/s with a swing of 95 % at 0.2 Hz, and one that stands for 4 s of every 6.
+        let swinging = |time: f64| 4.0 * (1.0 + 0.95 * (0.2 * TAU * time).sin());
+        let sticking = |time: f64| if time % 6.0 < 2.0 { 12.0 } else { 0.0 };
+        for states in [states(swinging, 60.0), states(sticking, 60.0)] {
+            let turning = states.iter().position(|&state| state == DriveState::Turning).unwrap();
+            assert!(turning < 1000, "{turning}");
+            assert!(states[turning..].iter().all(|&state| state == DriveState::Turning));
+        }
     }
 }

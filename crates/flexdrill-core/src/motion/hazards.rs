@@ -21,16 +21,19 @@ pub enum HazardKind {
     StickSlip = 3,
     /// The stop of a joint carries more than the joint is rated for.
     JointLoad = 4,
+    /// The pipe is thrown about without direction, and its collisions take many times the power of steady drilling.
+    ChaoticWhirl = 5,
 }
 
 impl HazardKind {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::BackwardWhirl,
         Self::ForwardWhirl,
         Self::Shock,
         Self::StickSlip,
         Self::JointLoad,
+        Self::ChaoticWhirl,
     ];
 
     /// As in sentences: `backward whirl`.
@@ -41,6 +44,7 @@ impl HazardKind {
             Self::Shock => "lateral shock",
             Self::StickSlip => "stick-slip",
             Self::JointLoad => "joint load",
+            Self::ChaoticWhirl => "chaotic whirl",
         }
     }
 }
@@ -57,7 +61,7 @@ pub struct Hazard {
     /// Where it is worst; none for the bit, and for whirl while there is none.
     pub place: Option<IncidentLocation>,
     /// What it is judged by: bending cycles per turn of the tool, friction power (W/m), impulse (N s), stick-slip
-    /// index, stop moment over its rating.
+    /// index, stop moment over its rating, collision power of the chaotic part (W/m).
     pub value: f64,
     /// Threshold of the level reached, or of the first one while all is well, in the same unit.
     pub threshold: f64,

@@ -7,7 +7,8 @@
 //!   - `classify`: from these to a kind of motion. `severity`: from kind, bending cycles and friction to a level.
 //!     `tool_level`: from the stations' levels to the place that leads and the one warning.
 //! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact, [`JointLoadWatch`] the stops of the
-//!   joints; `hysteresis`: how levels rise and fall; `drive`: while the tool is run up none does.
+//!   joints, [`ChaoticWhirlWatch`] the power that collisions take; `hysteresis`: how levels rise and fall; `drive`:
+//!   while the tool is run up none does.
 //! - [`Hazards`]: all of these side by side, what alarms are made from.
 //! - [`AgeingWatch`]: what ages fastest, by cycles counted in `rainflow` and the work of the friction.
 //! - [`IncidentLog`] makes a table of all this over a run.
@@ -15,6 +16,7 @@
 //! - [`settings`]: every threshold, with its reason.
 
 mod ageing;
+mod chaotic_whirl;
 mod classify;
 mod contact_statistics;
 mod drive;
@@ -36,6 +38,7 @@ mod watched_station;
 mod whirl;
 
 pub use ageing::{Ageing, AgeingSettings, AgeingWatch};
+pub use chaotic_whirl::{ChaoticWhirlLevel, ChaoticWhirlSettings, ChaoticWhirlWatch};
 pub use contact_statistics::{ContactStatistics, RootMeanSquare};
 pub use drive::DriveState;
 pub(crate) use hazards::ended;

@@ -29,6 +29,10 @@ pub struct WhirlSettings {
     /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 5
     /// r/min is an eighth of the paper's speed.
     pub min_rotary_speed: f64,
+    /// Time for which the drive must have been below `min_rotary_speed` to count as standing (s), so that what follows
+    /// is a run-up. Half a period of the slowest swing that is judged as stick-slip (10 s): a bit sticks no longer in
+    /// it, and a connection takes minutes.
+    pub standstill_time: f64,
     /// RMS orbit radius over clearance from which a motion counts as an orbit. Below a tenth of the clearance the
     /// motion is that of a pipe at rest on a wall with a trembling contact.
     pub min_orbit_ratio: f64,
@@ -110,6 +114,7 @@ impl Default for WhirlSettings {
             confirmations: 2,
             confirmation_turns: 0.3,
             min_rotary_speed: rpm_to_rad_per_s(5.0),
+            standstill_time: 5.0,
             min_orbit_ratio: 0.1,
             large_orbit_ratio: 0.5,
             min_axis_ratio: 0.25,

@@ -1,4 +1,8 @@
-//! Stick-slip index of the bit: (max - min) / (2 mean) of its speed over a window, and its level.
+//! Stick-slip index of the bit: (max - min) / (2 mean) of its own speed over a window, and its level.
+//!
+//! The drive may swing too: a speed that is measured downhole carries the torsional swing of the string above. Such a
+//! swing counts, whereas a change of the set speed does not. The two differ in what returns: a swing goes up and down
+//! again and again, a change of the set speed does not come back. After a change only the speeds since then count.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,15 +11,41 @@ use super::hysteresis::{Alarm, AlarmThresholds};
 use crate::units::rpm_to_rad_per_s;
 
 /// The window moves in steps of a block, so that extremes need no queue.
-const BLOCKS: usize = 30;
+const BLOCKS: usize = 100;
+
+/// Blocks that are kept. Two windows hold two whole swings whose period is that of the window.
+const KEPT: usize = 2 * BLOCKS;
+
+/// Fewest blocks from which an index is formed: 1.5 s of a window of 10 s hold a turn at 40 r/min and with it two periods
+/// of the joints' ripple.
+const FEWEST: usize = 15;
+
+/// Blocks in which the bit must stand to count as stuck: 1 s of a window of 10 s, longer than it rests between two
+/// ripples of the joints.
+const STUCK_BLOCKS: usize = 10;
 
 /// Part of the drive's speed below which the bit's mean speed counts as stuck.
 const STUCK: f64 = 0.1;
 
+/// Swings from which the drive swings by itself: up, down, up and down. A driller who slows down and speeds up again
+/// makes two.
+const SWINGS: u32 = 4;
+
+/// Part of the range of the drive's speed that such swings must have. With less, most of the range is a change of the set
+/// speed, on which the swings lie as noise.
+const SWINGING: f64 = 0.4;
+
+/// Relative difference to the present speed of the drive within which an earlier one is that of the same set speed.
+const SAME_SPEED: f64 = 0.1;
+
+/// Halvings by which the size of the swings is searched: to a thousandth of the range.
+const SEARCH: u32 = 10;
+
 /// How the stick-slip index is formed and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StickSlipSettings {
-    /// s. Two turns at 40 r/min hold four periods of the joints' ripple.
+    /// Length of the window (s). A string that is held at its top swings at c / 4 L with c = 3177 m/s: at 0.8 Hz with
+    /// 1000 m, at 0.2 Hz with 4000 m, of which the window holds two periods. Swings of up to its own length are judged.
     pub window: f64,
     /// Mean speed of the drive below which the index is 0 (rad/s): near standstill the quotient means nothing. A
     /// quarter of 40 r/min.
@@ -28,7 +58,7 @@ pub struct StickSlipSettings {
 impl Default for StickSlipSettings {
     fn default() -> Self {
         Self {
-            window: 3.0,
+            window: 10.0,
             gate_speed: rpm_to_rad_per_s(10.0),
             thresholds: AlarmThresholds {
                 levels: [0.5, 0.8, 1.0],
@@ -42,21 +72,22 @@ impl Default for StickSlipSettings {
 /// Watches the bit's speed. The index is 0 for a steady bit, 1 when it just stops once per period, above 1 when it
 /// sticks.
 ///
-/// Extremes are those of the bit's speed less the drive's, so that a change of the set speed is no stick-slip; at a
-/// steady drive that is the same. A bit that stands still while the drive turns counts as 1 at least: its own speed
-/// would give nothing over nothing.
+/// A bit that stands while the drive turns counts as 1 at least: its own speed would give nothing over nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StickSlip {
     settings: StickSlipSettings,
+    /// A ring: `current` is being filled, the next one is the oldest.
     blocks: Vec<Block>,
     current: usize,
+    /// Full blocks before the current one.
     filled: usize,
+    index: f64,
     alarm: Alarm,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Block {
-    /// Of the bit's speed less the drive's (rad/s).
+    /// Of the bit's speed (rad/s).
     min: f64,
     max: f64,
     bit_angle: f64,
@@ -72,6 +103,27 @@ impl Block {
         drive_angle: 0.0,
         duration: 0.0,
     };
+
+    /// Both in one.
+    fn with(self, other: &Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+            bit_angle: self.bit_angle + other.bit_angle,
+            drive_angle: self.drive_angle + other.drive_angle,
+            duration: self.duration + other.duration,
+        }
+    }
+
+    /// Mean speed of the drive (rad/s).
+    fn drive(&self) -> f64 {
+        self.drive_angle / self.duration
+    }
+
+    /// Mean speed of the bit in the drive's sense (rad/s).
+    fn bit(&self) -> f64 {
+        self.bit_angle * self.drive_angle.signum() / self.duration
+    }
 }
 
 impl StickSlip {
@@ -79,9 +131,10 @@ impl StickSlip {
     pub fn new(settings: StickSlipSettings) -> Self {
         Self {
             settings,
-            blocks: vec![Block::EMPTY; BLOCKS],
+            blocks: vec![Block::EMPTY; KEPT + 1],
             current: 0,
-            filled: 1,
+            filled: 0,
+            index: 0.0,
             alarm: Alarm::default(),
         }
     }
@@ -92,48 +145,33 @@ impl StickSlip {
     pub fn push(&mut self, time: f64, dt: f64, bit: f64, drive: f64, judged: bool) {
         if !judged {
             self.alarm.update(time, dt, 0.0, &self.settings.thresholds);
-            if self.filled > 1 || self.blocks[self.current].duration > 0.0 {
+            if self.filled > 0 || self.blocks[self.current].duration > 0.0 {
                 self.empty();
             }
             return;
         }
-        let length = self.blocks[self.current].duration;
-        // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
-        if length + 0.5 * dt >= self.settings.window / BLOCKS as f64 {
-            let index = self.index();
-            self.alarm.update(time, length, index, &self.settings.thresholds);
-            self.current = (self.current + 1) % BLOCKS;
-            self.blocks[self.current] = Block::EMPTY;
-            self.filled = (self.filled + 1).min(BLOCKS);
-        }
         let block = &mut self.blocks[self.current];
-        block.min = block.min.min(bit - drive);
-        block.max = block.max.max(bit - drive);
+        block.min = block.min.min(bit);
+        block.max = block.max.max(bit);
         block.bit_angle += bit * dt;
         block.drive_angle += drive * dt;
         block.duration += dt;
+        // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
+        let length = block.duration;
+        if length + 0.5 * dt < self.settings.window / BLOCKS as f64 {
+            return;
+        }
+        self.current = (self.current + 1) % self.blocks.len();
+        self.blocks[self.current] = Block::EMPTY;
+        self.filled = (self.filled + 1).min(KEPT);
+        self.index = self.judge();
+        self.alarm.update(time, length, self.index, &self.settings.thresholds);
     }
 
-    /// The index over the window so far; 0 while half of the window is still empty or the drive is below the gate.
+    /// The index at the end of the last block; 0 while too little of the window is filled at the present set speed, or
+    /// the drive is below the gate.
     pub fn index(&self) -> f64 {
-        let mut total = Block::EMPTY;
-        for block in &self.blocks {
-            total.min = total.min.min(block.min);
-            total.max = total.max.max(block.max);
-            total.bit_angle += block.bit_angle;
-            total.drive_angle += block.drive_angle;
-            total.duration += block.duration;
-        }
-        if total.duration <= 0.0 || self.filled < BLOCKS / 2 {
-            return 0.0;
-        }
-        let drive = total.drive_angle.abs() / total.duration;
-        if drive < self.settings.gate_speed || drive == 0.0 {
-            return 0.0;
-        }
-        let mean = total.bit_angle * total.drive_angle.signum() / total.duration;
-        let index = (total.max - total.min) / (2.0 * mean.max(STUCK * drive));
-        if mean < STUCK * drive { index.max(1.0) } else { index }
+        self.index
     }
 
     /// The level that the index has reached.
@@ -169,8 +207,84 @@ impl StickSlip {
 
     fn empty(&mut self) {
         self.blocks.fill(Block::EMPTY);
-        (self.current, self.filled) = (0, 1);
+        (self.current, self.filled, self.index) = (0, 0, 0.0);
     }
+
+    /// Full blocks, the newest first.
+    fn newest(&self) -> impl Iterator<Item = &Block> + Clone {
+        let (length, current) = (self.blocks.len(), self.current);
+        (1..=self.filled).map(move |back| &self.blocks[(current + length - back) % length])
+    }
+
+    fn judge(&self) -> f64 {
+        let counted = if self.drive_swings() {
+            BLOCKS
+        } else {
+            self.same_set_speed()
+        };
+        if counted.min(self.filled) < FEWEST {
+            return 0.0;
+        }
+        let sum = |blocks: usize| self.newest().take(blocks).fold(Block::EMPTY, Block::with);
+        let (total, last) = (sum(counted), sum(STUCK_BLOCKS));
+        let drive = total.drive().abs();
+        let turns = |speed: f64| speed >= self.settings.gate_speed && speed > 0.0;
+        if !turns(drive) {
+            return 0.0;
+        }
+        let index = (total.max - total.min) / (2.0 * total.bit().max(STUCK * drive));
+        let now = last.drive().abs();
+        if turns(now) && last.bit() < STUCK * now {
+            index.max(1.0)
+        } else {
+            index
+        }
+    }
+
+    /// Newest blocks of the window in which the drive has had its present speed.
+    fn same_set_speed(&self) -> usize {
+        let mut newest = self.newest().take(BLOCKS).map(Block::drive);
+        let Some(now) = newest.next() else { return 0 };
+        1 + newest
+            .take_while(|speed| (speed - now).abs() <= SAME_SPEED * now.abs())
+            .count()
+    }
+
+    /// Whether what the drive's speed has gone through is a swing that returns.
+    fn drive_swings(&self) -> bool {
+        let speeds = self.newest().map(Block::drive);
+        let extremes = |(low, high): (f64, f64), speed: f64| (low.min(speed), high.max(speed));
+        let (low, high) = speeds.clone().fold((f64::MAX, f64::MIN), extremes);
+        let range = high - low;
+        // The largest size that the drive's speed has gone through often enough lies between these.
+        let (mut reached, mut missed) = (0.0, range);
+        for _ in 0..SEARCH {
+            let size = 0.5 * (reached + missed);
+            if swings(speeds.clone(), size) >= SWINGS {
+                reached = size;
+            } else {
+                missed = size;
+            }
+        }
+        reached >= SWINGING * range
+    }
+}
+
+/// How often `speeds` go through a range of `size`, up and down counted each.
+fn swings(speeds: impl Iterator<Item = f64>, size: f64) -> u32 {
+    let (mut low, mut high) = (f64::MAX, f64::MIN);
+    let (mut rising, mut count) = (None, 0);
+    for speed in speeds {
+        (low, high) = (low.min(speed), high.max(speed));
+        if rising != Some(true) && speed - low >= size {
+            (rising, high) = (Some(true), speed);
+            count += 1;
+        } else if rising != Some(false) && high - speed >= size {
+            (rising, low) = (Some(false), speed);
+            count += 1;
+        }
+    }
+    count
 }
 
 #[cfg(test)]
@@ -181,12 +295,13 @@ mod tests {
     /// Speed of the drive in the tests (rad/s), 40 r/min.
     const DRIVE: f64 = 4.19;
 
+    const DT: f64 = 5e-4;
+
     fn watched(drive: impl Fn(f64) -> f64, bit: impl Fn(f64) -> f64, seconds: f64) -> StickSlip {
         let mut watch = StickSlip::new(StickSlipSettings::default());
-        let dt = 5e-4;
-        for step in 0..(seconds / dt) as usize {
-            let time = step as f64 * dt;
-            watch.push(time, dt, bit(time), drive(time), true);
+        for step in 0..(seconds / DT) as usize {
+            let time = step as f64 * DT;
+            watch.push(time, DT, bit(time), drive(time), true);
         }
         watch
     }
@@ -195,8 +310,32 @@ mod tests {
         watched(|_| mean, |time| mean + amplitude * (TAU * 1.3 * time).sin(), seconds)
     }
 
+    /// The drive follows `points` (s, rad/s) in straight lines; the bit follows it with a ripple of 5 %. The highest level
+    /// and the largest index.
+    fn driven(points: &[(f64, f64)], seconds: f64) -> (Severity, f64) {
+        let drive = |time: f64| {
+            let after = points.iter().position(|point| point.0 > time).unwrap_or(points.len());
+            match (after.checked_sub(1).map(|before| points[before]), points.get(after)) {
+                (Some((t0, v0)), Some((t1, v1))) => v0 + (v1 - v0) * (time - t0) / (t1 - t0),
+                (Some((_, last)), None) => last,
+                (None, _) => points[0].1,
+            }
+        };
+        let mut watch = StickSlip::new(StickSlipSettings::default());
+        let (mut worst, mut most) = (Severity::Ok, 0.0_f64);
+        for step in 0..(seconds / DT) as usize {
+            let time = step as f64 * DT;
+            let bit = drive(time) * (1.0 + 0.05 * (TAU * 1.3 * time).sin());
+            watch.push(time, DT, bit, drive(time), true);
+            worst = worst.max(watch.severity());
+            most = most.max(watch.index());
+        }
+        (worst, most)
+    }
+
     #[test]
     fn sine_ripple_gives_amplitude_over_mean() {
+        // The window holds 13 periods and the mean is that of whole ones; steps cut the extremes by less.
         assert!((rippled(DRIVE, 0.5, 10.0).index() - 0.5 / DRIVE).abs() < 2e-3);
         let stopping = rippled(DRIVE, DRIVE, 10.0);
         assert!((stopping.index() - 1.0).abs() < 1e-2);
@@ -213,11 +352,81 @@ mod tests {
     }
 
     #[test]
-    fn running_up_is_no_stick_slip() {
-        let ramp = |time: f64| (0.5 * DRIVE * time).min(DRIVE);
-        for seconds in [1.6, 2.0, 3.0, 4.0, 5.0] {
-            let watch = watched(ramp, |time| ramp((time - 0.02).max(0.0)), seconds);
-            assert!(watch.index() < 0.05, "{} after {seconds} s", watch.index());
+    fn a_swing_of_the_drive_counts_in_full() {
+        let swing = |time: f64| DRIVE * (1.0 + 0.95 * (0.2 * TAU * time).sin());
+        let mut watch = StickSlip::new(StickSlipSettings::default());
+        let mut called = None;
+        for step in 0..(30.0 / DT) as usize {
+            let time = step as f64 * DT;
+            // Steady at first: the swing begins at 10 s.
+            let drive = if time < 10.0 { DRIVE } else { swing(time) };
+            watch.push(time, DT, drive, drive, true);
+            if watch.severity() == Severity::Warning {
+                called = called.or(Some(time - 10.0));
+            }
+            // Whole periods in the window: 0.95, which is just below the level of a bit that stops.
+            assert!(
+                time < 20.5 || (watch.index() - 0.95).abs() < 0.01,
+                "{} at {time}",
+                watch.index()
+            );
+        }
+        // Up, down, up, and half of the next way down.
+        assert!(called.is_some_and(|after| after < 8.75), "{called:?}");
+    }
+
+    #[test]
+    fn a_measured_bit_that_sticks_for_seconds_is_critical() {
+        // Stands for 3 s of every 6, then turns at twice the mean speed.
+        let sticking = |time: f64| if time % 6.0 < 3.0 { 0.0 } else { 2.0 * DRIVE };
+        let watch = watched(sticking, sticking, 40.0);
+        assert_eq!(watch.severity(), Severity::Critical);
+        assert!((0.9..1.6).contains(&watch.index()), "{}", watch.index());
+    }
+
+    #[test]
+    fn a_change_of_the_set_speed_is_no_stick_slip() {
+        let rpm = rpm_to_rad_per_s;
+        // 20 r/min per s each: slower, faster, stopped, a pause and back, and a driller who takes the speed back for a moment.
+        let cases: [&[(f64, f64)]; 5] = [
+            &[(12.0, rpm(60.0)), (14.5, rpm(10.0))],
+            &[(12.0, rpm(20.0)), (17.0, rpm(120.0))],
+            &[(12.0, rpm(60.0)), (15.0, 0.0)],
+            &[(12.0, rpm(60.0)), (15.0, 0.0), (18.0, 0.0), (21.0, rpm(60.0))],
+            &[
+                (12.0, rpm(60.0)),
+                (14.5, rpm(10.0)),
+                (16.0, rpm(10.0)),
+                (18.5, rpm(60.0)),
+            ],
+        ];
+        for points in cases {
+            let (worst, most) = driven(points, 45.0);
+            assert_eq!(worst, Severity::Ok, "{points:?}");
+            // The ripple of 5 %, and a change of a tenth within one set speed.
+            assert!(most < 0.12, "{most} with {points:?}");
+        }
+    }
+
+    #[test]
+    fn noise_of_a_measured_speed_hides_no_change_of_the_set_speed() {
+        // 60 r/min, then 10, with 4 % of noise that changes every second: held, as a log of 1 Hz.
+        let mut seed = 9_u32;
+        let noise: Vec<f64> = (0..60)
+            .map(|_| {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                0.08 * (f64::from(seed >> 8) / f64::from(1 << 24) - 0.5)
+            })
+            .collect();
+        let drive = |time: f64| {
+            let set = (60.0 - 20.0 * (time - 30.0).max(0.0)).max(10.0);
+            rpm_to_rad_per_s(set) * (1.0 + noise[time as usize])
+        };
+        let mut watch = StickSlip::new(StickSlipSettings::default());
+        for step in 0..(60.0 / DT) as usize {
+            let time = step as f64 * DT;
+            watch.push(time, DT, drive(time), drive(time), true);
+            assert_eq!(watch.severity(), Severity::Ok, "{} at {time}", watch.index());
         }
     }
 
@@ -225,10 +434,10 @@ mod tests {
     fn nothing_is_judged_before_the_drive_turns_steadily() {
         let mut watch = StickSlip::new(StickSlipSettings::default());
         for step in 0..20_000 {
-            let time = f64::from(step) * 5e-4;
+            let time = f64::from(step) * DT;
             // The bit sticks for 2 s, then springs forward, while the tool is run up.
             let bit = if time < 2.0 { 0.0 } else { 4.0 * DRIVE };
-            watch.push(time, 5e-4, bit, DRIVE, time > 4.0);
+            watch.push(time, DT, bit, DRIVE, time > 4.0);
             assert!(
                 time > 5.4 || (watch.index() == 0.0 && watch.severity() == Severity::Ok),
                 "{time}"
@@ -239,9 +448,12 @@ mod tests {
 
     #[test]
     fn a_stuck_bit_is_seen_although_its_own_speed_is_nothing() {
-        let stuck = watched(|_| DRIVE, |time| if time < 5.0 { DRIVE } else { 0.0 }, 12.0);
-        assert!(stuck.index() >= 1.0, "{}", stuck.index());
-        assert_eq!(stuck.severity(), Severity::Critical);
+        let stops = |time: f64| if time < 5.0 { DRIVE } else { 0.0 };
+        // After 1 s in which it stands, and the rest of a block.
+        let stuck = watched(|_| DRIVE, stops, 6.2);
+        assert_eq!(stuck.severity(), Severity::Critical, "{}", stuck.index());
+        let for_long = watched(|_| DRIVE, stops, 40.0);
+        assert!(for_long.index() >= 1.0, "{}", for_long.index());
         // Sticks for 2 s, then slips through what the drive has wound up.
         let slipping = watched(|_| DRIVE, |time| if time % 2.5 < 2.0 { 0.0 } else { 5.0 * DRIVE }, 12.0);
         assert!(slipping.index() > 2.0, "{}", slipping.index());
@@ -251,7 +463,7 @@ mod tests {
     fn forgets_what_left_the_window() {
         let mut watch = StickSlip::new(StickSlipSettings::default());
         watch.push(0.0, 1e-3, 100.0, 4.0, true);
-        for _ in 0..4000 {
+        for _ in 0..11_000 {
             watch.push(0.0, 1e-3, 4.0, 4.0, true);
         }
         assert_eq!(watch.index(), 0.0);

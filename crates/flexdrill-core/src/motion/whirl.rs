@@ -15,6 +15,7 @@ use super::severity::{Elapsed, Evidence};
 use super::tool_level::Lead;
 use super::watched_station::{Circumstances, StationWatch};
 use super::{Severity, StationSample, WatchedStation, WhirlKind, WhirlReport, WhirlWarningLevel};
+use crate::tool::description::Body;
 
 /// Part of the long window that must be filled before anything is said.
 const MIN_FILL: f64 = 0.5;
@@ -56,6 +57,7 @@ pub struct WhirlAnalysis {
     backward: Lead,
     forward: Lead,
     level: WhirlWarningLevel,
+    chaotic_share: f64,
     #[serde(skip, default = "Points::new")]
     points: Points,
     #[serde(skip, default = "FullSpectrum::new")]
@@ -86,6 +88,7 @@ impl WhirlAnalysis {
             backward: Lead::default(),
             forward: Lead::default(),
             level: WhirlWarningLevel::default(),
+            chaotic_share: 0.0,
             points: Points::new(),
             spectrum: FullSpectrum::new(),
         }
@@ -114,7 +117,13 @@ impl WhirlAnalysis {
         }
         self.last_time = Some(time);
         let elapsed = steps.clamp(1.0, longest) * self.sample_interval;
-        self.drive.update(elapsed, rotary_speed, self.settings.min_rotary_speed);
+        let WhirlSettings {
+            min_rotary_speed,
+            standstill_time,
+            ..
+        } = self.settings;
+        self.drive
+            .update(elapsed, rotary_speed, min_rotary_speed, standstill_time);
         self.store(rotary_speed, samples, 1.0);
         for (watch, sample) in self.watches.iter_mut().zip(samples) {
             watch.last = *sample;
@@ -128,6 +137,7 @@ impl WhirlAnalysis {
             self.next_watch = (self.next_watch + 1) % self.watches.len();
         }
         if evaluated > 0 {
+            self.chaotic_share = chaotic_share(&self.watches);
             self.backward.update(time, elapsed, WhirlKind::Backward, &self.watches);
             self.forward.update(time, elapsed, WhirlKind::Forward, &self.watches);
             self.level
@@ -235,6 +245,11 @@ impl WhirlAnalysis {
         self.drive.state
     }
 
+    /// Part of the watched places of the pipe that move chaotically, 0 to 1; 0 where none is watched.
+    pub fn chaotic_share(&self) -> f64 {
+        self.chaotic_share
+    }
+
     /// How backward whirl stands, at its worst place.
     pub fn backward(&self) -> Hazard {
         let kind = HazardKind::BackwardWhirl;
@@ -264,6 +279,7 @@ impl WhirlAnalysis {
         self.rotary_speed = 0.0;
         self.drive = DriveWatch::default();
         (self.backward, self.forward) = (Lead::default(), Lead::default());
+        self.chaotic_share = 0.0;
         (self.next_watch, self.due) = (0, 0.0);
         let changed = u64::from(self.level.severity != Severity::Ok);
         self.level = WhirlWarningLevel {
@@ -441,4 +457,13 @@ impl WhirlAnalysis {
             .into_iter()
             .fold(0.0, f64::max)
     }
+}
+
+/// As [`WhirlAnalysis::chaotic_share`].
+fn chaotic_share(watches: &[StationWatch]) -> f64 {
+    let pipes = watches.iter().filter(|watch| watch.station.body == Body::Pipe);
+    let (places, chaotic) = pipes.fold((0_u32, 0_u32), |(places, chaotic), watch| {
+        (places + 1, chaotic + u32::from(watch.kind == WhirlKind::Chaotic))
+    });
+    f64::from(chaotic) / f64::from(places.max(1))
 }

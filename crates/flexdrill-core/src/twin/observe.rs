@@ -12,8 +12,9 @@ use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Layer, gap};
 use crate::model::Model;
 use crate::motion::{
-    AgeingWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation, JointLoadWatch,
-    RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings, ended,
+    AgeingWatch, ChaoticWhirlWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation,
+    JointLoadWatch, RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings,
+    ended,
 };
 use crate::tool::description::{Body, Direction, JointKind};
 
@@ -28,6 +29,7 @@ pub(super) struct Observer {
     stick_slip: StickSlip,
     shock: ShockWatch,
     joint_load: JointLoadWatch,
+    chaotic_whirl: ChaoticWhirlWatch,
     ageing: AgeingWatch,
     whirl: WhirlAnalysis,
     quality: QualityWatch,
@@ -65,6 +67,11 @@ impl Observer {
             stick_slip: StickSlip::new(settings.stick_slip),
             shock: ShockWatch::new(&settings.shock, stations),
             joint_load: JointLoadWatch::new(&settings.joint_load, model.joints.len()),
+            chaotic_whirl: ChaoticWhirlWatch::new(
+                &settings.chaotic_whirl,
+                model.stations[model.last()].depth,
+                stations,
+            ),
             ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),
             quality: QualityWatch::new(settings.step),
@@ -121,6 +128,7 @@ impl Observer {
         self.stick_slip.reset();
         self.shock.reset();
         self.joint_load.reset();
+        self.chaotic_whirl.reset();
         self.ageing.reset();
         self.whirl.reset();
         self.quality.reset();
@@ -151,6 +159,9 @@ impl Observer {
             for (station, touch) in touches.iter() {
                 statistics.touch(station, dt, touch.normal);
                 self.shock.push(layer, station, dt, touch.normal);
+                if layer == 0 {
+                    self.chaotic_whirl.push(station, touch.dissipation * dt);
+                }
                 self.ageing.rub(layer, station, touch.friction_power * dt);
             }
             statistics.advance(dt);
@@ -162,6 +173,8 @@ impl Observer {
             self.ageing.stop(joint, dt, stop.moment);
         }
         self.joint_load.advance(time, dt, judged);
+        let (taken, share) = (stepper.audit().contact_damping, self.whirl.chaotic_share());
+        self.chaotic_whirl.advance(time, dt, taken, share, judged);
 
         let bottom = stepper.bottom_motion();
         let radius = 0.5 * model.description.bit.diameter;
@@ -307,7 +320,7 @@ impl Observer {
                 inclination: at.inclination,
             })
         };
-        let shock = self.shock.level();
+        let (shock, chaotic) = (self.shock.level(), self.chaotic_whirl.level());
         let (joint_load, joint_settings) = (self.joint_load.level(), self.joint_load.settings());
         let list = HazardKind::ALL.map(|kind| match kind {
             HazardKind::BackwardWhirl => self.whirl.backward(),
@@ -346,6 +359,14 @@ impl Observer {
                 since: joint_load.since,
                 seen: joint_load.seen,
                 ended: joint_load.ended,
+                ..Hazard::calm(kind)
+            },
+            HazardKind::ChaoticWhirl => Hazard {
+                severity: chaotic.severity,
+                place: place(chaotic.station, Body::Pipe),
+                value: chaotic.power,
+                threshold: self.chaotic_whirl.settings().thresholds.of(chaotic.severity),
+                since: chaotic.since,
                 ..Hazard::calm(kind)
             },
         });

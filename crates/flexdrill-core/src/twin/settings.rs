@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::step_choice::StepRule;
 use crate::dynamics::Scheme;
 use crate::inputs::Inputs;
-use crate::motion::{AgeingSettings, JointLoadSettings, ShockSettings, StickSlipSettings, WhirlSettings};
+use crate::motion::{
+    AgeingSettings, ChaoticWhirlSettings, JointLoadSettings, ShockSettings, StickSlipSettings, WhirlSettings,
+};
 use crate::tool::Body;
 use crate::units::{kn_to_n, rpm_to_rad_per_s};
 
@@ -36,6 +38,8 @@ pub struct SimulationSettings {
     pub shock: ShockSettings,
     /// How the load of the joints' stops is judged.
     pub joint_load: JointLoadSettings,
+    /// How chaotic whirl is judged.
+    pub chaotic_whirl: ChaoticWhirlSettings,
     /// How load cycles are counted as damage.
     pub ageing: AgeingSettings,
     /// Stations and pipes whose orbits are watched; empty watches both pipes at every joint.
@@ -61,6 +65,7 @@ impl Default for SimulationSettings {
             stick_slip: StickSlipSettings::default(),
             shock: ShockSettings::default(),
             joint_load: JointLoadSettings::default(),
+            chaotic_whirl: ChaoticWhirlSettings::default(),
             ageing: AgeingSettings::default(),
             watched: Vec::new(),
             whirl_sample_interval: 1.0 / 250.0,

@@ -3,7 +3,8 @@
 use super::settings::SimulationSettings;
 use crate::dynamics::Scheme;
 use crate::motion::{
-    AlarmThresholds, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings, WhirlSettings,
+    AlarmThresholds, ChaoticWhirlSettings, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings,
+    WhirlSettings,
 };
 use crate::validation::{Bound, ValidationError, count, require};
 
@@ -35,6 +36,7 @@ impl SimulationSettings {
         self.stick_slip.validate()?;
         self.shock.validate()?;
         self.joint_load.validate()?;
+        self.chaotic_whirl.validate()?;
         Bound::Within(1.0, 20.0).check("ageing.slope", self.ageing.slope, "")?;
         Bound::Positive.check("ageing.rated_moment", self.ageing.rated_moment, "N m")?;
         for (index, &(station, _)) in self.watched.iter().enumerate() {
@@ -86,7 +88,11 @@ impl WhirlSettings {
             ("evaluation_interval", self.evaluation_interval),
         ];
         Bound::Above(0.0, LONGEST).check_all("whirl", &times, "s")?;
-        let times = [("max_bridged_gap", self.max_bridged_gap), ("hold_off", self.hold_off)];
+        let times = [
+            ("max_bridged_gap", self.max_bridged_gap),
+            ("hold_off", self.hold_off),
+            ("standstill_time", self.standstill_time),
+        ];
         Bound::Within(0.0, LONGEST).check_all("whirl", &times, "s")?;
         Bound::NotNegative.check("whirl.min_rotary_speed", self.min_rotary_speed, "rad/s")?;
         let shares = [
@@ -155,6 +161,13 @@ impl JointLoadSettings {
         Bound::Positive.check("joint_load.rated_moment", self.rated_moment, "N m")?;
         Bound::Above(0.0, LONGEST).check("joint_load.interval", self.interval, "s")?;
         self.thresholds.validate("joint_load.thresholds", "")
+    }
+}
+
+impl ChaoticWhirlSettings {
+    fn validate(&self) -> Checked {
+        Bound::Above(0.0, LONGEST).check("chaotic_whirl.window", self.window, "s")?;
+        self.thresholds.validate("chaotic_whirl.thresholds", "W/m")
     }
 }
 

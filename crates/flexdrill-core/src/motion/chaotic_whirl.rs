@@ -1,0 +1,231 @@
+//! Chaotic whirl: the pipe is thrown about in the guide without direction, judged by what its collisions take.
+//!
+//! The measure is the power of all collisions per metre of the tool, from the energy audit, times the part of the watched
+//! places at which the pipe moves chaotically. Power alone does not tell thrown motion from fast drilling: it goes with
+//! the square of the speed. Motion alone does not tell either: a few places are chaotic in steady drilling, and their
+//! blows are weak.
+
+use serde::{Deserialize, Serialize};
+
+use super::Severity;
+use super::hysteresis::{Alarm, AlarmThresholds};
+
+/// The window moves by one of these parts.
+const BLOCKS: usize = 6;
+
+/// How chaotic whirl is judged.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ChaoticWhirlSettings {
+    /// Time over which the power is averaged (s): two turns at 40 r/min, so that a blow once per turn counts as often as
+    /// it comes, and a single one is none.
+    pub window: f64,
+    /// Levels of the power of the collisions per metre of the tool, times the part of the pipe that moves chaotically
+    /// (W/m). `docs/whirl.md` has the runs that they come from.
+    pub thresholds: AlarmThresholds,
+}
+
+impl Default for ChaoticWhirlSettings {
+    fn default() -> Self {
+        Self {
+            window: 3.0,
+            thresholds: AlarmThresholds {
+                levels: [0.6, 2.0, 6.0],
+                hysteresis: 0.15,
+                hold_off: 5.0,
+            },
+        }
+    }
+}
+
+/// How the pipe is thrown about.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct ChaoticWhirlLevel {
+    /// Level.
+    pub severity: Severity,
+    /// Power that collisions took in the last window, per metre of the tool and times the chaotic part of it (W/m).
+    pub power: f64,
+    /// Part of the watched places of the pipe that move chaotically, 0 to 1, on average over the last part of the window.
+    pub share: f64,
+    /// Station at which collisions of the pipe take most, from the top.
+    pub station: usize,
+    /// Model time at which the level was reached (s).
+    pub since: f64,
+}
+
+/// Watches what collisions take from a pipe that moves chaotically.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ChaoticWhirlWatch {
+    settings: ChaoticWhirlSettings,
+    /// Of the tool (m).
+    length: f64,
+    /// Energy taken from the whole tool in each part of the window, times the chaotic part of it (J).
+    blocks: [f64; BLOCKS],
+    current: usize,
+    elapsed: f64,
+    /// Integral of the chaotic part of the pipe since the end of the last part of the window (s).
+    share_time: f64,
+    /// Energy that collisions of the pipe took at each station (J), what is a window old down to a third.
+    at: Vec<f64>,
+    /// By the audit, at the end of the last step (J).
+    taken: f64,
+    alarm: Alarm,
+    level: ChaoticWhirlLevel,
+}
+
+impl ChaoticWhirlWatch {
+    /// For a tool of that length (m) and that many stations.
+    pub fn new(settings: &ChaoticWhirlSettings, length: f64, stations: usize) -> Self {
+        Self {
+            settings: *settings,
+            length,
+            blocks: [0.0; BLOCKS],
+            current: 0,
+            elapsed: 0.0,
+            share_time: 0.0,
+            at: vec![0.0; stations],
+            taken: 0.0,
+            alarm: Alarm::default(),
+            level: ChaoticWhirlLevel::default(),
+        }
+    }
+
+    /// Takes the energy (J) that the collision of the pipe with the guide took at a station in a step. It decides where the
+    /// motion is worst, not how bad it is.
+    pub fn push(&mut self, station: usize, energy: f64) {
+        self.at[station] += energy;
+    }
+
+    /// Ends a step of `dt` (s) at model time `time` (s); `taken` (J) is what collisions have taken since the start,
+    /// `share` the part of the pipe that moves chaotically, 0 to 1. While the drive does not turn steadily (`judged` is
+    /// false) nothing counts, and the window starts anew.
+    pub fn advance(&mut self, time: f64, dt: f64, taken: f64, share: f64, judged: bool) {
+        let energy = taken - std::mem::replace(&mut self.taken, taken);
+        if judged {
+            self.blocks[self.current] += energy * share;
+        } else {
+            (self.blocks, self.current, self.level.power) = Default::default();
+        }
+        self.elapsed += dt;
+        self.share_time += share * dt;
+        // Half a step of slack, so that rounding in the sum does not make parts of different lengths.
+        if self.elapsed + 0.5 * dt < self.settings.window / BLOCKS as f64 {
+            return;
+        }
+        let elapsed = std::mem::take(&mut self.elapsed);
+        self.level.share = std::mem::take(&mut self.share_time) / elapsed;
+        if judged {
+            // A window that is not full yet gives less, never more: what is violent is called before it is full.
+            let sum: f64 = self.blocks.iter().sum();
+            self.level.power = sum / (self.settings.window * self.length);
+            self.current = (self.current + 1) % BLOCKS;
+            self.blocks[self.current] = 0.0;
+        }
+        self.find_worst();
+        self.alarm
+            .update(time, elapsed, self.level.power, &self.settings.thresholds);
+        (self.level.severity, self.level.since) = (self.alarm.severity(), self.alarm.since());
+    }
+
+    fn find_worst(&mut self) {
+        let mut most = 0.0;
+        for (station, energy) in self.at.iter_mut().enumerate() {
+            if *energy > most {
+                (most, self.level.station) = (*energy, station);
+            }
+            *energy *= 1.0 - 1.0 / BLOCKS as f64;
+        }
+    }
+
+    /// How the pipe is thrown about.
+    pub fn level(&self) -> ChaoticWhirlLevel {
+        self.level
+    }
+
+    /// The thresholds in use.
+    pub fn settings(&self) -> &ChaoticWhirlSettings {
+        &self.settings
+    }
+
+    /// Forgets everything but the settings; the audit starts at zero too.
+    pub fn reset(&mut self) {
+        self.at.fill(0.0);
+        (self.blocks, self.current) = Default::default();
+        (self.elapsed, self.share_time, self.taken) = (0.0, 0.0, 0.0);
+        self.alarm = Alarm::default();
+        self.level = ChaoticWhirlLevel::default();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT: f64 = 1e-3;
+    const LENGTH: f64 = 5.0;
+    const SHARE: f64 = 0.5;
+
+    struct Fed {
+        watch: ChaoticWhirlWatch,
+        taken: f64,
+        time: f64,
+    }
+
+    impl Fed {
+        fn new() -> Self {
+            Self {
+                watch: ChaoticWhirlWatch::new(&ChaoticWhirlSettings::default(), LENGTH, 4),
+                taken: 0.0,
+                time: 0.0,
+            }
+        }
+
+        /// Collisions take `power` (W/m) for some seconds, most of it at station 2, and half of the pipe is chaotic.
+        fn run(&mut self, seconds: f64, power: f64, judged: bool) -> ChaoticWhirlLevel {
+            for _ in 0..(seconds / DT).round() as u32 {
+                let energy = power * LENGTH * DT;
+                self.time += DT;
+                self.taken += energy;
+                self.watch.push(1, 0.4 * energy);
+                self.watch.push(2, 0.6 * energy);
+                self.watch.advance(self.time, DT, self.taken, SHARE, judged);
+            }
+            self.watch.level()
+        }
+    }
+
+    #[test]
+    fn power_over_the_window_times_the_chaotic_part_and_its_place() {
+        let [watch, warning, critical] = ChaoticWhirlSettings::default()
+            .thresholds
+            .levels
+            .map(|level| level / SHARE);
+        let mut fed = Fed::new();
+        assert_eq!(fed.run(10.0, 0.9 * watch, true).severity, Severity::Ok);
+        let level = fed.run(4.0, 1.1 * warning, true);
+        assert_eq!((level.severity, level.station), (Severity::Warning, 2));
+        // Sums of steps of a millisecond.
+        assert!((level.power / (1.1 * warning * SHARE) - 1.0).abs() < 1e-6, "{level:?}");
+        assert!((level.share - SHARE).abs() < 1e-9, "{level:?}");
+        assert_eq!(fed.run(4.0, 1.1 * critical, true).severity, Severity::Critical);
+        // What is ten times as violent is called after two of the six parts of the window.
+        assert_eq!(Fed::new().run(1.1, 10.0 * critical, true).severity, Severity::Critical);
+        // Gone, and the window and the hold-off over.
+        assert_eq!(fed.run(12.0, 0.0, true).severity, Severity::Ok);
+    }
+
+    #[test]
+    fn one_blow_is_no_chaotic_whirl() {
+        let mut fed = Fed::new();
+        fed.run(5.0, 0.1, true);
+        // 10 J at once: a link of 2.8 kg that is stopped from 2.7 m/s.
+        fed.taken += 10.0;
+        assert_eq!(fed.run(5.0, 0.1, true).severity, Severity::Ok);
+    }
+
+    #[test]
+    fn nothing_counts_while_the_tool_is_run_up() {
+        let mut fed = Fed::new();
+        assert_eq!(fed.run(20.0, 1e4, false).severity, Severity::Ok);
+        assert_eq!(fed.run(20.0, 0.1, true).severity, Severity::Ok);
+    }
+}
