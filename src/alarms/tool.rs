@@ -219,13 +219,19 @@ fn words(hazard: &Hazard) -> Words {
         },
         HazardKind::ChaoticWhirl => Words {
             unit: "W/m",
-            evidence: format!(
-                "The flexible pipe is thrown about in the guide without direction; its collisions take {value:.1} W per \
-                 metre and are hardest{at}."
-            ),
-            cause: "Friction between pipe and guide throws the pipe about at this speed.",
-            consequence: "Blows all along the tool: fatigue of the joints, loosened connections, damaged instruments."
+            evidence: match value(1) {
+                Some(power) => {
+                    format!(
+                        "Chaotic whirl of the pipe, hardest{at}: its collisions take {power} W per metre of the tool"
+                    )
+                }
+                None => format!("Chaotic whirl of the pipe, hardest{at}"),
+            },
+            cause: "Friction between pipe and guide throws the pipe about without direction.",
+            consequence: "Blows all along the tool; joint fatigue, loosened connections, damaged instruments"
                 .to_owned(),
+            engineer: "Add lubricant to the mud. Compare with a downhole vibration log. At the next trip inspect joints and \
+                       connections along the whole tool.",
         },
     }
 }

@@ -13,6 +13,8 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
 /// Model time that is passed over at the start of a run (s): the run-up to 120 r/min and the first turns.
 const SETTLED: f64 = 8.0;
+/// Looks over which the power is averaged: 3 s, as the hazard does by default.
+const WINDOW: usize = 30;
 /// Time between two looks (s).
 const LOOK: f64 = 0.1;
 
@@ -64,7 +66,10 @@ fn row(case: &Case) -> Result<String> {
     twin.set_live(live)?;
     let length = twin.stations().last().map_or(1.0, |station| station.measured_depth);
     let mut snapshot = twin.new_snapshot();
-    let (mut looks, mut chaotic, mut before) = (0_u32, 0, 0.0);
+    let joints = twin.joint_stations().len() as f64;
+    let (mut looks, mut chaotic, mut before, mut taken) = (0_u32, 0, 0.0, 0.0);
+    // Of the chaotic part, look by look (W/m).
+    let mut powers = vec![];
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     let mut changes = vec![];
     let mut levels = [Severity::Ok; HazardKind::ALL.len()];
@@ -87,16 +92,20 @@ fn row(case: &Case) -> Result<String> {
                 changes.push(format!("{} {level} {:.1} s", hazard.kind.name(), snapshot.time));
             }
         }
+        let places = snapshot.whirl.kind.iter().zip(&snapshot.whirl.body);
+        let thrown = places
+            .filter(|&(&kind, &body)| kind == WhirlKind::Chaotic && body == Body::Pipe)
+            .count();
+        let power = (snapshot.energy.contact_damping - taken) / LOOK / length;
+        powers.push(power * thrown as f64 / joints);
+        taken = snapshot.energy.contact_damping;
         if next < SETTLED {
-            before = snapshot.energy.contact_damping;
+            before = taken;
             continue;
         }
         looks += 1;
-        let places = snapshot.whirl.kind.iter().zip(&snapshot.whirl.body);
-        chaotic += places
-            .filter(|&(&kind, &body)| kind == WhirlKind::Chaotic && body == Body::Pipe)
-            .count();
-        let power = snapshot.hazards.of(HazardKind::ChaoticWhirl).value;
+        chaotic += thrown;
+        let power = powers[powers.len() - WINDOW..].iter().sum::<f64>() / WINDOW as f64;
         (least, most) = (least.min(power), most.max(power));
     }
     let seconds = f64::from(looks.max(1)) * LOOK;

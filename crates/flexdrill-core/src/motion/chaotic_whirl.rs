@@ -8,6 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
+use super::hazards::ended;
 use super::hysteresis::{Alarm, AlarmThresholds};
 
 /// The window moves by one of these parts.
@@ -42,12 +43,18 @@ impl Default for ChaoticWhirlSettings {
 pub struct ChaoticWhirlLevel {
     /// Level.
     pub severity: Severity,
-    /// Power that collisions took in the last window, per metre of the tool and times the chaotic part of it (W/m).
+    /// Power that collisions took in a window, per metre of the tool and times the chaotic part of it (W/m): the largest
+    /// since the level was reached, that of the last window while all is well.
     pub power: f64,
-    /// Part of the watched places of the pipe that move chaotically, 0 to 1, on average over the last part of the window.
+    /// Part of the watched places of the pipe that moved chaotically then, 0 to 1.
     pub share: f64,
     /// Station at which collisions of the pipe take most, from the top.
     pub station: usize,
+    /// Model time of power, share and station (s).
+    pub seen: f64,
+    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](super::ENDED_AFTER) ago. None
+    /// while it is held, and while all is well.
+    pub ended: Option<f64>,
     /// Model time at which the level was reached (s).
     pub since: f64,
 }
@@ -103,7 +110,7 @@ impl ChaoticWhirlWatch {
         if judged {
             self.blocks[self.current] += energy * share;
         } else {
-            (self.blocks, self.current, self.level.power) = Default::default();
+            (self.blocks, self.current) = Default::default();
         }
         self.elapsed += dt;
         self.share_time += share * dt;
@@ -112,28 +119,37 @@ impl ChaoticWhirlWatch {
             return;
         }
         let elapsed = std::mem::take(&mut self.elapsed);
-        self.level.share = std::mem::take(&mut self.share_time) / elapsed;
-        if judged {
-            // A window that is not full yet gives less, never more: what is violent is called before it is full.
-            let sum: f64 = self.blocks.iter().sum();
-            self.level.power = sum / (self.settings.window * self.length);
-            self.current = (self.current + 1) % BLOCKS;
-            self.blocks[self.current] = 0.0;
+        let share = std::mem::take(&mut self.share_time) / elapsed;
+        // A window that is not full yet gives less, never more: what is violent is called before it is full.
+        let power = self.blocks.iter().sum::<f64>() / (self.settings.window * self.length);
+        self.current = (self.current + 1) % BLOCKS;
+        self.blocks[self.current] = 0.0;
+        let station = self.worst_station();
+        self.alarm.update(time, elapsed, power, &self.settings.thresholds);
+        let now = self.alarm.severity();
+        if now == Severity::Ok || self.alarm.worst_at() == time {
+            self.level = ChaoticWhirlLevel {
+                power,
+                share,
+                station,
+                seen: time,
+                ..self.level
+            };
         }
-        self.find_worst();
-        self.alarm
-            .update(time, elapsed, self.level.power, &self.settings.thresholds);
-        (self.level.severity, self.level.since) = (self.alarm.severity(), self.alarm.since());
+        (self.level.severity, self.level.since) = (now, self.alarm.since());
+        self.level.ended = ended(now, self.alarm.met(), time);
     }
 
-    fn find_worst(&mut self) {
-        let mut most = 0.0;
+    /// Station at which collisions of the pipe take most; what they took fades by a part of the window.
+    fn worst_station(&mut self) -> usize {
+        let mut worst = (0.0, 0);
         for (station, energy) in self.at.iter_mut().enumerate() {
-            if *energy > most {
-                (most, self.level.station) = (*energy, station);
+            if *energy > worst.0 {
+                worst = (*energy, station);
             }
             *energy *= 1.0 - 1.0 / BLOCKS as f64;
         }
+        worst.1
     }
 
     /// How the pipe is thrown about.

@@ -82,6 +82,9 @@ pub struct StickSlip {
     /// Full blocks before the current one.
     filled: usize,
     index: f64,
+    /// The last index that could be formed, and how long none could be formed since (s).
+    last: f64,
+    unknown_for: f64,
     alarm: Alarm,
 }
 
@@ -135,6 +138,8 @@ impl StickSlip {
             current: 0,
             filled: 0,
             index: 0.0,
+            last: 0.0,
+            unknown_for: 0.0,
             alarm: Alarm::default(),
         }
     }
@@ -164,8 +169,18 @@ impl StickSlip {
         self.current = (self.current + 1) % self.blocks.len();
         self.blocks[self.current] = Block::EMPTY;
         self.filled = (self.filled + 1).min(KEPT);
-        self.index = self.judge();
-        self.alarm.update(time, length, self.index, &self.settings.thresholds);
+        // A change of the set speed neither raises a level nor ends one, for as long as a window at most.
+        let judged = self.judge();
+        if let Some(index) = judged {
+            (self.last, self.unknown_for) = (index, 0.0);
+        } else {
+            self.unknown_for += length;
+            if self.unknown_for > self.settings.window {
+                self.last = 0.0;
+            }
+        }
+        self.index = judged.unwrap_or(0.0);
+        self.alarm.update(time, length, self.last, &self.settings.thresholds);
     }
 
     /// The index at the end of the last block; 0 while too little of the window is filled at the present set speed, or
@@ -208,6 +223,7 @@ impl StickSlip {
     fn empty(&mut self) {
         self.blocks.fill(Block::EMPTY);
         (self.current, self.filled, self.index) = (0, 0, 0.0);
+        (self.last, self.unknown_for) = (0.0, 0.0);
     }
 
     /// Full blocks, the newest first.
@@ -216,29 +232,27 @@ impl StickSlip {
         (1..=self.filled).map(move |back| &self.blocks[(current + length - back) % length])
     }
 
-    fn judge(&self) -> f64 {
+    /// The index; none while there is too little of the present set speed.
+    fn judge(&self) -> Option<f64> {
         let counted = if self.drive_swings() {
             BLOCKS
         } else {
             self.same_set_speed()
         };
         if counted.min(self.filled) < FEWEST {
-            return 0.0;
+            return None;
         }
         let sum = |blocks: usize| self.newest().take(blocks).fold(Block::EMPTY, Block::with);
         let (total, last) = (sum(counted), sum(STUCK_BLOCKS));
         let drive = total.drive().abs();
         let turns = |speed: f64| speed >= self.settings.gate_speed && speed > 0.0;
         if !turns(drive) {
-            return 0.0;
+            return Some(0.0);
         }
         let index = (total.max - total.min) / (2.0 * total.bit().max(STUCK * drive));
         let now = last.drive().abs();
-        if turns(now) && last.bit() < STUCK * now {
-            index.max(1.0)
-        } else {
-            index
-        }
+        let stuck = turns(now) && last.bit() < STUCK * now;
+        Some(if stuck { index.max(1.0) } else { index })
     }
 
     /// Newest blocks of the window in which the drive has had its present speed.
@@ -405,6 +419,21 @@ mod tests {
             assert_eq!(worst, Severity::Ok, "{points:?}");
             // The ripple of 5 %, and a change of a tenth within one set speed.
             assert!(most < 0.12, "{most} with {points:?}");
+        }
+    }
+
+    #[test]
+    fn a_change_of_the_set_speed_ends_no_stick_slip() {
+        // The bit stops twice a second at 40 r/min and at 55 r/min; the drive goes from one to the other at 20 r/min per s.
+        let drive = |time: f64| rpm_to_rad_per_s((40.0 + 20.0 * (time - 20.0).max(0.0)).min(55.0));
+        let mut watch = StickSlip::new(StickSlipSettings::default());
+        for step in 0..(30.0 / DT) as usize {
+            let time = step as f64 * DT;
+            let bit = drive(time) * (1.0 + 1.05 * (2.0 * TAU * time).sin());
+            watch.push(time, DT, bit, drive(time), true);
+            assert!(time < 5.0 || watch.severity() == Severity::Critical, "{time}");
+            // The condition of the level counts as met all the time.
+            assert!(time < 5.0 || time - watch.met() < 0.2, "{time}");
         }
     }
 

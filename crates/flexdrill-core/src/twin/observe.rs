@@ -367,6 +367,8 @@ impl Observer {
                 value: chaotic.power,
                 threshold: self.chaotic_whirl.settings().thresholds.of(chaotic.severity),
                 since: chaotic.since,
+                seen: chaotic.seen,
+                ended: chaotic.ended,
                 ..Hazard::calm(kind)
             },
         });
