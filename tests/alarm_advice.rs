@@ -90,6 +90,15 @@ const JOINT_LOAD: Case = Case {
     within: [25.0, 20.0],
 };
 
+const CHAOTIC_WHIRL: Case = Case {
+    alarm: AlarmId::ChaoticWhirl,
+    priority: Alarm::MEDIUM,
+    friction: 0.7,
+    at: [80.0, 10.0],
+    followed: &[[48.0, 10.0]],
+    within: [15.0, 25.0],
+};
+
 /// What came of it.
 struct Outcome {
     /// Model time at which the alarm stood, and from following the advice to the end of the condition and of the alarm
@@ -251,11 +260,23 @@ fn less_weight_ends_joint_load() {
     holds(&JOINT_LOAD);
 }
 
+#[test]
+fn less_speed_ends_chaotic_whirl() {
+    holds(&CHAOTIC_WHIRL);
+}
+
 /// The table of `docs/alarms.md`.
 #[test]
 #[ignore = "several minutes"]
 fn table_of_all_rules_with_three_starts() {
-    for case in [BACKWARD_WHIRL, FORWARD_WHIRL, SHOCK, STICK_SLIP, JOINT_LOAD] {
+    for case in [
+        BACKWARD_WHIRL,
+        FORWARD_WHIRL,
+        SHOCK,
+        STICK_SLIP,
+        JOINT_LOAD,
+        CHAOTIC_WHIRL,
+    ] {
         for start in [0.0, 5.0, -5.0] {
             print(&case, start, &run(&case, start));
         }
