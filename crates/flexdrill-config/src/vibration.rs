@@ -19,7 +19,7 @@ section! {
         /// Window of the index (s). Swings of up to this period are judged.
         window: f64 = StickSlipSettings::default().window, within(0.1, 60.0), "s",
             "must hold a period of the swing; longer than a minute warns too late";
-        /// Speed of the drive below which the index is 0: 10, a quarter of 40 r/min (1.05 rad/s is 10.03 r/min).
+        /// Mean speed of the drive below which the index is 0 (1.15 rad/s is 10.98 r/min).
         gate_speed_rpm: f64 = rad_per_s_to_rpm(StickSlipSettings::default().gate_speed).round(),
             within(0.0, 1000.0), "r/min", "near standstill the quotient means nothing";
         /// A level is left below threshold x (1 - hysteresis).

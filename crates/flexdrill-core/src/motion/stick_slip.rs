@@ -47,8 +47,8 @@ pub struct StickSlipSettings {
     /// Length of the window (s). A string that is held at its top swings at c / 4 L with c = 3177 m/s: at 0.8 Hz with
     /// 1000 m, at 0.2 Hz with 4000 m, of which the window holds two periods. Swings of up to its own length are judged.
     pub window: f64,
-    /// Mean speed of the drive below which the index is 0 (rad/s): near standstill the quotient means nothing. A
-    /// quarter of 40 r/min.
+    /// Mean speed of the drive below which the index is 0 (rad/s): near standstill the quotient means nothing. At 10 r/min
+    /// and 10 kN the joints alone make the bit's speed swing by 0.64 of its mean.
     pub gate_speed: f64,
     /// Index of the levels: 1 is a bit that just stops once per period, half of it and four fifths are on the way
     /// there.
@@ -59,7 +59,7 @@ impl Default for StickSlipSettings {
     fn default() -> Self {
         Self {
             window: 10.0,
-            gate_speed: rpm_to_rad_per_s(10.0),
+            gate_speed: rpm_to_rad_per_s(11.0),
             thresholds: AlarmThresholds {
                 levels: [0.5, 0.8, 1.0],
                 hysteresis: 0.15,
