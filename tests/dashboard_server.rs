@@ -3,6 +3,7 @@
 mod common;
 
 use std::io::Write as _;
+use std::os::unix::fs::PermissionsExt as _;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use common::{Network, Program};
@@ -113,7 +114,7 @@ fn steering_needs_the_token_and_that_nobody_else_drives() {
     let mut twin = network.twin(&["--namespace", "/rig_7"]);
     twin.wait_for("model time runs");
     peer.subscribe(STATUS.0, STATUS.1, "reliable");
-    let server = Server::start(&network, &["--namespace", "/rig_7", "--allow-control"]);
+    let mut server = Server::start(&network, &["--namespace", "/rig_7", "--allow-control"]);
     let session = server.body_with("/api/session", |session| !session["limits"].is_null());
     assert_eq!((&session["control"], &session["mode"]), (&json!(true), &json!("live")));
     assert_eq!(
@@ -132,6 +133,9 @@ fn steering_needs_the_token_and_that_nobody_else_drives() {
         .http("POST", &format!("{ROOT}/api/control/steer"), &[], &wanted.to_string())
         .unwrap();
     assert_eq!(naked["code"], 401);
+    server
+        .program
+        .wait_for("offered a wrong token and was refused; 1 from this address so far");
     assert_eq!(server.body("/api/control")["driving"], false);
     // A page of a server that has ended moves nothing either; its own page does.
     let instance = server.body("/api/pulse")["instance"].as_str().unwrap().to_owned();
@@ -427,6 +431,47 @@ fn the_page_is_guarded_and_without_leave_nobody_steers() {
     ]);
     assert_eq!(refused.unwrap()["code"], 403);
     server.end();
+}
+
+/// The arguments of a program are there for all users of the machine to read.
+#[test]
+fn a_browser_is_opened_without_showing_the_token() {
+    let Some(network) = Network::new() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (opener, seen) = (folder.path().join("xdg-open"), folder.path().join("seen"));
+    let script = format!(
+        "#!/bin/sh\necho \"$@\" > {0}.part\ncat \"$1\" >> {0}.part\nmv {0}.part {0}\n",
+        seen.display()
+    );
+    std::fs::write(&opener, script).unwrap();
+    std::fs::set_permissions(&opener, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let mut token = tempfile::NamedTempFile::new().unwrap();
+    writeln!(token, "{TOKEN}").unwrap();
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    command
+        .args(["dashboard", "--open", "--allow-control", "--token-file"])
+        .arg(token.path());
+    command.env("PATH", path).env("XDG_RUNTIME_DIR", folder.path());
+    let mut program = Program::start(command);
+    program.wait_for("dashboard at");
+    let deadline = Instant::now() + Duration::from_secs(20);
+    while !seen.exists() {
+        assert!(Instant::now() < deadline, "no browser was opened: {}", program.said());
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let seen = std::fs::read_to_string(&seen).unwrap();
+    let (arguments, page) = seen.split_once('\n').unwrap();
+    assert!(
+        !arguments.contains(TOKEN) && arguments.ends_with(".html"),
+        "{arguments}"
+    );
+    assert!(page.contains(&format!("url={ROOT}/#token={TOKEN}")), "{page}");
+    let mode = std::fs::metadata(arguments).unwrap().permissions().mode();
+    assert_eq!(mode & 0o777, 0o600);
+    program.signal("INT");
+    assert_eq!(program.end(), Some(0));
+    assert!(!std::path::Path::new(arguments).exists(), "it goes with the dashboard");
 }
 
 #[test]

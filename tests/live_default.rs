@@ -115,15 +115,22 @@ fn twenty_viewers_leave_the_deadlines_alone_and_the_frozen_one_is_named() {
     // The frozen one is named by its address, with what it lost; the others have lost nothing.
     let gone: Vec<&str> = said
         .lines()
-        .filter(|line| line.contains("had been given up for it"))
+        .filter(|line| line.contains("had been dropped for it"))
         .collect();
     assert!(
         (flooded..=rounds).contains(&gone.len()),
         "one frozen viewer each time: {said}"
     );
-    assert_eq!(gone.is_empty(), !said.contains("does not take its data: "), "{said}");
+    assert_eq!(
+        gone.is_empty(),
+        !said.contains("is too slow for what it subscribes to: "),
+        "{said}"
+    );
     for line in gone {
-        let lost = line.split("has gone; ").nth(1).and_then(|rest| rest.split(' ').next());
+        let lost = line
+            .split("has disconnected; ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next());
         assert!(lost.unwrap().parse::<u64>().unwrap() > 0, "{line}");
     }
 }

@@ -126,6 +126,10 @@ fn who_may_not_look_is_told_why() {
     assert!(old["body"].as_str().unwrap().contains("newer viewer"), "{old}");
     let foreign = refused("foxglove.sdk.v1", "https://evil.example").unwrap();
     assert_eq!(foreign["code"], 403);
+    // A page that somebody has sent as a file.
+    for file in ["file://", "null"] {
+        assert_eq!(refused("foxglove.sdk.v1", file).unwrap()["code"], 403, "{file}");
+    }
     for origin in ["-", "http://localhost:8080", "https://app.foxglove.dev"] {
         assert_eq!(refused("foxglove.sdk.v1", origin).unwrap()["code"], 101, "{origin}");
     }

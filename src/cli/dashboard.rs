@@ -1,13 +1,15 @@
 //! `flexdrill dashboard`: the page beside the rig.
 
+mod browser;
+
+use std::cell::OnceCell;
 use std::net::SocketAddr;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
 
 use clap::Args;
 
 use super::{WrongUse, signals};
-use crate::cli::output::{say, tell};
+use crate::cli::output::say;
 use crate::dashboard::{Dashboard, Source, Token};
 use crate::dds::network::Network;
 use crate::ros::args::{NodeIdentity, RosArgs};
@@ -37,8 +39,8 @@ pub(super) struct DashboardArgs {
     /// File with the token; without it a new one is made and printed.
     #[arg(long, value_name = "FILE", requires = "allow_control")]
     token_file: Option<PathBuf>,
-    /// Let a viewer from this page read the live data too, as https://viewer.example; pages of this machine and of Foxglove
-    /// always may.
+    /// Let a viewer from this page read the live data too, as https://viewer.example, or file:// for viewers that are opened
+    /// as files; pages of this machine and of Foxglove always may.
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
     /// Open the page in this machine's browser.
@@ -71,11 +73,14 @@ pub(super) fn run(args: &DashboardArgs) -> anyhow::Result<()> {
         origins: args.allow_origin.clone(),
         source,
     };
+    // The file that leads the browser to the page lasts as long as the page.
+    let redirect = OnceCell::new();
     let ready = |url: &str| {
         say!("dashboard at {url}");
         say!("live data for Foxglove at ws://{}/live; Ctrl-C ends it", host_of(url));
         if args.open {
-            open(url);
+            // It is called once.
+            let _ = redirect.set(browser::open(url));
         }
     };
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
@@ -88,18 +93,4 @@ pub(super) fn run(args: &DashboardArgs) -> anyhow::Result<()> {
 fn host_of(url: &str) -> &str {
     let rest = url.strip_prefix("http://").unwrap_or(url);
     rest.split('/').next().unwrap_or_default()
-}
-
-/// Has the desktop show it; where there is none, the printed address is what there is.
-fn open(url: &str) {
-    let program = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
-    let opened = Command::new(program)
-        .arg(url)
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn();
-    if let Err(error) = opened {
-        tell!("no browser could be opened ({program}: {error}); open the address yourself");
-    }
 }

@@ -39,7 +39,8 @@ pub(super) struct ReplayArgs {
     /// --out, what was written there.
     #[arg(long, value_name = "ADDRESS:PORT")]
     foxglove: Option<SocketAddr>,
-    /// Let a viewer from this page in too, as https://viewer.example; pages of this machine and of Foxglove always may.
+    /// Let a viewer from this page in too, as https://viewer.example, or file:// for viewers that are opened as files; pages
+    /// of this machine and of Foxglove always may.
     #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
     allow_origin: Vec<String>,
     /// Configuration, where the input does not bring its own; without it the paper's case, built in.

@@ -65,7 +65,8 @@ pub(super) struct RunArgs {
     /// a viewer sends acts on the twin, unless --allow-control is given too.
     #[arg(long, value_name = "ADDRESS:PORT")]
     foxglove: Option<SocketAddr>,
-    /// Let a viewer from this page in too, as https://viewer.example; pages of this machine and of Foxglove always may.
+    /// Let a viewer from this page in too, as https://viewer.example, or file:// for viewers that are opened as files; pages
+    /// of this machine and of Foxglove always may.
     #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
     allow_origin: Vec<String>,
     /// Let a viewer that opens ws://ADDRESS:PORT/?token=TOKEN set parameters, call services and drive; the token is printed.

@@ -1,9 +1,11 @@
 //! What the page asks for beside live data, and what it asks of the twin.
 
+use std::net::SocketAddr;
 use std::sync::Arc;
+use std::time::Duration;
 
-use axum::body::Bytes;
-use axum::extract::{DefaultBodyLimit, Path, Request, State};
+use axum::body::{Body, Bytes};
+use axum::extract::{ConnectInfo, DefaultBodyLimit, Path, Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
@@ -16,12 +18,15 @@ use serde_json::{Value, json};
 use super::assets;
 use super::board::Board;
 use super::control::{Ask, Control, Refused};
-use crate::live::{Door, host_is_ours};
+use super::snapshots::Snapshots;
+use crate::live::{Gateway, WrongTokens, host_is_ours};
 
 /// Longest body of a request (bytes): names and reasons.
 const LONGEST_BODY: usize = 16 << 10;
 /// Header by which a page names the server that it was bound to.
 const INSTANCE: &str = "x-flexdrill-instance";
+/// A request must be read and answered in this time: longer than the node and the refusals of wrong tokens may take.
+const LONGEST: Duration = Duration::from_secs(20);
 
 /// What all answers are made from.
 pub(super) struct Shared {
@@ -30,7 +35,7 @@ pub(super) struct Shared {
     pub control: Option<Arc<Control>>,
     /// Why nobody may steer, then.
     pub no_control: &'static str,
-    pub door: Arc<Door>,
+    pub gateway: Arc<Gateway>,
     pub namespace: String,
     /// Absolute name of the twin's node.
     pub node: String,
@@ -38,6 +43,7 @@ pub(super) struct Shared {
     pub bag: Option<Arc<PlayedBag>>,
     /// Random text that identifies this run of the server.
     pub instance: String,
+    pub shares: Shares,
 }
 
 /// Text for [`Shared::instance`].
@@ -48,6 +54,14 @@ pub(super) fn new_instance() -> anyhow::Result<String> {
     let mut random = [0; 8];
     crate::live::fill_random(&mut random)?;
     Ok(format!("{:016x}", u64::from_le_bytes(random)))
+}
+
+/// What all requests share, so that many of them cost little.
+#[derive(Default)]
+pub(super) struct Shares {
+    history: Snapshots,
+    journal: Snapshots,
+    wrong_tokens: WrongTokens,
 }
 
 /// A bag that is played.
@@ -83,7 +97,10 @@ pub(super) fn router(shared: Shared) -> Router {
 /// Names that anybody may point here are refused; every answer tells the browser what the page may do.
 async fn guard(request: Request, next: Next) -> Response {
     let response = if host_is_ours(request.headers()) {
-        next.run(request).await
+        let late = || (StatusCode::REQUEST_TIMEOUT, "the request took too long\n").into_response();
+        tokio::time::timeout(LONGEST, next.run(request))
+            .await
+            .unwrap_or_else(|_| late())
     } else {
         let why = "address this server by number or as localhost\n";
         (StatusCode::FORBIDDEN, why).into_response()
@@ -92,7 +109,7 @@ async fn guard(request: Request, next: Next) -> Response {
 }
 
 async fn live(State(shared): Server, request: Request) -> Response {
-    Arc::clone(&shared.door).enter(request).await
+    Arc::clone(&shared.gateway).enter(request).await
 }
 
 async fn session(State(shared): Server) -> Json<Value> {
@@ -133,19 +150,21 @@ async fn pulse(State(shared): Server) -> Response {
 }
 
 async fn history(State(shared): Server) -> Response {
-    match shared.board.history() {
-        Some(bytes) => {
-            let mut response = bytes.into_response();
-            let headers = response.headers_mut();
-            headers.insert(
-                header::CONTENT_TYPE,
-                HeaderValue::from_static("application/octet-stream"),
-            );
-            headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
-            response
-        }
+    // A frame of the history is as long.
+    let second = flexdrill_realtime::monotonic::now() / 1_000_000_000;
+    match shared.shares.history.body(second, || shared.board.history()) {
+        Some(body) => large(body, "application/octet-stream"),
         None => answer(StatusCode::NOT_FOUND, "nothing was heard of the twin yet"),
     }
+}
+
+/// An answer that is sent in parts and kept by nobody.
+fn large(body: Body, kind: &'static str) -> Response {
+    let mut response = Response::new(body);
+    let headers = response.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(kind));
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    response
 }
 
 async fn orbit(State(shared): Server, Path((joint, time)): Path<(usize, i64)>) -> Response {
@@ -155,8 +174,15 @@ async fn orbit(State(shared): Server, Path((joint, time)): Path<(usize, i64)>) -
     }
 }
 
-async fn journal(State(shared): Server) -> Json<Value> {
-    Json(shared.board.journal())
+async fn journal(State(shared): Server) -> Response {
+    let journal = || serde_json::to_vec(&shared.board.journal()).ok();
+    match shared.shares.journal.body(shared.board.journal_version(), journal) {
+        Some(body) => large(body, "application/json"),
+        None => answer(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            "the journal cannot be written as JSON",
+        ),
+    }
 }
 
 async fn control(State(shared): Server) -> Json<Value> {
@@ -200,11 +226,21 @@ struct Pause {
     paused: bool,
 }
 
-async fn act(State(shared): Server, Path(what): Path<String>, headers: HeaderMap, body: Bytes) -> Response {
+async fn act(
+    State(shared): Server,
+    Path(what): Path<String>,
+    ConnectInfo(from): ConnectInfo<SocketAddr>,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Response {
     let Some(control) = &shared.control else {
         return answer(StatusCode::FORBIDDEN, shared.no_control);
     };
-    if !bearer(&headers).is_some_and(|token| control.admits(token)) {
+    let offered = bearer(&headers);
+    if !offered.is_some_and(|token| control.admits(token)) {
+        if offered.is_some() {
+            shared.shares.wrong_tokens.refuse(from).await;
+        }
         return answer(
             StatusCode::UNAUTHORIZED,
             "show the token that was printed when the dashboard started",

@@ -24,6 +24,8 @@ use crate::told::printable;
 const MOST_EVENTS: usize = 2000;
 /// Longest event that is kept (bytes): some sentences.
 const LONGEST_EVENT: usize = 16 << 10;
+/// Longest text of an incident (characters).
+const LONGEST_TEXT: usize = 1000;
 /// A twin whose status is older has gone: ten heartbeats at the default rate.
 const GONE: Duration = Duration::from_secs(2);
 /// The parameter that changes how the tool's shape is drawn.
@@ -46,6 +48,8 @@ struct Known {
     /// The player of a bag has its motion itself.
     orbits: Option<Orbits>,
     events: VecDeque<(i64, AlarmEvent)>,
+    /// Of all events, also those that are no longer kept.
+    event_count: u64,
     incidents: Vec<Incident>,
     status: Option<(TwinStatus, Instant)>,
     /// Newest message of each topic: the instant that it speaks of (ns since 1970), and when it arrived here.
@@ -72,6 +76,7 @@ impl Board {
             history: History::new(seconds),
             orbits,
             events: VecDeque::new(),
+            event_count: 0,
             incidents: Vec::new(),
             status: None,
             heard: BTreeMap::new(),
@@ -85,6 +90,9 @@ impl Board {
     /// Takes a message, a CDR body of little endian, that came at `arrived` (ns since 1970); the instant that it speaks of.
     /// What cannot be read is left to those who can.
     pub fn observe(&self, topic: &TopicInfo, body: &[u8], arrived: i64) -> i64 {
+        if topic.name == topics::SESSION.name {
+            return self.observe_session(body).unwrap_or(arrived);
+        }
         let mut known = self.known();
         let time = known.observe(topic, body, arrived).unwrap_or(arrived);
         known.heard.insert(topic.name, (time, Instant::now()));
@@ -100,6 +108,24 @@ impl Board {
             ((*name).to_owned(), message)
         });
         Value::Object(newest.collect())
+    }
+
+    /// Reads a configuration without the lock, so that no answer waits for it.
+    fn observe_session(&self, body: &[u8]) -> Option<i64> {
+        let (info, _): (SessionInfo, _) = from_cdr_body(body).ok()?;
+        let start = info.start.to_nanoseconds();
+        let is_same = |session: &Session| session.config_hash == info.config_hash && session.start == start;
+        if !self.known().session.as_ref().is_some_and(is_same) {
+            match Session::new(&info) {
+                Ok(session) => {
+                    let mut known = self.known();
+                    known.history.begin(&session);
+                    known.session = Some(session);
+                }
+                Err(why) => tracing::warn!("{}", printable(&why)),
+            }
+        }
+        Some(info.header.stamp.to_nanoseconds())
     }
 
     /// Changes the history.
@@ -126,6 +152,11 @@ impl Board {
             .map(|(stamp, event)| event_json(*stamp, event))
             .collect();
         json!({ "events": events })
+    }
+
+    /// Changes with each event of the journal.
+    pub fn journal_version(&self) -> u64 {
+        self.known().event_count
     }
 
     /// The run, once it is known.
@@ -238,11 +269,6 @@ impl Known {
                 }
                 stamp(&message.header.stamp)
             }
-            name if name == topics::SESSION.name => {
-                let message: SessionInfo = read(body)?;
-                self.begin(&message);
-                stamp(&message.header.stamp)
-            }
             name if [topics::JOINT_STATES.name, topics::DIAGNOSTICS.name, topics::AGEING.name].contains(&name) => {
                 let header: Header = read(body)?;
                 stamp(&header.stamp)
@@ -251,21 +277,6 @@ impl Known {
             _ => return None,
         };
         Some(time)
-    }
-
-    fn begin(&mut self, info: &SessionInfo) {
-        let start = info.start.to_nanoseconds();
-        let is_same = |session: &Session| session.config_hash == info.config_hash && session.start == start;
-        if self.session.as_ref().is_some_and(is_same) {
-            return;
-        }
-        match Session::new(info) {
-            Ok(session) => {
-                self.history.begin(&session);
-                self.session = Some(session);
-            }
-            Err(why) => tracing::warn!("{}", printable(&why)),
-        }
     }
 
     fn event(&mut self, time: i64, event: AlarmEvent) {
@@ -289,12 +300,12 @@ impl Known {
                 end: None,
                 severity: event.priority,
                 alarm: event.id.clone(),
-                text: event.evidence.clone(),
+                text: shortened(&event.evidence),
             }),
             (AlarmEvent::RAISED, Some(open)) => {
                 let incident = &mut self.incidents[open];
                 incident.severity = incident.severity.max(event.priority);
-                incident.text.clone_from(&event.evidence);
+                incident.text = shortened(&event.evidence);
             }
             (AlarmEvent::RETURNED | AlarmEvent::SUPPRESSED | AlarmEvent::TAKEN_OUT, Some(open)) => {
                 self.incidents[open].end = Some(time);
@@ -305,7 +316,13 @@ impl Known {
             self.events.pop_front();
         }
         self.events.push_back((time, event));
+        self.event_count += 1;
     }
+}
+
+/// An incident's text, as long as any of the node's own.
+fn shortened(text: &str) -> String {
+    text.chars().take(LONGEST_TEXT).collect()
 }
 
 fn event_json(stamp: i64, event: &AlarmEvent) -> Value {

@@ -47,22 +47,27 @@ impl Ears {
 
 async fn hear(number: usize, topic: &'static TopicInfo, inbox: Arc<Inbox<Sample>>, hub: Arc<Hub>, board: Arc<Board>) {
     let mut newest: Option<(Guid, i64)> = None;
-    let mut cdr = Vec::new();
     loop {
         let Sample::Body { writer, body } = inbox.next().await else {
             continue;
         };
-        let time = board.observe(topic, &body, now());
+        let (time, body) = if topic.name == topics::SESSION.name {
+            // A configuration takes time to read; the thread that serves pages does not wait for it.
+            let board = Arc::clone(&board);
+            let read = tokio::task::spawn_blocking(move || (board.observe(topic, &body, now()), body));
+            let Ok(observed) = read.await else { continue };
+            observed
+        } else {
+            (board.observe(topic, &body, now()), body)
+        };
         // A latched topic may bring older states after its newest.
         if topic.qos.transient_local && newest.is_some_and(|(from, last)| from == writer && time < last) {
             continue;
         }
         newest = Some((writer, time));
         if hub.wants(number) {
-            cdr.clear();
-            cdr.extend(CDR_HEADER);
-            cdr.extend(&body);
-            hub.publish(number, u64::try_from(time).unwrap_or(0), &cdr);
+            let cdr = [CDR_HEADER.as_slice(), &body].concat();
+            hub.publish(number, u64::try_from(time).unwrap_or(0), cdr);
         }
     }
 }

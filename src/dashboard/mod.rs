@@ -20,13 +20,14 @@ mod listen;
 mod orbits;
 mod recorded;
 mod session;
+mod snapshots;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use self::api::{PlayedBag, Shared};
+use self::api::{PlayedBag, Shared, Shares};
 use self::board::Board;
 use self::control::{Control, ControlParts};
 use self::listen::Ears;
@@ -34,7 +35,7 @@ use self::recorded::Recorded;
 use crate::dds::network::Network;
 use crate::dds::port::{Port, PortBuilder};
 pub use crate::live::Token;
-use crate::live::{self, Hub};
+use crate::live::{self, Gateway, Hub};
 use crate::ros::args::NodeIdentity;
 
 /// What is shown.
@@ -76,34 +77,34 @@ impl Dashboard {
                     url = format!("{url}#token={}", token.text());
                 }
                 let live = Live::start(&network, &twin, token).await?;
-                let protocol = live::start_protocol(&live.hub, None).await?;
                 let router = api::router(Shared {
                     board: Arc::clone(&live.board),
                     control: live.control.clone(),
                     no_control: "steering is off: start the dashboard with --allow-control",
-                    door: live::door_to(&protocol, &self.origins),
+                    gateway: Gateway::new(&live.hub, None, &self.origins),
                     namespace: twin.namespace.clone(),
                     node: twin.full_name(),
                     bag: None,
                     instance: api::new_instance()?,
+                    shares: Shares::default(),
                 });
                 ready(&url);
                 live::serve(listener, router, end).await?;
-                drop(protocol.stop());
                 // Leaving the network takes a moment.
                 tokio::task::spawn_blocking(move || drop(live.port)).await?;
             }
             Source::Bag(path) => {
-                let (recorded, protocol) = Recorded::start(&path).await?;
+                let recorded = Recorded::start(&path)?;
                 let router = api::router(Shared {
                     board: Arc::clone(&recorded.board),
                     control: None,
                     no_control: "a recording cannot be steered",
-                    door: live::door_to(&protocol, &self.origins),
+                    gateway: Gateway::new(&recorded.hub, None, &self.origins),
                     namespace: recorded.namespace.clone(),
                     node: String::new(),
                     bag: Some(Arc::clone(&recorded.played)),
                     instance: api::new_instance()?,
+                    shares: Shares::default(),
                 });
                 ready(&url);
                 live::serve(listener, router, end).await?;
@@ -136,7 +137,7 @@ impl Live {
             )),
             None => None,
         };
-        let hub = Hub::new(ears.topics())?;
+        let hub = Hub::new(ears.topics());
         let board = Arc::new(Board::live());
         let port = tokio::task::spawn_blocking(move || port.start()).await??;
         ears.listen(&hub, &board);

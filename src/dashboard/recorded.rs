@@ -4,8 +4,6 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foxglove::WebSocketServerHandle;
-
 use super::PlayedBag;
 use super::board::Board;
 use super::history::CAPACITY;
@@ -17,6 +15,7 @@ use crate::told::printable;
 
 /// A bag that is shown.
 pub(super) struct Recorded {
+    pub hub: Arc<Hub>,
     pub board: Arc<Board>,
     pub played: Arc<PlayedBag>,
     pub namespace: String,
@@ -25,12 +24,11 @@ pub(super) struct Recorded {
 }
 
 impl Recorded {
-    /// Begins to play and to read it; the protocol's server with it.
-    pub async fn start(path: &Path) -> anyhow::Result<(Self, Arc<WebSocketServerHandle>)> {
+    /// Begins to play and to read it.
+    pub fn start(path: &Path) -> anyhow::Result<Self> {
         let bag = bag::open(path)?;
         let (start, end) = live::range(&bag, path)?;
-        let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref))?;
-        let protocol = Arc::new(live::start_protocol(&hub, Some((start, end))).await?);
+        let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref));
         let namespace = bag
             .topics()
             .iter()
@@ -58,14 +56,14 @@ impl Recorded {
         std::thread::Builder::new()
             .name("reader".into())
             .spawn(move || through.run())?;
-        let playing = Player::start(bag, (start, end), &hub, &protocol, &states)?;
-        let recorded = Self {
+        let playing = Player::start(bag, (start, end), &hub, &states)?;
+        Ok(Self {
+            hub,
             board,
             played,
             namespace: namespace.unwrap_or_else(|| "/".to_owned()),
             _playing: playing,
-        };
-        Ok((recorded, protocol))
+        })
     }
 }
 

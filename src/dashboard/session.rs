@@ -8,6 +8,9 @@ use flexdrill_config::Config;
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::tool::well::{WellPath, frame_along, tangent};
 
+/// Longest configuration that is read (bytes): ten times that of the default tool with all its comments.
+const LONGEST: usize = 256 << 10;
+
 /// Range and slew limit of an input, in the unit of its topic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Limit {
@@ -64,7 +67,13 @@ impl Session {
     /// # Errors
     /// When the configuration is none that this version reads, in words.
     pub fn new(info: &SessionInfo) -> Result<Self, String> {
-        let told = |why: String| format!("the configuration that twin/session tells cannot be read: {why}");
+        let told = |why: String| format!("the configuration that twin/session holds cannot be read: {why}");
+        let length = info.configuration.len();
+        if length > LONGEST {
+            return Err(told(format!(
+                "it has {length} bytes; the longest that is read has {LONGEST}"
+            )));
+        }
         let config = Config::from_text("twin/session", &info.configuration).map_err(|error| told(error.to_string()))?;
         let description = config.tool();
         let stations = stations(&description);
@@ -196,6 +205,28 @@ mod tests {
         // There, the low side is down.
         let [y, z] = session.places[165].displacement([3.2, 0.001, 3.202]);
         assert!((y - 0.001).abs() < 1e-9 && (z - 0.002).abs() < 1e-9, "{y} {z}");
+    }
+
+    /// Anybody on the network can send a session.
+    #[test]
+    fn a_session_that_takes_long_to_read_is_refused() {
+        let long = SessionInfo {
+            configuration: " ".repeat(LONGEST + 1),
+            ..SessionInfo::default()
+        };
+        assert!(Session::new(&long).unwrap_err().contains("262145 bytes"));
+        // Ten levels of ten aliases: ten thousand million values from some hundred bytes.
+        let mut aliases = "a0: &a0 [0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\n".to_owned();
+        for level in 1..10 {
+            let last = format!("*a{}", level - 1);
+            aliases += &format!("a{level}: &a{level} [{}]\n", vec![last; 10].join(", "));
+        }
+        let bomb = SessionInfo {
+            configuration: aliases,
+            ..SessionInfo::default()
+        };
+        let why = Session::new(&bomb).unwrap_err();
+        assert!(why.contains("alias"), "{why}");
     }
 
     #[test]

@@ -1,32 +1,39 @@
 //! Live over WebSocket, in the protocol of Foxglove and Lichtblick, with the very bytes that DDS and the bags have.
 //!
 //! - `hub`: the topics that are offered, the newest state of latched ones, who subscribes.
-//! - `door`: who may come in: Host, Origin, subprotocol, number of clients; with the token, to where one may steer.
-//! - `pump`: from the protocol's server to one viewer; what the viewer does not take is given up and counted.
-//! - `steering`: parameters, services and inputs for who has shown the token; `token` is that secret.
-//! - `server`: both behind one address, on a thread of its own (`flexdrill run --foxglove`) or in a runtime that is there.
+//! - `gateway`: who is admitted: Host, Origin, subprotocol, number of viewers; who shows the token may steer.
+//! - `session`: the conversation with one viewer; `backlog`: what waits for it, bounded in number, bytes and age.
+//! - `steering`: parameters, services and inputs for who has shown the token; `token` is that secret, `wrong_tokens` what
+//!   happens to others.
+//! - `connections`: connections to the address, bounded in number, time and buffers.
+//! - `server`: all of it on a thread of its own (`flexdrill run --foxglove`) or in a runtime that exists.
 //! - `player`: a bag as a source, with play, pause, seek and speed.
 //!
-//! A viewer that does not take its data loses the oldest, in its own queue: it slows nobody.
+//! A slow viewer loses its oldest messages and slows nothing else. There is one listening socket: the announced address.
 
-mod door;
+mod backlog;
+mod connections;
+mod gateway;
 mod hub;
 mod player;
-mod pump;
 mod server;
+mod session;
 mod steering;
 mod token;
+mod wrong_tokens;
 
-pub use door::Door;
-pub(crate) use door::host_is_ours;
+pub(crate) use connections::serve;
+pub use gateway::Gateway;
+pub(crate) use gateway::host_is_ours;
 pub use hub::Hub;
 pub(crate) use player::range;
 pub use player::{Player, Playing, States};
 pub use server::LiveServer;
-pub(crate) use server::{door_to, listen, only_door, serve, start_protocol};
+pub(crate) use server::{listen, only_gateway};
 pub use steering::{InputTopic, OfferedService, Setting, Steered, Steering, Viewer};
 pub use token::Token;
 pub(crate) use token::fill_random;
+pub(crate) use wrong_tokens::WrongTokens;
 
 /// Why nothing can be shown live.
 #[derive(Debug, thiserror::Error)]
@@ -41,15 +48,9 @@ pub enum LiveError {
         /// Of the system.
         source: std::io::Error,
     },
-    /// The protocol's own server did not start.
-    #[error("the server of the Foxglove protocol did not start: {0}")]
-    Protocol(#[from] foxglove::FoxgloveError),
     /// The system gives no thread or runtime.
     #[error("the live server's thread could not be started: {0}")]
     Thread(#[from] std::io::Error),
-    /// The system gives no secret.
-    #[error("{0}")]
-    Random(String),
     /// Nothing in the bag can be played.
     #[error("{path}: no message in it, so there is nothing to play", path = path.display())]
     EmptyBag {

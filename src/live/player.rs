@@ -6,10 +6,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use foxglove::WebSocketServerHandle;
 use foxglove::websocket::{PlaybackCommand, PlaybackControlRequest, PlaybackState, PlaybackStatus};
 
 use super::LiveError;
+use super::backlog::Backlog;
 use super::hub::Hub;
 use crate::bag::{Bag, BagMessage};
 use crate::messages::{AlarmList, Message as _};
@@ -74,8 +74,6 @@ struct State {
     ended: bool,
     /// To go there.
     seek: Option<u64>,
-    /// Somebody has come who does not know how it plays.
-    greet: bool,
     stop: bool,
 }
 
@@ -126,7 +124,6 @@ pub struct Playing {
 /// What a player speaks to.
 struct Stage {
     hub: Arc<Hub>,
-    server: Arc<WebSocketServerHandle>,
     states: Arc<States>,
 }
 
@@ -136,13 +133,7 @@ impl Player {
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn start(
-        bag: Bag,
-        range: (u64, u64),
-        hub: &Arc<Hub>,
-        server: &Arc<WebSocketServerHandle>,
-        states: &Arc<States>,
-    ) -> Result<Playing, LiveError> {
+    pub fn start(bag: Bag, range: (u64, u64), hub: &Arc<Hub>, states: &Arc<States>) -> Result<Playing, LiveError> {
         let player = Arc::new(Self {
             state: Mutex::new(State {
                 playing: true,
@@ -150,7 +141,6 @@ impl Player {
                 anchor: (Instant::now(), range.0),
                 ended: false,
                 seek: Some(range.0),
-                greet: false,
                 stop: false,
             }),
             changed: Condvar::new(),
@@ -159,7 +149,6 @@ impl Player {
         hub.set_player(Arc::clone(&player));
         let stage = Stage {
             hub: Arc::clone(hub),
-            server: Arc::clone(server),
             states: Arc::clone(states),
         };
         let working = Arc::clone(&player);
@@ -172,8 +161,13 @@ impl Player {
         })
     }
 
-    /// Carries a viewer's request out; how it plays from then on.
-    pub(super) fn control(&self, request: &PlaybackControlRequest) -> PlaybackState {
+    /// First and last time of the bag (ns since 1970).
+    pub(super) fn range(&self) -> (u64, u64) {
+        self.range
+    }
+
+    /// Carries a viewer's request out, and sends all viewers how it plays from then on.
+    pub(super) fn control(&self, request: &PlaybackControlRequest, hub: &Hub) {
         let mut state = locked(&self.state);
         let now = Instant::now();
         let mut time = state.time(now, self.range.1);
@@ -189,16 +183,20 @@ impl Player {
             state.ended = false;
         }
         state.anchor = (now, time);
-        let answer = state.told(time, seek.is_some());
+        let mut answer = state.told(time, seek.is_some());
+        answer.request_id = Some(request.request_id.clone());
+        // The state cannot change meanwhile, so that no viewer hears an older one after a newer.
+        hub.broadcast_playback(&answer);
         drop(state);
         self.changed.notify_all();
-        answer
     }
 
-    /// Has all viewers told how it plays: one of them is new, and the protocol has no word to that one alone.
-    pub(super) fn greet(&self) {
-        locked(&self.state).greet = true;
-        self.changed.notify_all();
+    /// Sends a new viewer how it plays.
+    pub(super) fn greet(&self, backlog: &Backlog) {
+        let state = locked(&self.state);
+        let now = state.told(state.time(Instant::now(), self.range.1), false);
+        backlog.time(now.current_time);
+        backlog.answer(&now);
     }
 
     fn play(&self, mut bag: Bag, stage: &Stage) {
@@ -208,13 +206,6 @@ impl Player {
             let mut state = locked(&self.state);
             if state.stop {
                 return;
-            }
-            if std::mem::take(&mut state.greet) {
-                // Told before the state can change, so that no viewer hears an older one after a newer.
-                let how = state.told(state.time(Instant::now(), self.range.1), false);
-                stage.server.broadcast_time(how.current_time);
-                stage.server.broadcast_playback_state(how);
-                continue;
             }
             if let Some(time) = state.seek.take() {
                 drop(state);
@@ -245,12 +236,14 @@ impl Player {
                     state.anchor = (now, due);
                 }
                 drop(state);
-                stage.hub.publish(message.topic_index, due, &message.data);
+                if let Some(message) = next.take() {
+                    stage.hub.publish(message.topic_index, due, message.data);
+                }
                 next = following(&mut bag);
             }
             if told.elapsed() >= TIME_INTERVAL {
                 told = Instant::now();
-                stage.server.broadcast_time(time);
+                stage.hub.broadcast_time(time);
             }
         }
     }
@@ -258,7 +251,7 @@ impl Player {
     fn end(&self, mut state: MutexGuard<'_, State>, stage: &Stage) {
         state.anchor = (Instant::now(), self.range.1);
         (state.playing, state.ended) = (false, true);
-        stage.server.broadcast_playback_state(state.told(self.range.1, false));
+        stage.hub.broadcast_playback(&state.told(self.range.1, false));
     }
 }
 
@@ -289,9 +282,9 @@ fn show(bag: &mut Bag, time: u64, stage: &Stage) -> Option<BagMessage> {
     let mut standing: Vec<_> = newest.into_iter().collect();
     standing.sort_by_key(|(_, (at, _))| *at);
     for (topic, (at, data)) in standing {
-        stage.hub.publish(topic, at, &data);
+        stage.hub.publish(topic, at, data);
     }
-    stage.server.broadcast_time(time);
+    stage.hub.broadcast_time(time);
     next
 }
 

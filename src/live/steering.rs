@@ -1,21 +1,24 @@
 //! What a viewer that has shown the token may do: parameters, services, inputs. The node carries it out and refuses it as
-//! it does for anybody; here the protocol is told.
+//! it does for anybody; here it is translated to and from the protocol.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::fmt;
 use std::net::SocketAddr;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use foxglove::websocket::service::{Request, Responder, Service, ServiceSchema};
-use foxglove::websocket::{
-    AnyClient, ChannelView, Client, ClientChannel, ClientId, GetParametersResponder, Parameter, ParameterHandler,
-    ParameterType, ParameterValue, ServerListener, SetParametersResponder, Status,
+use foxglove::websocket::{Parameter, ParameterType, ParameterValue};
+use foxglove::ws_protocol::client::ServiceCallRequest;
+use foxglove::ws_protocol::schema::Schema;
+use foxglove::ws_protocol::server::advertise_services::Service;
+use foxglove::ws_protocol::server::{
+    AdvertiseServices, ParameterValues, ServiceCallFailure, ServiceCallResponse, Status,
 };
-use foxglove::{Schema, WebSocketServerHandle};
 use futures::future::BoxFuture;
+use tokio::sync::Semaphore;
+use tokio_tungstenite::tungstenite::Message;
 
-use super::hub::Hub;
-use super::{LiveError, Token};
+use super::backlog::Backlog;
+use super::session::MOST_BYTES;
 
 /// Encoding of requests, replies and inputs.
 pub(super) const ENCODING: &str = "cdr";
@@ -24,10 +27,10 @@ const SCHEMA_ENCODING: &str = "ros2msg";
 /// First bytes of plain little-endian CDR; two more are not used.
 const LITTLE_ENDIAN: [u8; 2] = [0, 1];
 const HEADER: usize = 4;
-/// Longest request or sample: far above all that the node takes.
-const MOST_BYTES: usize = 64 << 10;
-/// The door's own channel of a viewer; a viewer that advertises the same number is told that it is in use.
-const INTRODUCTION: u32 = u32::MAX;
+/// Service calls of one viewer that may wait for their answers.
+const MOST_CALLS: usize = 32;
+/// Parameters that one viewer may follow.
+const MOST_FOLLOWED: usize = 1000;
 
 /// Who acts. `Display` is `foxglove client at ADDRESS`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,117 +101,227 @@ pub trait Steered: Send + Sync + 'static {
     fn call(&self, viewer: Viewer, service: usize, body: Vec<u8>) -> BoxFuture<'static, Result<Vec<u8>, String>>;
 }
 
-/// Takes what viewers ask for.
+/// A topic that a viewer publishes on, as it advertised it.
+#[derive(Debug, Clone)]
+pub(super) struct ClientChannel {
+    pub topic: String,
+    pub encoding: String,
+    pub schema_name: String,
+}
+
+/// A viewer that follows parameters.
+struct Follower {
+    names: BTreeSet<String>,
+    backlog: Arc<Backlog>,
+}
+
+/// The node's parameters, services and inputs, for all viewers that steer.
 pub struct Steering {
     node: Arc<dyn Steered>,
-    hub: Arc<Hub>,
     inputs: Vec<InputTopic>,
-    viewers: Mutex<HashMap<ClientId, Viewer>>,
-    protocol: OnceLock<Weak<WebSocketServerHandle>>,
-    /// Begins the name of the door's own channel, and nobody else knows it.
-    secret: Token,
+    services: Message,
+    /// Number of services that are offered. A service's id in the protocol is its number plus one.
+    service_count: usize,
+    /// By the number of the connection.
+    followers: Mutex<HashMap<u32, Follower>>,
 }
 
 impl Steering {
-    /// Of a node that is looked at through `hub`.
-    ///
-    /// # Errors
-    /// When the system has no random numbers.
-    pub fn new(node: Arc<dyn Steered>, hub: &Arc<Hub>) -> Result<Arc<Self>, LiveError> {
-        Ok(Arc::new(Self {
+    /// Of a node.
+    pub fn new(node: Arc<dyn Steered>) -> Arc<Self> {
+        let offered = node.services();
+        let services = offered.iter().zip(1..).map(|(service, id)| advertised(id, service));
+        let services = AdvertiseServices::new(services.collect::<Vec<_>>());
+        Arc::new(Self {
             inputs: node.inputs(),
+            services: Message::from(&services),
+            service_count: offered.len(),
             node,
-            hub: Arc::clone(hub),
-            viewers: Mutex::default(),
-            protocol: OnceLock::new(),
-            secret: Token::random().map_err(|error| LiveError::Random(error.to_string()))?,
-        }))
+            followers: Mutex::default(),
+        })
     }
 
-    /// Tells viewers that follow these parameters what they are.
+    /// Sends viewers that follow these parameters their values.
     pub fn tell_parameters(&self, values: Vec<(String, Setting)>) {
-        if let Some(protocol) = self.protocol.get().and_then(Weak::upgrade) {
-            protocol.publish_parameter_values(values.into_iter().map(parameter).collect());
+        let values: Vec<Parameter> = values.into_iter().map(parameter).collect();
+        for follower in self.followers().values() {
+            let followed = values.iter().filter(|value| follower.names.contains(&value.name));
+            let message = ParameterValues::new(followed.cloned());
+            if !message.parameters.is_empty() {
+                follower.backlog.answer(&message);
+            }
         }
     }
 
-    /// Where values are told.
-    pub(super) fn set_protocol(&self, protocol: &Arc<WebSocketServerHandle>) {
-        // It is set once, by who made both.
-        let _ = self.protocol.set(Arc::downgrade(protocol));
+    fn followers(&self) -> MutexGuard<'_, HashMap<u32, Follower>> {
+        self.followers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn advertised(id: u32, offered: &OfferedService) -> Service<'_> {
+    let schema = |part: &str, text: &'static str| {
+        Schema::new(format!("{}_{part}", offered.ros_type), SCHEMA_ENCODING, text.as_bytes())
+    };
+    let [request, response] = offered.schemas;
+    let service = Service::new(id, &offered.name, &offered.ros_type);
+    let with_request = service.clone().with_request(ENCODING, schema("Request", request));
+    let complete = with_request.and_then(|service| service.with_response(ENCODING, schema("Response", response)));
+    // Definitions are texts, which the protocol carries as they are.
+    complete.unwrap_or(service)
+}
+
+/// One viewer that may steer.
+pub(super) struct Pilot {
+    steering: Arc<Steering>,
+    viewer: Viewer,
+    backlog: Arc<Backlog>,
+    calls: Arc<Semaphore>,
+}
+
+impl Pilot {
+    pub fn new(steering: &Arc<Steering>, viewer: Viewer, backlog: &Arc<Backlog>) -> Self {
+        Self {
+            steering: Arc::clone(steering),
+            viewer,
+            backlog: Arc::clone(backlog),
+            calls: Arc::new(Semaphore::new(MOST_CALLS)),
+        }
     }
 
-    /// What the door says to the protocol's server in front of all that a viewer says: whose connection it is.
-    pub(super) fn introduce(&self, address: SocketAddr) -> String {
-        serde_json::json!({
-            "op": "advertise",
-            "channels": [{
-                "id": INTRODUCTION,
-                "topic": format!("{}{address}", self.secret.text()),
-                "encoding": ENCODING,
-                "schemaName": "",
-            }],
-        })
-        .to_string()
+    /// The services, as they are advertised.
+    pub fn services(&self) -> Message {
+        self.steering.services.clone()
     }
 
-    /// The protocol's services.
-    pub(super) fn services(self: &Arc<Self>) -> Vec<Service> {
-        let offered = self.node.services().into_iter().enumerate();
-        let service = |(number, offered): (usize, OfferedService)| {
-            let [request, response] = ["Request", "Response"].map(|part| format!("{}_{part}", offered.ros_type));
-            let schema = |name: String, text: &'static str| Schema::new(name, SCHEMA_ENCODING, text.as_bytes());
-            let [request, response] = [
-                schema(request, offered.schemas[0]),
-                schema(response, offered.schemas[1]),
-            ];
-            let kind = ServiceSchema::new(offered.ros_type)
-                .with_request(ENCODING, request)
-                .with_response(ENCODING, response);
-            let steering = Arc::clone(self);
-            Service::builder(offered.name, kind).handler(Call { steering, number })
-        };
-        offered.map(service).collect()
-    }
-
-    fn viewer(&self, client: ClientId) -> Result<Viewer, String> {
-        let viewer = self.viewers().get(&client).copied();
-        viewer.ok_or_else(|| "this connection has taken its name back; open it anew".to_owned())
-    }
-
-    fn viewers(&self) -> MutexGuard<'_, HashMap<ClientId, Viewer>> {
-        self.viewers.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// The number of an input, and whether a viewer's channel is as it must be.
-    fn input(&self, channel: &ClientChannel) -> Result<usize, String> {
-        let found = self.inputs.iter().position(|input| input.name == channel.topic);
+    /// The number of the input that a viewer publishes on.
+    ///
+    /// # Errors
+    /// When it is no input, or not of its type.
+    pub fn input(&self, channel: &ClientChannel) -> Result<usize, String> {
+        let inputs = &self.steering.inputs;
+        let found = inputs.iter().position(|input| input.name == channel.topic);
         let Some(number) = found else {
-            let names: Vec<&str> = self.inputs.iter().map(|input| input.name.as_str()).collect();
+            let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
             return Err(format!(
-                "{} is no input of the twin, and nothing that is published there acts; its inputs are {}",
+                "{} is no input of the twin; what is published there has no effect. The inputs are {}",
                 channel.topic,
                 names.join(", ")
             ));
         };
-        let kind = self.inputs[number].ros_type;
-        // The form of ROS 1 is used by viewers too.
+        let kind = inputs[number].ros_type;
+        // Viewers also use the form of ROS 1.
         let is_kind = channel.schema_name == kind || channel.schema_name == kind.replace("/msg/", "/");
         if !is_kind || channel.encoding != ENCODING {
             return Err(format!(
-                "{} takes {kind} as {ENCODING}, not {} as {}; nothing that is published on this channel acts",
+                "{} takes {kind} as {ENCODING}, not {} as {}; what is published on this channel has no effect",
                 channel.topic, channel.schema_name, channel.encoding
             ));
         }
         Ok(number)
     }
 
-    fn take(&self, client: &Client, channel: &ClientChannel, payload: &[u8]) -> Result<(), String> {
-        let viewer = self.viewer(client.id())?;
+    /// Hands a sample to the node.
+    ///
+    /// # Errors
+    /// When it is not for an input, or not CDR.
+    pub fn publish(&self, channel: &ClientChannel, payload: &[u8]) -> Result<(), String> {
         let input = self.input(channel)?;
         let body = body(payload).map_err(|why| format!("{}: {why}", channel.topic))?;
-        self.node.sample(viewer, input, body.to_vec());
+        self.steering.node.sample(self.viewer, input, body.to_vec());
         Ok(())
+    }
+
+    /// Answers with the values of parameters, of all where none is named.
+    pub fn get_parameters(&self, names: &[String], request: Option<String>) {
+        let values = self.steering.node.parameters(names);
+        let mut message = ParameterValues::new(values.into_iter().map(parameter));
+        message.id = request;
+        self.backlog.answer(&message);
+    }
+
+    /// Sets parameters, and answers with their values, whether they were set or not.
+    pub fn set_parameters(&self, parameters: Vec<Parameter>, request: Option<String>) {
+        let names: Vec<String> = parameters.iter().map(|parameter| parameter.name.clone()).collect();
+        for Parameter { name, value, .. } in parameters {
+            let set = match value.and_then(setting) {
+                Some(value) => self.steering.node.set_parameter(self.viewer, &name, value),
+                None => Err(format!(
+                    "'{name}' is not set: a parameter is a flag, a number, a text or a list of them"
+                )),
+            };
+            if let Err(why) = set {
+                self.backlog.answer(&Status::error(why));
+            }
+        }
+        self.get_parameters(&names, request);
+    }
+
+    /// Sends the values of these parameters whenever they change.
+    pub fn follow(&self, names: Vec<String>) {
+        let mut followers = self.steering.followers();
+        let follower = followers.entry(self.viewer.number).or_insert_with(|| Follower {
+            names: BTreeSet::new(),
+            backlog: Arc::clone(&self.backlog),
+        });
+        let room = MOST_FOLLOWED.saturating_sub(follower.names.len());
+        follower.names.extend(names.into_iter().take(room));
+    }
+
+    /// Ends that for these parameters.
+    pub fn unfollow(&self, names: &[String]) {
+        if let Some(follower) = self.steering.followers().get_mut(&self.viewer.number) {
+            follower.names.retain(|name| !names.contains(name));
+        }
+    }
+
+    /// Calls a service; the answer is sent when it comes.
+    pub fn call(&self, request: &ServiceCallRequest<'_>) {
+        let (service, call) = (request.service_id, request.call_id);
+        if let Err(why) = self.try_call(request) {
+            self.backlog.answer(&ServiceCallFailure::new(service, call, why));
+        }
+    }
+
+    fn try_call(&self, request: &ServiceCallRequest<'_>) -> Result<(), String> {
+        let (service, call) = (request.service_id, request.call_id);
+        let number = (service as usize).wrapping_sub(1);
+        if number >= self.steering.service_count {
+            return Err("Unknown service".to_owned());
+        }
+        if request.encoding != ENCODING {
+            return Err("Unsupported encoding".to_owned());
+        }
+        let body = body(&request.payload)?.to_vec();
+        let Ok(permit) = Arc::clone(&self.calls).try_acquire_owned() else {
+            return Err(format!(
+                "{MOST_CALLS} calls of this viewer wait for their answers, which is the most"
+            ));
+        };
+        let answer = self.steering.node.call(self.viewer, number, body);
+        let backlog = Arc::clone(&self.backlog);
+        tokio::spawn(async move {
+            match answer.await {
+                Ok(body) => {
+                    let mut payload = [LITTLE_ENDIAN.as_slice(), &[0, 0]].concat();
+                    payload.extend(body);
+                    backlog.answer(&ServiceCallResponse {
+                        service_id: service,
+                        call_id: call,
+                        encoding: ENCODING.into(),
+                        payload: payload.into(),
+                    });
+                }
+                Err(why) => backlog.answer(&ServiceCallFailure::new(service, call, why)),
+            }
+            drop(permit);
+        });
+        Ok(())
+    }
+}
+
+impl Drop for Pilot {
+    fn drop(&mut self) {
+        self.steering.followers().remove(&self.viewer.number);
     }
 }
 
@@ -220,97 +333,6 @@ fn body(payload: &[u8]) -> Result<&[u8], String> {
     match payload.split_at_checked(HEADER) {
         Some((head, body)) if head.starts_with(&LITTLE_ENDIAN) => Ok(body),
         _ => Err("not little-endian CDR, which begins with the bytes 00 01 00 00".to_owned()),
-    }
-}
-
-/// A service, called.
-struct Call {
-    steering: Arc<Steering>,
-    number: usize,
-}
-
-impl foxglove::websocket::service::Handler for Call {
-    fn call(&self, request: Request, responder: Responder) {
-        let asked = self
-            .steering
-            .viewer(request.client_id())
-            .and_then(|viewer| Ok((viewer, body(request.payload())?.to_vec())));
-        let (viewer, body) = match asked {
-            Ok(asked) => asked,
-            Err(why) => return responder.respond_err(format!("{}: {why}", request.service_name())),
-        };
-        let answer = self.steering.node.call(viewer, self.number, body);
-        tokio::spawn(async move {
-            match answer.await {
-                Ok(body) => {
-                    let mut reply = [LITTLE_ENDIAN.as_slice(), &[0, 0]].concat();
-                    reply.extend(body);
-                    responder.respond_ok(reply);
-                }
-                Err(why) => responder.respond_err(format!("{}: {why}", request.service_name())),
-            }
-        });
-    }
-}
-
-impl ParameterHandler for Steering {
-    fn get(&self, _: AnyClient, names: Vec<String>, _: Option<String>, responder: GetParametersResponder) {
-        let values = self.node.parameters(&names);
-        responder.respond(values.into_iter().map(parameter).collect());
-    }
-
-    fn set(&self, client: AnyClient, parameters: Vec<Parameter>, _: Option<String>, responder: SetParametersResponder) {
-        let names: Vec<String> = parameters.iter().map(|parameter| parameter.name.clone()).collect();
-        for Parameter { name, value, .. } in parameters {
-            let done = self.viewer(client.id()).and_then(|viewer| {
-                let value = value.and_then(setting).ok_or_else(|| {
-                    format!("'{name}' is not set: a parameter is a flag, a number, a text or a list of them")
-                })?;
-                self.node.set_parameter(viewer, &name, value)
-            });
-            if let Err(why) = done {
-                client.send_error(why);
-            }
-        }
-        // What they are, whether they were set or not.
-        let values = self.node.parameters(&names);
-        responder.respond(values.into_iter().map(parameter).collect());
-    }
-}
-
-impl ServerListener for Steering {
-    fn on_subscribe(&self, client: Client, channel: ChannelView) {
-        self.hub.on_subscribe(client, channel);
-    }
-
-    fn on_client_connect(&self) {
-        self.hub.on_client_connect();
-    }
-
-    fn on_client_disconnect(&self) {
-        self.hub.on_client_disconnect();
-    }
-
-    fn on_client_advertise(&self, client: Client, channel: &ClientChannel) {
-        let introduced = channel.topic.strip_prefix(self.secret.text());
-        if let Some(address) = introduced.and_then(|address| address.parse().ok()) {
-            let number = client.id().into();
-            self.viewers().insert(client.id(), Viewer { number, address });
-        } else if let Err(why) = self.input(channel) {
-            client.send_status(Status::error(why));
-        }
-    }
-
-    fn on_client_unadvertise(&self, client: Client, channel: &ClientChannel) {
-        if channel.topic.starts_with(self.secret.text()) {
-            self.viewers().remove(&client.id());
-        }
-    }
-
-    fn on_message_data(&self, client: Client, channel: &ClientChannel, payload: &[u8]) {
-        if let Err(why) = self.take(&client, channel, payload) {
-            client.send_status(Status::error(why));
-        }
     }
 }
 

@@ -169,8 +169,8 @@ async def steer(url):
         await viewer.publish(1, b"60")
         await viewer.until(lambda: len(viewer.said) >= 5, 5.0)
         found["no_input"] = list(viewer.said)
-        # Nobody takes another's name by saying what the door says.
-        await viewer.advertise({4294967295: ("/mine", "cdr", float64)})
+        # A channel stays what it was advertised as.
+        await viewer.advertise({1: ("/mine", "cdr", float64)})
         await viewer.until(lambda: len(viewer.said) >= 6, 5.0)
         found["name"] = viewer.said[-1]
         return found

@@ -24,6 +24,7 @@ impl Lines {
     pub fn of(text: &str) -> Self {
         let options = serde_saphyr::options! {
             non_finite_float_policy: serde_saphyr::NonFiniteFloatPolicy::AsString,
+            alias_limits: crate::reading::alias_limits(),
         };
         let mut lines = Self::default();
         if let Ok(tree) = serde_saphyr::from_str_with_options::<Spanned<Tree>>(text, options) {

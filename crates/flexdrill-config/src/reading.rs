@@ -32,10 +32,24 @@ pub fn checked<T: DeserializeOwned>(
     check: impl FnOnce(&T, &mut Checker),
 ) -> Result<T, ConfigError> {
     let lines = Lines::of(text);
-    let value = serde_saphyr::from_str(text).map_err(|error| syntax_error(name, text, &lines, required, &error))?;
+    let options = serde_saphyr::options! {
+        alias_limits: alias_limits(),
+    };
+    let value = serde_saphyr::from_str_with_options(text, options)
+        .map_err(|error| syntax_error(name, text, &lines, required, &error))?;
     let mut checker = Checker::new(name, &lines);
     check(&value, &mut checker);
     checker.finish().map(|()| value)
+}
+
+/// A short text whose aliases repeat one another is not expanded without end: a configuration that is written by hand needs
+/// a few of them.
+pub fn alias_limits() -> serde_saphyr::options::AliasLimits {
+    /// Values that aliases may repeat, in all: more than a configuration has.
+    const MOST_REPEATED: usize = 10_000;
+    serde_saphyr::alias_limits! {
+        max_total_replayed_events: MOST_REPEATED,
+    }
 }
 
 /// Words the error of reading `text`, the content of the file `name`. `required` are the keys without a default, to

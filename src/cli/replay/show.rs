@@ -4,13 +4,13 @@ use std::net::SocketAddr;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::bag;
 use crate::cli::output::say;
 use crate::cli::signals;
-use crate::live::{self, Hub, Player, States};
+use crate::live::{self, Gateway, Hub, Player, States};
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
 use crate::told::printable;
-use crate::{bag, live::LiveError};
 
 /// Plays a bag at `address` until the process is asked to end.
 pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyhow::Result<()> {
@@ -21,18 +21,18 @@ pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyh
         let shutdown = signals::shutdown(false)?;
         let bag = bag::open(path)?;
         let (start, end) = live::range(&bag, path)?;
-        let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref)).map_err(LiveError::from)?;
-        let protocol = Arc::new(live::start_protocol(&hub, Some((start, end))).await?);
+        let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref));
         let states = Arc::new(States::default());
         read_states(path, Arc::clone(&states))?;
-        let playing = Player::start(bag, (start, end), &hub, &protocol, &states)?;
+        let playing = Player::start(bag, (start, end), &hub, &states)?;
         say!(
             "playing {} ({:.1} s) at ws://{} for Foxglove and Lichtblick; Ctrl-C ends it",
             printable(&path.display().to_string()),
             (end - start) as f64 * 1e-9,
             listener.local_addr()?
         );
-        live::serve(listener, live::only_door(live::door_to(&protocol, origins)), shutdown).await?;
+        let gateway = Gateway::new(&hub, None, origins);
+        live::serve(listener, live::only_gateway(gateway), shutdown).await?;
         drop(playing);
         anyhow::Ok(())
     })

@@ -38,7 +38,7 @@ use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging, type_desc
 use crate::bag::{Recording, RecordingThread, Topic};
 use crate::dds::network::Network;
 use crate::dds::port::PortBuilder;
-use crate::live::{Hub, LiveError, LiveServer, Steering, Token};
+use crate::live::{Hub, LiveServer, Steering, Token};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
 use flexdrill_config::Config;
@@ -330,12 +330,12 @@ fn start_live(
         .iter()
         .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
         .collect();
-    let hub = Hub::new(&offered).map_err(LiveError::from)?;
+    let hub = Hub::new(&offered);
     let steering = match &at.token {
         None => None,
         Some(token) => {
             let viewers = steered();
-            let steering = Steering::new(Arc::clone(&viewers) as _, &hub)?;
+            let steering = Steering::new(Arc::clone(&viewers) as _);
             viewers.tell_changes(&steering);
             Some((token.clone(), steering))
         }

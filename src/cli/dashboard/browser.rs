@@ -1,0 +1,118 @@
+//! Opens the page in this machine's browser without showing the token to others: what a program is started with stands in
+//! the list of processes, for all users to read.
+
+use std::fs::{File, OpenOptions};
+use std::io::Write as _;
+use std::os::unix::fs::OpenOptionsExt as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::cli::output::tell;
+use crate::live::fill_random;
+
+/// A page in a file that only its owner may read, which leads the browser to an address. It is removed when this is dropped.
+#[derive(Debug)]
+pub(super) struct Redirect(PathBuf);
+
+impl Redirect {
+    /// To an address, in a folder.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    fn write(folder: &Path, url: &str) -> anyhow::Result<Self> {
+        let mut random = [0; 8];
+        fill_random(&mut random)?;
+        let path = folder.join(format!("flexdrill-{:016x}.html", u64::from_le_bytes(random)));
+        let mut file: File = OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .mode(0o600)
+            .open(&path)?;
+        let redirect = Self(path);
+        let url = escaped(url);
+        write!(
+            file,
+            "<!doctype html><meta charset=\"utf-8\"><title>flexdrill</title>\
+             <meta name=\"referrer\" content=\"no-referrer\">\
+             <meta http-equiv=\"refresh\" content=\"0;url={url}\"><a href=\"{url}\">flexdrill</a>\n"
+        )?;
+        Ok(redirect)
+    }
+}
+
+impl Drop for Redirect {
+    fn drop(&mut self) {
+        // The browser has read it, or the user has opened the printed address.
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+/// Has the desktop open an address, by a private file where it holds a token. Without a desktop, the printed address has to
+/// do.
+pub(super) fn open(url: &str) -> Option<Redirect> {
+    match try_open(url) {
+        Ok(redirect) => redirect,
+        Err(error) => {
+            tell!("no browser could be opened ({error}); open the printed address yourself");
+            None
+        }
+    }
+}
+
+fn try_open(url: &str) -> anyhow::Result<Option<Redirect>> {
+    let program = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
+    let mut command = Command::new(program);
+    let redirect = if url.contains('#') {
+        // Where the session has one, only its user may enter this folder.
+        let folder = std::env::var_os("XDG_RUNTIME_DIR").map_or_else(std::env::temp_dir, PathBuf::from);
+        let redirect = Redirect::write(&folder, url)?;
+        command.arg(&redirect.0);
+        Some(redirect)
+    } else {
+        command.arg(url);
+        None
+    };
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(|error| anyhow::anyhow!("{program}: {error}"))?;
+    Ok(redirect)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::fs::PermissionsExt as _;
+
+    use super::*;
+
+    #[test]
+    fn the_redirect_is_its_owners_alone_and_goes_with_the_program() {
+        let folder = tempfile::tempdir().unwrap();
+        let redirect = Redirect::write(folder.path(), "http://127.0.0.1:8080/#token=a\"&<b").unwrap();
+        let mode = std::fs::metadata(&redirect.0).unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o600);
+        let text = std::fs::read_to_string(&redirect.0).unwrap();
+        assert!(
+            text.contains("url=http://127.0.0.1:8080/#token=a&quot;&amp;&lt;b\""),
+            "{text}"
+        );
+        drop(redirect);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}
