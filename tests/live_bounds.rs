@@ -47,8 +47,9 @@ fn listening(network: &Network) -> Vec<u16> {
         .collect()
 }
 
-fn handles(program: &Program) -> usize {
-    std::fs::read_dir(format!("/proc/{}/fd", program.id())).unwrap().count()
+/// File handles that a process holds.
+fn handles(process: u32) -> usize {
+    std::fs::read_dir(format!("/proc/{process}/fd")).unwrap().count()
 }
 
 /// Most memory that a process has held so far (bytes).
@@ -102,13 +103,14 @@ fn half_sent_requests_take_few_handles_and_nothing_from_dds_or_the_recording() {
     twin.wait_for("model time runs");
     peer.subscribe(STATUS.0, STATUS.1, "reliable");
     let before = peer.status_with(STATUS.0, |status| status["state"] == 1);
-    let alone = handles(&twin);
+    let process = twin.id();
+    let alone = handles(process);
     let done = AtomicBool::new(false);
     let (seen, viewer, most) = std::thread::scope(|scope| {
         let counting = scope.spawn(|| {
             let mut most = 0;
             while !done.load(Ordering::Relaxed) {
-                most = most.max(handles(&twin));
+                most = most.max(handles(process));
                 std::thread::sleep(Duration::from_millis(50));
             }
             most

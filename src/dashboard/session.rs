@@ -209,24 +209,12 @@ mod tests {
 
     /// Anybody on the network can send a session.
     #[test]
-    fn a_session_that_takes_long_to_read_is_refused() {
+    fn a_session_that_is_too_long_is_refused() {
         let long = SessionInfo {
             configuration: " ".repeat(LONGEST + 1),
             ..SessionInfo::default()
         };
         assert!(Session::new(&long).unwrap_err().contains("262145 bytes"));
-        // Ten levels of ten aliases: ten thousand million values from some hundred bytes.
-        let mut aliases = "a0: &a0 [0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\n".to_owned();
-        for level in 1..10 {
-            let last = format!("*a{}", level - 1);
-            aliases += &format!("a{level}: &a{level} [{}]\n", vec![last; 10].join(", "));
-        }
-        let bomb = SessionInfo {
-            configuration: aliases,
-            ..SessionInfo::default()
-        };
-        let why = Session::new(&bomb).unwrap_err();
-        assert!(why.contains("alias"), "{why}");
     }
 
     #[test]

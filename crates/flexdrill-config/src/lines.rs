@@ -197,4 +197,20 @@ mod tests {
         assert_eq!(lines.find("x"), (None, false));
         assert_eq!(lines.key_at(2, 6), "a.b");
     }
+
+    /// Anybody may write a configuration, or send one. Five lines stand for a hundred thousand values here, which took part
+    /// of a second to read, and another line makes it ten times as many.
+    #[test]
+    fn aliases_that_repeat_one_another_are_not_expanded() {
+        let text = |levels: usize| {
+            let mut text = "a0: &a0 [0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\n".to_owned();
+            for level in 1..levels {
+                let last = format!("*a{}", level - 1);
+                text += &format!("a{level}: &a{level} [{}]\n", vec![last; 10].join(", "));
+            }
+            text
+        };
+        assert!(Lines::of(&text(2)).has("a1.9.9"));
+        assert!(!Lines::of(&text(5)).has("a0"));
+    }
 }
