@@ -198,8 +198,9 @@ fn a_viewer_that_stops_reading_is_not_served_old_data() {
     });
     let Some(seen) = seen else { return };
     println!("{most} bytes unsent at most; {seen}");
-    // Twice what was asked for, by the system's way of counting; without the bound, the megabytes of 12 s.
-    assert!((1..=256 << 10).contains(&most), "{most} bytes unsent");
+    // 128 KiB, which Linux doubles for its bookkeeping, and the write that finds the last room: 290 kB were measured.
+    // Without the bound it is all of the 12 s that the system has room for.
+    assert!((1..=384 << 10).contains(&most), "{most} bytes unsent");
     // Of 50 a second for 12 s: what both sockets hold, 400 kB of the 300 kB a second of all topics.
     assert!(seen["old"].as_u64().is_some_and(|old| old < 200), "{seen}");
     twin.signal("INT");
