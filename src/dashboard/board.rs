@@ -90,11 +90,15 @@ impl Board {
     /// Takes a message, a CDR body of little endian, that came at `arrived` (ns since 1970); the instant that it speaks of.
     /// What cannot be read is left to those who can.
     pub fn observe(&self, topic: &TopicInfo, body: &[u8], arrived: i64) -> i64 {
-        if topic.name == topics::SESSION.name {
-            return self.observe_session(body).unwrap_or(arrived);
-        }
+        let is_session = topic.name == topics::SESSION.name;
+        let of_session = if is_session { self.observe_session(body) } else { None };
         let mut known = self.known();
-        let time = known.observe(topic, body, arrived).unwrap_or(arrived);
+        let time = if is_session {
+            of_session
+        } else {
+            known.observe(topic, body, arrived)
+        };
+        let time = time.unwrap_or(arrived);
         known.heard.insert(topic.name, (time, Instant::now()));
         time
     }
