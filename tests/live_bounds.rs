@@ -1,5 +1,5 @@
-//! What clients that only look can take of a node: its handles, its memory, its time. They take bounded parts of each, and
-//! DDS and the recording go on.
+//! What clients that only look can take of a node: its handles, its memory, its time. They take bounded parts of each,
+//! and DDS and the recording go on.
 
 mod common;
 

@@ -87,8 +87,8 @@ impl Board {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a message, a CDR body of little endian, that came at `arrived` (ns since 1970); the instant that it speaks of.
-    /// What cannot be read is left to those who can.
+    /// Takes a message, a CDR body of little endian, that came at `arrived` (ns since 1970); the instant that it speaks
+    /// of. What cannot be read is left to those who can.
     pub fn observe(&self, topic: &TopicInfo, body: &[u8], arrived: i64) -> i64 {
         let is_session = topic.name == topics::SESSION.name;
         let of_session = if is_session { self.observe_session(body) } else { None };
@@ -103,8 +103,8 @@ impl Board {
         time
     }
 
-    /// The newest message of each topic as the page gets it: the instant that it speaks of, and for how long it has been
-    /// the newest (s), by a clock that is never set.
+    /// The newest message of each topic as the page gets it: the instant that it speaks of, and for how long it has
+    /// been the newest (s), by a clock that is never set.
     pub fn newest(&self) -> Value {
         let known = self.known();
         let newest = known.heard.iter().map(|(name, (time, arrived))| {

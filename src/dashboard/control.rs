@@ -1,7 +1,8 @@
 //! Steering and requests to the node, for who shows the token.
 //!
-//! The server steers as any rig does, by `rig/inputs`, ten times a second, and only while it is the one publisher: where
-//! another sends an input, it does not begin, and stops. A page that steers says every second that it is still there.
+//! The server steers as any rig does, by `rig/inputs`, ten times a second, and only while it is the one publisher:
+//! where another sends an input, it does not begin, and stops. A page that steers says every second that it is still
+//! there.
 
 mod ask;
 mod drive;

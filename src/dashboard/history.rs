@@ -32,7 +32,8 @@ pub(super) struct History {
     exaggeration: f64,
     /// What holds until it changes, known before the tool's sizes too.
     held: Option<(i64, WhirlWarning)>,
-    /// Body and measured depth (m) of each watched place, so that a page can draw a tool of which nothing comes any more.
+    /// Body and measured depth (m) of each watched place, so that a page can draw a tool of which nothing comes any
+    /// more.
     watched: (Vec<u8>, Vec<f64>),
     /// Nothing more comes.
     complete: bool,

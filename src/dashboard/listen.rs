@@ -20,8 +20,8 @@ pub(super) struct Ears {
 }
 
 impl Ears {
-    /// At `port`: all topics of a twin of this namespace and what the rig sends it. Latched topics are read reliably, all
-    /// others best effort: who only looks must not make the twin keep samples.
+    /// At `port`: all topics of a twin of this namespace and what the rig sends it. Latched topics are read reliably,
+    /// all others best effort: who only looks must not make the twin keep samples.
     pub fn new(port: &mut PortBuilder, twin: &NodeIdentity) -> anyhow::Result<Self> {
         let mut heard = Vec::new();
         for topic in topics::ALL.iter().filter(|topic| topic.name != topics::CLOCK.name) {

@@ -1,7 +1,7 @@
 //! The page beside the rig: its server, a program of its own that sees what any client of DDS sees, or plays a bag.
 //!
-//! All is behind one address. `/` is the page; `/live` the live data, in the protocol of Foxglove and Lichtblick, which may
-//! use it too; `/api/...` what a page needs beside that, and what it may ask of the twin:
+//! All is behind one address. `/` is the page; `/live` the live data, in the protocol of Foxglove and Lichtblick, which
+//! may use it too; `/api/...` what a page needs beside that, and what it may ask of the twin:
 //! - `GET /api/session`: mode, limits, the tool's places, a bag's incidents;
 //! - `GET /api/pulse`: the server's clock, its instance, the age of its newest data;
 //! - `GET /api/history`: the last hour, a frame a second; `GET /api/journal`: the alarms' events;

@@ -1,6 +1,7 @@
 //! The joints' motion beyond the last minute: every ten seconds the last three, at 25 positions a second, for an hour.
 //!
-//! A position has two bytes for each direction: an hour of one joint has 108 kB, of the default tool's 32 joints 3.5 MB.
+//! A position has two bytes for each direction: an hour of one joint has 108 kB, of the default tool's 32 joints 3.5
+//! MB.
 
 use std::collections::VecDeque;
 

@@ -26,8 +26,8 @@ struct Snapshot {
 pub(super) struct Snapshots(Mutex<Vec<Snapshot>>);
 
 impl Snapshots {
-    /// The answer of a version, which `make` makes where it is not there yet. Where slow readers hold all copies, it is the
-    /// newest of those, [`GRACE`] / [`MOST`] old at most while they come and go.
+    /// The answer of a version, which `make` makes where it is not there yet. Where slow readers hold all copies, it is
+    /// the newest of those, [`GRACE`] / [`MOST`] old at most while they come and go.
     pub fn body(&self, version: u64, make: impl FnOnce() -> Option<Vec<u8>>) -> Option<Body> {
         self.bytes(version, Instant::now(), make).map(Reader::body)
     }

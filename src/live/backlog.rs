@@ -1,5 +1,5 @@
-//! What waits for one viewer: bounded in number, in bytes and in age, so that a slow viewer costs little memory and sees
-//! recent data. A slow viewer loses its oldest messages; all of them are counted.
+//! What waits for one viewer: bounded in number, in bytes and in age, so that a slow viewer costs little memory and
+//! sees recent data. A slow viewer loses its oldest messages; all of them are counted.
 
 use std::collections::VecDeque;
 use std::net::SocketAddr;
@@ -19,12 +19,13 @@ use crate::told::Throttle;
 pub(super) const MOST_DATA: usize = 256;
 /// Most bytes of data that wait for a viewer. Viewers share the bytes of a message; one message always fits.
 const MOST_DATA_BYTES: usize = 8 << 20;
-/// Most answers and notices that wait for a viewer. None of them may be dropped, so a viewer beyond this is disconnected.
+/// Most answers and notices that wait for a viewer. None of them may be dropped, so a viewer beyond this is
+/// disconnected.
 const MOST_ANSWERS: usize = 256;
 /// Most bytes of answers that wait: several times the definitions of all topics and services.
 const MOST_ANSWER_BYTES: usize = 4 << 20;
-/// A message that has waited longer is dropped when a newer one of its topic waits behind it. With the socket's own buffer
-/// this bounds the lag of a viewer on a slow line.
+/// A message that has waited longer is dropped when a newer one of its topic waits behind it. With the socket's own
+/// buffer this bounds the lag of a viewer on a slow line.
 const MOST_AGE: Duration = Duration::from_secs(1);
 /// Least time between two log lines about one viewer (s).
 const LINE_INTERVAL: f64 = 10.0;
@@ -81,7 +82,8 @@ impl Queue {
         behind.any(|other| matches!(other, Waiting::Data { data, .. } if data.topic == *topic))
     }
 
-    /// Which message goes when there is no room: the oldest that a newer one of its topic supersedes, latched topics last.
+    /// Which message goes when there is no room: the oldest that a newer one of its topic supersedes, latched topics
+    /// last.
     fn least_needed(&self) -> Option<usize> {
         let oldest = |wanted: &dyn Fn(usize, &Data) -> bool| {
             let mut all = self.waiting.iter().enumerate();
@@ -169,8 +171,8 @@ impl Queue {
     }
 }
 
-/// The queue of one viewer, filled by the hub and by the viewer's own requests, emptied by its connection. Filling it never
-/// waits.
+/// The queue of one viewer, filled by the hub and by the viewer's own requests, emptied by its connection. Filling it
+/// never waits.
 pub(super) struct Backlog {
     viewer: SocketAddr,
     queue: Mutex<Queue>,

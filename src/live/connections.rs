@@ -1,8 +1,8 @@
 //! Connections to an address: how many there are, how long they may wait, and how much may lie in their sockets.
 //!
-//! Whoever reaches the address can open connections and leave them unused. They must not take the handles that DDS and the
-//! recording need: requests share a fixed number of places, and the oldest connection of the address with the most of them
-//! makes room for a new one. A WebSocket that was admitted has a place of its own (`gateway`).
+//! Whoever reaches the address can open connections and leave them unused. They must not take the handles that DDS and
+//! the recording need: requests share a fixed number of places, and the oldest connection of the address with the most
+//! of them makes room for a new one. A WebSocket that was admitted has a place of its own (`gateway`).
 
 use std::io;
 use std::net::{IpAddr, SocketAddr};
@@ -25,7 +25,8 @@ use crate::told::Throttle;
 
 /// Most connections that are not WebSockets: a page uses up to six.
 const MOST: usize = 64;
-/// These connections take at most this share of the handles that the process may open; the rest is for DDS and recording.
+/// These connections take at most this share of the handles that the process may open; the rest is for DDS and
+/// recording.
 const SHARE: u64 = 4;
 /// A request's head must be complete after this time, and the next one on the same connection must begin.
 const HEAD: Duration = Duration::from_secs(10);
@@ -33,8 +34,8 @@ const HEAD: Duration = Duration::from_secs(10);
 const MOST_HEAD: usize = 16 << 10;
 /// A connection that accepts nothing for this time is closed.
 const STALL: Duration = Duration::from_secs(20);
-/// Send buffer of a connection (bytes): what it holds is older than what the server has. A tenth of a second of all topics
-/// of the default tool; the system counts its own bookkeeping on top.
+/// Send buffer of a connection (bytes): what it holds is older than what the server has. A tenth of a second of all
+/// topics of the default tool; the system counts its own bookkeeping on top.
 const SEND_BUFFER: usize = 128 << 10;
 /// Pause after the system has refused a connection, so that the refusals do not take the processor.
 const REFUSED: Duration = Duration::from_millis(100);
@@ -126,7 +127,8 @@ impl Open {
 
 async fn connection(stream: TcpStream, from: SocketAddr, router: Router) {
     let socket = socket2::SockRef::from(&stream);
-    // Small messages go out as they come. Where the system refuses one of these, only the lag of a slow viewer is larger.
+    // Small messages go out as they come. Where the system refuses one of these, only the lag of a slow viewer is
+    // larger.
     let _ = socket.set_tcp_nodelay(true);
     let _ = socket.set_send_buffer_size(SEND_BUFFER);
     // A machine that has gone without a word does not keep its place.

@@ -1,8 +1,8 @@
 //! Who is admitted: a WebSocket that speaks the protocol, from this machine's own pages and programs.
 //!
-//! A page of any server can open a WebSocket to this machine from the browser that shows it; the browser names the page's
-//! server in `Origin`. A name whose owner points it to this machine (DNS rebinding) shows in `Host`. A viewer that steers
-//! shows the token in the address, the one place that the protocol has for it.
+//! A page of any server can open a WebSocket to this machine from the browser that shows it; the browser names the
+//! page's server in `Origin`. A name whose owner points it to this machine (DNS rebinding) shows in `Host`. A viewer
+//! that steers shows the token in the address, the one place that the protocol has for it.
 
 use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -49,8 +49,8 @@ pub struct Gateway {
 }
 
 impl Gateway {
-    /// To the topics of `hub`, for pages of this machine, of Foxglove, and of `origins` (as `https://viewer.example`, or
-    /// `file://` for viewers that are files); with `steered`, who shows the token may steer.
+    /// To the topics of `hub`, for pages of this machine, of Foxglove, and of `origins` (as `https://viewer.example`,
+    /// or `file://` for viewers that are files); with `steered`, who shows the token may steer.
     pub fn new(hub: &Arc<Hub>, steered: Option<(Token, Arc<Steering>)>, origins: &[String]) -> Arc<Self> {
         Arc::new(Self {
             hub: Arc::clone(hub),

@@ -27,8 +27,8 @@ struct Subscriber {
     backlog: Arc<Backlog>,
 }
 
-/// What is known of a topic. Its lock is held while a message goes out, so that a new subscriber never gets an older state
-/// after a newer one.
+/// What is known of a topic. Its lock is held while a message goes out, so that a new subscriber never gets an older
+/// state after a newer one.
 #[derive(Default)]
 struct State {
     /// The newest message of a latched topic, with its instant (ns since 1970).

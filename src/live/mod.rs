@@ -9,7 +9,8 @@
 //! - `server`: all of it on a thread of its own (`flexdrill run --foxglove`) or in a runtime that exists.
 //! - `player`: a bag as a source, with play, pause, seek and speed.
 //!
-//! A slow viewer loses its oldest messages and slows nothing else. There is one listening socket: the announced address.
+//! A slow viewer loses its oldest messages and slows nothing else. There is one listening socket: the announced
+//! address.
 
 mod backlog;
 mod connections;

@@ -15,8 +15,8 @@ use crate::bag::{Bag, BagMessage};
 use crate::messages::{AlarmList, Message as _};
 use crate::told::printable;
 
-/// After a jump, what stands there is told: of each topic the newest message of so long before (ns). Every topic of the node
-/// that is not latched comes at least each second.
+/// After a jump, what stands there is told: of each topic the newest message of so long before (ns). Every topic of the
+/// node that is not latched comes at least each second.
 const BEFORE: u64 = 2_000_000_000;
 /// How often viewers are told the time.
 const TIME_INTERVAL: Duration = Duration::from_millis(100);
@@ -128,8 +128,8 @@ struct Stage {
 }
 
 impl Player {
-    /// Plays a bag, whose topics are those of the hub, from its beginning on. `states` are filled meanwhile by who reads the
-    /// bag through.
+    /// Plays a bag, whose topics are those of the hub, from its beginning on. `states` are filled meanwhile by who
+    /// reads the bag through.
     ///
     /// # Errors
     /// When the system gives no thread.

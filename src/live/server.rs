@@ -108,8 +108,8 @@ pub struct LiveServer {
 }
 
 impl LiveServer {
-    /// Listens at `address`, which `option` gave; viewers in pages of `origins` are admitted too, and who shows the token may
-    /// steer.
+    /// Listens at `address`, which `option` gave; viewers in pages of `origins` are admitted too, and who shows the
+    /// token may steer.
     ///
     /// # Errors
     /// When it cannot.

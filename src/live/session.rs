@@ -1,5 +1,5 @@
-//! The conversation with one viewer, from the handshake to the end of the connection: what it subscribes to, and what it
-//! asks for.
+//! The conversation with one viewer, from the handshake to the end of the connection: what it subscribes to, and what
+//! it asks for.
 //!
 //! The messages are those of the protocol's authors (`foxglove::ws_protocol`).
 
@@ -25,8 +25,8 @@ use super::hub::Hub;
 use super::steering::{ClientChannel, ENCODING, Pilot};
 use crate::told::printable;
 
-/// Longest message of a viewer (bytes), whole or in fragments: far above all that the node accepts. A longer one is refused
-/// by its announced length, before any of it is stored.
+/// Longest message of a viewer (bytes), whole or in fragments: far above all that the node accepts. A longer one is
+/// refused by its announced length, before any of it is stored.
 pub(super) const MOST_BYTES: usize = 64 << 10;
 /// What is read at once.
 const READ: usize = 4 << 10;

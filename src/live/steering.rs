@@ -1,5 +1,5 @@
-//! What a viewer that has shown the token may do: parameters, services, inputs. The node carries it out and refuses it as
-//! it does for anybody; here it is translated to and from the protocol.
+//! What a viewer that has shown the token may do: parameters, services, inputs. The node carries it out and refuses it
+//! as it does for anybody; here it is translated to and from the protocol.
 
 use std::collections::{BTreeSet, HashMap};
 use std::fmt;

@@ -1,5 +1,5 @@
-//! Opens the page in this machine's browser without showing the token to others: what a program is started with stands in
-//! the list of processes, for all users to read.
+//! Opens the page in this machine's browser without showing the token to others: what a program is started with stands
+//! in the list of processes, for all users to read.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write as _;
@@ -10,7 +10,8 @@ use std::process::{Command, Stdio};
 use crate::cli::output::tell;
 use crate::live::fill_random;
 
-/// A page in a file that only its owner may read, which leads the browser to an address. It is removed when this is dropped.
+/// A page in a file that only its owner may read, which leads the browser to an address. It is removed when this is
+/// dropped.
 #[derive(Debug)]
 pub(super) struct Redirect(PathBuf);
 
@@ -61,8 +62,8 @@ fn escaped(text: &str) -> String {
     escaped
 }
 
-/// Has the desktop open an address, by a private file where it holds a token. Without a desktop, the printed address has to
-/// do.
+/// Has the desktop open an address, by a private file where it holds a token. Without a desktop, the printed address
+/// has to do.
 pub(super) fn open(url: &str) -> Option<Redirect> {
     match try_open(url) {
         Ok(redirect) => redirect,
