@@ -77,6 +77,7 @@ impl Board {
             &mut status.config_hash,
             &mut status.dds_restart_cause,
             &mut status.dds_stalled_reader,
+            &mut status.recording_drops_cause,
         ] {
             show(text);
         }
