@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 const STATUS: (&str, &str) = ("/twin/status", "flexdrill/msg/TwinStatus");
 
 /// All outputs with their types and how a reader asks for them.
-const OUTPUTS: [(&str, &str, &str); 15] = [
+const OUTPUTS: [(&str, &str, &str); 16] = [
     ("/twin/joint_deflections", "flexdrill/msg/JointDeflections", "reliable"),
     ("/twin/contact_forces", "flexdrill/msg/ContactForces", "reliable"),
     ("/twin/whirl", "flexdrill/msg/WhirlState", "reliable"),
@@ -16,6 +16,7 @@ const OUTPUTS: [(&str, &str, &str); 15] = [
     ("/twin/alarms", "flexdrill/msg/AlarmList", "latched"),
     ("/twin/alarm_events", "flexdrill/msg/AlarmEvent", "reliable"),
     ("/twin/ageing", "flexdrill/msg/Ageing", "reliable"),
+    ("/twin/reactions", "flexdrill/msg/Reactions", "reliable"),
     ("/twin/bit_state", "flexdrill/msg/BitState", "reliable"),
     (STATUS.0, STATUS.1, "reliable"),
     ("/twin/tool_shape", "visualization_msgs/msg/MarkerArray", "best_effort"),
@@ -199,7 +200,7 @@ fn parameters_and_services_answer_both_kinds_of_clients() {
         "rcl_interfaces/srv/ListParameters",
         json!({"prefixes": ["outputs.rates"]}),
     );
-    assert_eq!(length(&listed["result"], "names"), 9);
+    assert_eq!(length(&listed["result"], "names"), 10);
 
     // The logger of the node's name, as `ros2 service call` would set it.
     let logger = |level: u32| json!({"levels": [{"name": "rig_7.flexdrill", "level": level}]});
@@ -476,6 +477,55 @@ fn a_pause_is_no_lateness() {
     let said = twin.said();
     assert!(said.contains("stood still (paused or failed)"), "{said}");
     assert!(!said.contains("not in real time"), "{said}");
+}
+
+/// ROS 2's tools warn of mixed qualities of service where a topic has two writers, and list each name that begins as theirs.
+#[test]
+fn the_graph_has_one_writer_of_parameter_events_and_nothing_private() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    let found = peer.command(json!({"do": "endpoints"}));
+    let endpoints = |kind: &str| -> Vec<(String, bool)> { serde_json::from_value(found[kind].clone()).unwrap() };
+    let (writers, readers) = (endpoints("writers"), endpoints("readers"));
+    assert!(writers.len() > 30 && readers.len() > 15, "{found}");
+    let events: Vec<_> = writers
+        .iter()
+        .filter(|(topic, _)| topic == "rt/parameter_events")
+        .collect();
+    assert_eq!(events, [&("rt/parameter_events".to_owned(), false)]);
+    for (topic, _) in writers.iter().chain(&readers) {
+        let is_ros = ["rt/", "rq/", "rr/"].iter().any(|prefix| topic.starts_with(prefix));
+        // rmw_cyclonedds leaves what begins like DDS's own topics out of the graph.
+        let is_hidden = topic.starts_with("DCPS");
+        assert!(is_ros || is_hidden || topic == "ros_discovery_info", "{topic}");
+    }
+    for (topic, _) in &writers {
+        let count = writers.iter().filter(|(other, _)| other == topic).count();
+        assert_eq!(count, 1, "{topic} has {count} writers");
+    }
+}
+
+/// A client that has never asked before has to be found before a reply reaches it; the node's end waits for that.
+#[test]
+fn the_shutdown_of_a_managed_node_is_answered() {
+    let Some(network) = Network::new() else { return };
+    for as_cyclone in [false, true] {
+        let mut twin = network.twin(&["--lifecycle"]);
+        twin.wait_for("model time runs");
+        let Some(mut peer) = network.peer() else { return };
+        let request = json!({"transition": {"id": 5, "label": ""}});
+        let (service, kind) = ("/flexdrill/change_state", "lifecycle_msgs/srv/ChangeState");
+        // Without an answer this panics.
+        let reply = if as_cyclone {
+            peer.call_as_rmw_cyclone(service, kind, request)
+        } else {
+            peer.call(service, kind, request)
+        };
+        assert_eq!(reply["success"], true, "{reply}");
+        assert_eq!(twin.end(), Some(0));
+    }
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn a_foreign_viewer_decodes_every_topic() {
         .filter(|name| !quiet.contains(*name))
         .collect();
     assert!(missing.is_empty(), "{missing:?} of {offered:?}");
-    assert_eq!(offered.len(), 19);
+    assert_eq!(offered.len(), 20);
     let joints = &seen["found"]["/twin/joint_deflections"];
     // 50 Hz for 4 s, less the time until the subscription.
     assert!((150..=205).contains(&joints["count"].as_u64().unwrap()), "{joints}");
@@ -86,7 +86,7 @@ fn twenty_viewers_and_a_frozen_one_slow_nobody() {
     };
     let after = peer.take("/twin/status", 1000, 1.0).pop().unwrap();
     let counts: Vec<u64> = serde_json::from_value(seen["counts"].clone()).unwrap();
-    assert_eq!(counts.len(), 19);
+    assert_eq!(counts.len(), 20);
     let (least, most) = (counts.iter().min().unwrap(), counts.iter().max().unwrap());
     // 300 messages a second for 8 s and a little; they began one after another.
     assert!(*least > 1500 && most - least < 600, "{counts:?}");

@@ -4,7 +4,7 @@ use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::fill::{self, ShapeStyle};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::visualization_msgs::{Marker, MarkerArray};
-use flexdrill::messages::{Ageing, BitState, ContactForces, JointDeflections, WhirlWarning, sensor_msgs};
+use flexdrill::messages::{Ageing, BitState, ContactForces, JointDeflections, Reactions, WhirlWarning, sensor_msgs};
 use flexdrill_core::motion::{DriveState, Severity, ShockLevel, WhirlKind};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ContactLayer, Snapshot};
@@ -92,6 +92,34 @@ fn ageing_is_told_per_hour_and_relative_to_the_worst() {
     assert_eq!(message.guide_wall_friction_work, [7.0, 8.0]);
     assert_eq!(message.joint_measured_depth.len(), 3);
     assert_eq!(message.woehler_slope, 5.0);
+}
+
+#[test]
+fn reactions_are_vectors_by_axis_and_support() {
+    let mut snapshot = snapshot();
+    snapshot.applied.drive_torque = 300.0;
+    snapshot.reactions = flexdrill_core::twin::Reactions {
+        measured_depth: vec![0.0, 5.0],
+        inclination: vec![0.0, 1.5],
+        body: vec![Body::Pipe, Body::Guide],
+        force: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
+        moment: vec![[0.0; 3], [7.0, 8.0, 9.0]],
+        supports: [5.0, 7.0, 9.0],
+        unbalance: [0.0, 0.0, 0.1],
+        ..flexdrill_core::twin::Reactions::default()
+    };
+    let mut message = Reactions::default();
+    fill::reactions(&snapshot, &header(), &mut message);
+    // A second time: what was there is gone.
+    fill::reactions(&snapshot, &header(), &mut message);
+    assert_eq!(message.body, [Reactions::PIPE, Reactions::GUIDE]);
+    assert_eq!(
+        (message.force_x.as_slice(), message.force_z.as_slice()),
+        ([1.0, 4.0].as_slice(), [3.0, 6.0].as_slice())
+    );
+    assert_eq!(message.moment_y, [0.0, 8.0]);
+    assert_eq!(message.support_force, [5.0, 7.0, 9.0]);
+    assert_eq!((message.unbalanced_force[2], message.drive_torque), (0.1, 300.0));
 }
 
 #[test]

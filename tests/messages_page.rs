@@ -13,8 +13,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use flexdrill::messages::{
-    Ageing, Alarm, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, RigInputs,
-    SessionInfo, TwinStatus, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
+    Ageing, Alarm, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions,
+    RigInputs, SessionInfo, TwinStatus, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, SeqAccess, Visitor, value::Error};
@@ -159,6 +159,7 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<BitState>(&mut maker),
         reference::<ContactForces>(&mut maker),
         reference::<JointDeflections>(&mut maker),
+        reference::<Reactions>(&mut maker),
         reference::<RigInputs>(&mut maker),
         reference::<SessionInfo>(&mut maker),
         reference::<TwinStatus>(&mut maker),

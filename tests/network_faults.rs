@@ -113,6 +113,54 @@ fn dds_stopped_killed_or_interrupted_is_back_and_nothing_is_missing() {
     is_complete(&recording, seconds - 1.0);
 }
 
+/// Cyclone DDS keeps a request for readers that died without acknowledging it, and sends it to the reader of the next
+/// DDS process and of the next node.
+#[test]
+fn requests_are_carried_out_once_whatever_restarts() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let start = || {
+        let mut twin = network.twin(&["--ros-args", "--log-level", "flexdrill::dds:=debug"]);
+        twin.wait_for("model time runs");
+        twin
+    };
+    let reset = |peer: &mut Peer| {
+        let reply = peer.call_as_rmw_cyclone("/flexdrill/reset", "std_srvs/srv/Trigger", json!({}));
+        assert_eq!(reply["success"], true, "{reply}");
+    };
+    let resets = |twin: &mut Program| twin.said().matches("reset: the model goes back").count();
+    let mut twin = start();
+    peer.subscribe(STATUS.0, STATUS.1, "reliable");
+    back_after(&mut peer, 0);
+    reset(&mut peer);
+    for restarts in 1..=3 {
+        signal_id(twin.dds_process(), "KILL");
+        back_after(&mut peer, restarts);
+        reset(&mut peer);
+    }
+    // What a writer still holds it sends when it finds the reader; the last call was answered, so it has.
+    std::thread::sleep(Duration::from_secs(1));
+    let said = twin.said();
+    assert_eq!(resets(&mut twin), 4, "{said}");
+    assert!(
+        said.contains("arrived again and is not carried out again"),
+        "nothing was sent again, so that this test proves nothing:\n{said}"
+    );
+
+    twin.signal("KILL");
+    twin.end();
+    let mut next = start();
+    peer.status_with(STATUS.0, |status| status["dds_restarts"] == 0);
+    reset(&mut peer);
+    std::thread::sleep(Duration::from_secs(1));
+    let said = next.said();
+    assert_eq!(resets(&mut next), 1, "{said}");
+    assert!(
+        said.contains("before this node was started"),
+        "nothing was sent again, so that this test proves nothing:\n{said}"
+    );
+}
+
 #[test]
 fn the_whole_program_stopped_for_a_while_goes_on() {
     let Some(network) = Network::new() else { return };

@@ -36,6 +36,29 @@ fn wrong_use_is_2_and_a_failure_is_1() {
     refused(&["run", "--domain", "400"], 2, &["400", "232"]);
     refused(&["run", "--service-mapping", "both"], 2, &["auto"]);
     refused(&["run", "--config", "/nowhere.yaml"], 1, &["/nowhere.yaml"]);
+    // The parameter names the configuration too, and ROS 2 arguments alone run the node.
+    refused(
+        &["--ros-args", "-p", "config_file:=/nowhere.yaml"],
+        1,
+        &["/nowhere.yaml"],
+    );
+    refused(
+        &[
+            "run",
+            "--config",
+            "config/default.yaml",
+            "--ros-args",
+            "-p",
+            "config_file:=config/coarse.yaml",
+        ],
+        2,
+        &["config/default.yaml", "config/coarse.yaml", "give one of them"],
+    );
+    refused(
+        &["run", "--ros-args", "-p", "config_file:=3"],
+        2,
+        &["config_file", "the path of a configuration"],
+    );
     refused(&["run", "--ros-args", "-p", "tool.link:=3"], 1, &["tool.link"]);
     refused(&["run", "--ros-args", "-p", "tool.links:=-3"], 1, &["tool.links"]);
     refused(

@@ -58,7 +58,8 @@ inputs:
   rotary_speed: {slow_age: 1.0, max_age: 2.0, hold_before_safe: 0.5, safe_ramp_rpm_per_s: 50}
   weight_on_bit: {slow_age: 1.0, max_age: 2.0, hold_before_safe: 0.5, safe_ramp_kn_per_s: 20}
 outputs:
-  rates: {joint_deflections: 10, contact_forces: 10, whirl: 5, bit_state: 10, tool_shape: 0, ageing: 1, joint_states: 0}
+  rates: {joint_deflections: 10, contact_forces: 10, whirl: 5, bit_state: 10, tool_shape: 0, ageing: 1, reactions: 5,
+          joint_states: 0}
 "#;
 
 /// SplitMix64 (Steele, Lea, Flood 2014): a seed gives the same world on every machine.

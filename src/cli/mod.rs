@@ -102,12 +102,25 @@ pub struct Misunderstood {
     pub text: String,
 }
 
+/// The arguments outside and inside of `--ros-args`. With ROS 2 arguments and without a subcommand, as `ros2 run` and
+/// `ros2 launch` start a program, it is `run`.
+fn split(given: Vec<String>) -> (Vec<String>, Vec<String>) {
+    let is_ros = given.iter().any(|argument| argument == "--ros-args");
+    let (mut arguments, ros_args) = args::split(given);
+    let asks = ["-h", "--help", "-V", "--version"];
+    let names_none = |word: &String| word.starts_with('-') && !asks.contains(&word.as_str());
+    if is_ros && !arguments.is_empty() && arguments.get(1).is_none_or(names_none) {
+        arguments.insert(1, "run".to_owned());
+    }
+    (arguments, ros_args)
+}
+
 /// Whether a command line, the program's name first, can be understood; nothing is run.
 ///
 /// # Errors
 /// What is wrong with it.
 pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), Misunderstood> {
-    let (arguments, ros_args) = args::split(arguments);
+    let (arguments, ros_args) = split(arguments.into_iter().collect());
     match Cli::try_parse_from(arguments) {
         Err(error) if error.use_stderr() => {
             let ends_early = [ErrorKind::MissingRequiredArgument, ErrorKind::MissingSubcommand];
@@ -137,7 +150,7 @@ pub fn main() -> ExitCode {
     {
         return side::main();
     }
-    let (arguments, ros_args) = args::split(std::env::args());
+    let (arguments, ros_args) = split(std::env::args().collect());
     if arguments.len() < 2 {
         tell_text!("{}", first_start::WELCOME);
         return ExitCode::from(WRONG_USE);
@@ -178,6 +191,35 @@ pub fn main() -> ExitCode {
             } else {
                 ExitCode::FAILURE
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn split_line(line: &str) -> (Vec<String>, Vec<String>) {
+        split(line.split_whitespace().map(str::to_owned).collect())
+    }
+
+    #[test]
+    fn ros_arguments_alone_run_the_node() {
+        for (line, expected) in [
+            ("flexdrill --ros-args -r __ns:=/rig_7", vec!["flexdrill", "run"]),
+            ("flexdrill --ros-args", vec!["flexdrill", "run"]),
+            (
+                "flexdrill --lifecycle --ros-args -p a:=1 -- --domain 3",
+                vec!["flexdrill", "run", "--lifecycle", "--domain", "3"],
+            ),
+            (
+                "flexdrill rig log.csv --ros-args -r a:=b",
+                vec!["flexdrill", "rig", "log.csv"],
+            ),
+            ("flexdrill --help --ros-args", vec!["flexdrill", "--help"]),
+            ("flexdrill", vec!["flexdrill"]),
+        ] {
+            assert_eq!(split_line(line).0, expected, "{line}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `flexdrill run`: the node.
 
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use clap::Args;
@@ -30,12 +30,13 @@ const DEFAULT_CONFIG_NAME: &str = "config/default.yaml (built in)";
 #[derive(Debug, Args)]
 #[command(
     after_help = "ROS 2 arguments follow --ros-args, up to -- or the end: -r from:=to, -r __ns:=/rig_7, -r __node:=name, \
-    -p name:=value, --params-file FILE, --log-level LEVEL.\nEvery key of the configuration is a parameter of the same dotted name; \
+    -p name:=value, --params-file FILE, --log-level LEVEL. With them `run` may be left out, as in `ros2 run flexdrill flexdrill --ros-args \
+    -p config_file:=FILE`.\nEvery key of the configuration is a parameter of the same dotted name; \
     -p and parameter files win over the configuration file.\nROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and \
     RMW_IMPLEMENTATION are followed; RUST_LOG sets the log filter."
 )]
 pub(super) struct RunArgs {
-    /// Configuration (YAML); without it the paper's case, built in.
+    /// Configuration (YAML), also as the parameter config_file; without it the paper's case, built in.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
     /// Record inputs and outputs: FILE.mcap, or a folder as rosbag2 makes them. {start} in the name becomes the time of
@@ -85,12 +86,14 @@ pub(super) struct RunArgs {
 pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
     logging::start(&ros_args);
-    let (config, config_file) = load_config(args.config.as_deref())?;
     let identity = ros_args
         .remapping
         .identity(&args.namespace, DEFAULT_NODE_NAME)
         .map_err(WrongUse::new)?;
-    let started = parameters::apply_overrides(&config, &ros_args.overrides.for_node(&identity))?;
+    let overrides = ros_args.overrides.for_node(&identity);
+    let named = parameters::config_file(&overrides).map_err(WrongUse::new)?;
+    let (config, config_file) = load_config(chosen_config(args.config.as_deref(), named)?)?;
+    let started = parameters::apply_overrides(&config, &overrides)?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
     let network = network.configured(&started.config.network).map_err(WrongUse::new)?;
     let state_dir = args
@@ -137,6 +140,27 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
     })?;
     print_summary(&summary);
     Ok(())
+}
+
+/// The configuration to read, none for the one that is built in: that of the option or of the parameter `config_file`.
+/// `named` is the parameter with where it was given.
+///
+/// # Errors
+/// When both are given and they are not the same file.
+fn chosen_config<'a>(option: Option<&'a Path>, named: Option<(&'a str, &str)>) -> Result<Option<&'a Path>, WrongUse> {
+    let Some((path, origin)) = named else { return Ok(option) };
+    // What a node with the built-in configuration shows, and `ros2 param dump` writes.
+    let named = (path != DEFAULT_CONFIG_NAME).then(|| Path::new(path));
+    let is_same =
+        |a: &Path, b: &Path| a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    match (option, named) {
+        (None, named) => Ok(named),
+        (Some(option), Some(named)) if is_same(option, named) => Ok(Some(option)),
+        (Some(option), _) => Err(WrongUse::new(format!(
+            "--config {} and the parameter config_file = {path} ({origin}) name different configurations; give one of them",
+            option.display()
+        ))),
+    }
 }
 
 /// The configuration and the name of its source.
@@ -226,6 +250,7 @@ fn rate(config: &Config, schedule: &flexdrill_core::twin::Schedule, key: &str) -
         "whirl" => of(Output::Whirl),
         "tool_shape" => of(Output::ToolShape),
         "ageing" => of(Output::Ageing),
+        "reactions" => of(Output::Reactions),
         "status" => config.outputs.rates.status,
         "diagnostics" => config.outputs.rates.diagnostics,
         _ => 0.0,
@@ -278,6 +303,26 @@ fn print_summary(summary: &RunSummary) {
                 "{} messages of the recording may be lost: the disk refused to keep them",
                 recording.doubtful
             );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parameter_names_the_configuration_as_the_option_does() {
+        let here = Path::new("Cargo.toml");
+        let chosen = |option, named: Option<&'static str>| chosen_config(option, named.map(|path| (path, "-p")));
+        assert_eq!(chosen(None, None).unwrap(), None);
+        assert_eq!(chosen(Some(here), None).unwrap(), Some(here));
+        assert_eq!(chosen(None, Some("Cargo.toml")).unwrap(), Some(here));
+        assert_eq!(chosen(Some(here), Some("./src/../Cargo.toml")).unwrap(), Some(here));
+        assert_eq!(chosen(None, Some(DEFAULT_CONFIG_NAME)).unwrap(), None);
+        for other in ["Cargo.lock", "nowhere.yaml", DEFAULT_CONFIG_NAME] {
+            let refused = chosen(Some(here), Some(other)).unwrap_err().to_string();
+            assert!(refused.contains("Cargo.toml") && refused.contains(other), "{refused}");
         }
     }
 }

@@ -30,6 +30,13 @@ const LONGEST_TEXT: usize = 1000;
 const GONE: Duration = Duration::from_secs(2);
 /// The parameter that changes how the tool's shape is drawn.
 const EXAGGERATION: &str = "outputs.exaggeration";
+/// Outputs of which the page shows nothing but that they come.
+const HEADER_ONLY: [&str; 4] = [
+    topics::JOINT_STATES.name,
+    topics::DIAGNOSTICS.name,
+    topics::AGEING.name,
+    topics::REACTIONS.name,
+];
 
 /// An alarm from its call to its end.
 #[derive(Debug, Clone)]
@@ -273,7 +280,7 @@ impl Known {
                 }
                 stamp(&message.header.stamp)
             }
-            name if [topics::JOINT_STATES.name, topics::DIAGNOSTICS.name, topics::AGEING.name].contains(&name) => {
+            name if HEADER_ONLY.contains(&name) => {
                 let header: Header = read(body)?;
                 stamp(&header.stamp)
             }

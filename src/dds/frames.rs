@@ -69,6 +69,10 @@ pub enum FromSide {
         ticket: u64,
         /// Who asks.
         client: Peer,
+        /// Number of the request among all of its writer's.
+        sequence: i64,
+        /// When it was sent, by the client's clock (ns since 1970); none where the client does not say.
+        sent: Option<i64>,
         /// The CDR body.
         #[serde(with = "serde_bytes")]
         body: Vec<u8>,

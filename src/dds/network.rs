@@ -3,8 +3,8 @@
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 
-use ros2_client::{Context, CreateError};
-use rustdds::DomainParticipantBuilder;
+use rustdds::dds::CreateError;
+use rustdds::{DomainParticipant, DomainParticipantBuilder};
 use serde::{Deserialize, Serialize};
 
 /// Highest domain whose UDP ports fit (7400 + 250 x domain + ...).
@@ -195,7 +195,7 @@ impl Network {
     ///
     /// # Errors
     /// When no participant can be created, or it is to be a secured one and this program cannot make such.
-    pub fn start(&self) -> Result<Context, NetworkError> {
+    pub fn start(&self) -> Result<DomainParticipant, NetworkError> {
         let failed = |source| NetworkError::Participant {
             domain_id: self.domain_id,
             source,
@@ -209,8 +209,7 @@ impl Network {
         if let Some(keys) = &self.keys {
             builder = secured(builder, keys)?;
         }
-        let participant = builder.build().map_err(|error| failed(CreateError::from(error)))?;
-        Context::from_domain_participant(participant).map_err(failed)
+        builder.build().map_err(failed)
     }
 }
 

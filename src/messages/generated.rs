@@ -699,6 +699,76 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/JointDeflections", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "max_bend_angle", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_bend_joint", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joints_at_limit", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bend_angle", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bend_direction", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "limit_angle", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_moment", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "spin_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_force", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shear_force", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// The forces on the tool from outside, so that a reader can close the balance: supports, weight, wall, bit and loads. At
+    /// rest they sum to zero; in motion they do together with inertia and damping. All vectors are along the axes of the
+    /// frame: X horizontal in the build's direction, Y horizontal, Z down.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Reactions {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Torque that the drive puts into the top of the pipe (N m), positive drives.
+        pub drive_torque: f64,
+        /// Torque of the rock against the bit (N m).
+        pub bit_torque: f64,
+        /// Sum of the forces of all supports (N).
+        pub support_force: [f64; 3],
+        /// Weight of both pipes and of what they carry, buoyancy taken off (N).
+        pub weight: [f64; 3],
+        /// Sum of the forces of the wall on the guide pipe, friction included (N).
+        pub wall_force: [f64; 3],
+        /// Force of the rock on the tool: the weight on bit, along the axis at the bit (N).
+        pub bit_force: [f64; 3],
+        /// Sum of the configured point loads (N).
+        pub load_force: [f64; 3],
+        /// Minus mass times acceleration, of all of the tool (N).
+        pub inertia_force: [f64; 3],
+        /// Damping of the motion of the tool as a whole (N).
+        pub damping_force: [f64; 3],
+        /// Sum of the seven forces: what the solver leaves (N).
+        pub unbalanced_force: [f64; 3],
+        /// Per support, a place where a pipe is held in some directions: place along the bore from the kick-off (m).
+        pub measured_depth: Vec<f64>,
+        /// Inclination of the bore there, 0 is straight down (rad).
+        pub inclination: Vec<f64>,
+        /// PIPE or GUIDE.
+        pub body: Vec<u8>,
+        /// Force of the support on the pipe, X (N).
+        pub force_x: Vec<f64>,
+        /// Force, Y (N).
+        pub force_y: Vec<f64>,
+        /// Force, Z (N).
+        pub force_z: Vec<f64>,
+        /// Moment of the support on the pipe about its place, X (N m). The drive's torque is not in it.
+        pub moment_x: Vec<f64>,
+        /// Moment, Y (N m).
+        pub moment_y: Vec<f64>,
+        /// Moment, Z (N m).
+        pub moment_z: Vec<f64>,
+    }
+
+    impl Reactions {
+        /// The flexible pipe.
+        pub const PIPE: u8 = 0;
+        /// The guide pipe.
+        pub const GUIDE: u8 = 1;
+    }
+
+    impl Message for Reactions {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "Reactions";
+        const ROS_TYPE: &'static str = "flexdrill/msg/Reactions";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Reactions_";
+        const RIHS01: &'static str = "RIHS01_4ccf4ad06f5c354eb83a5ec31e99219185cbced1737213ed22a25db08357f9cd";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../msg/Reactions.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Reactions", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "drive_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "support_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "wall_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "load_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inertia_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "damping_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unbalanced_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// Both inputs of the rig with the time at which they were measured, for rigs that have it; the topics rig/rotary_speed_rpm and
     /// rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2993,6 +3063,7 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::BitState as super::Message>::INFO,
     <flexdrill::ContactForces as super::Message>::INFO,
     <flexdrill::JointDeflections as super::Message>::INFO,
+    <flexdrill::Reactions as super::Message>::INFO,
     <flexdrill::RigInputs as super::Message>::INFO,
     <flexdrill::SessionInfo as super::Message>::INFO,
     <flexdrill::TwinStatus as super::Message>::INFO,

@@ -12,8 +12,8 @@ use super::tf2_msgs::TFMessage;
 use super::topics::{self, TopicInfo};
 use super::visualization_msgs::MarkerArray;
 use super::{
-    Ageing, AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, SessionInfo, WhirlState, WhirlWarning,
-    to_cdr_into,
+    Ageing, AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, Reactions, SessionInfo, WhirlState,
+    WhirlWarning, to_cdr_into,
 };
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
@@ -72,6 +72,7 @@ pub struct Outputs {
     warning: WhirlWarning,
     tool_shape: MarkerArray,
     ageing: Ageing,
+    reactions: Reactions,
     /// Sequence of the level that was sent last, and whether it was suppressed.
     warned: Option<(u64, bool)>,
     /// How often a warning was suppressed or released; counts as a change too.
@@ -91,6 +92,7 @@ pub fn schedule(config: &Config) -> Schedule {
         Output::Whirl => rates.whirl,
         Output::ToolShape => rates.tool_shape,
         Output::Ageing => rates.ageing,
+        Output::Reactions => rates.reactions,
         Output::Alarms => ALARM_RATE,
     })
 }
@@ -118,6 +120,7 @@ impl Outputs {
             warning: WhirlWarning::default(),
             tool_shape: MarkerArray::default(),
             ageing: Ageing::default(),
+            reactions: Reactions::default(),
             warned: None,
             suppressions: 0,
             driven: None,
@@ -193,6 +196,11 @@ impl Outputs {
                     fill::ageing(snapshot, &header, &mut self.ageing);
                     to_cdr_into(&self.ageing, &mut self.bytes)?;
                     &topics::AGEING
+                }
+                Output::Reactions => {
+                    fill::reactions(snapshot, &header, &mut self.reactions);
+                    to_cdr_into(&self.reactions, &mut self.bytes)?;
+                    &topics::REACTIONS
                 }
                 Output::Alarms => continue,
             };

@@ -1,9 +1,9 @@
 //! All topics: name, type, rate and quality of service. The node and the bags share this table.
 
 use super::{
-    Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, RigInputs,
-    SessionInfo, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs,
-    tf2_msgs, visualization_msgs,
+    Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions,
+    RigInputs, SessionInfo, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs,
+    sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -126,6 +126,13 @@ pub const BIT_STATE: TopicInfo = TopicInfo::new(
     Cadence::Rate("bit_state"),
     reliable(10),
 );
+/// Output: forces from outside.
+pub const REACTIONS: TopicInfo = TopicInfo::new(
+    "twin/reactions",
+    Reactions::INFO,
+    Cadence::Rate("reactions"),
+    reliable(10),
+);
 /// Output: health and heartbeat.
 pub const STATUS: TopicInfo = TopicInfo::new("twin/status", TwinStatus::INFO, Cadence::Rate("status"), reliable(10));
 /// Output: picture of the tool.
@@ -163,7 +170,7 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 19] = [
+pub const ALL: [TopicInfo; 20] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RIG_INPUTS,
@@ -176,6 +183,7 @@ pub const ALL: [TopicInfo; 19] = [
     ALARM_EVENTS,
     AGEING,
     BIT_STATE,
+    REACTIONS,
     STATUS,
     TOOL_SHAPE,
     APPLIED_INPUTS,

@@ -53,6 +53,7 @@ types! {
     ours::BitState,
     ours::ContactForces,
     ours::JointDeflections,
+    ours::Reactions,
     ours::RigInputs,
     ours::SessionInfo,
     ours::TwinStatus,

@@ -1,7 +1,7 @@
 """A DDS program from another vendor (Cyclone DDS), told what to do by one JSON object per line on standard input.
 
 Answers one JSON object per line. Commands: subscribe, take, listen, publish, flood, call,
-matched, rihs01, quit.
+matched, rihs01, endpoints, quit.
 """
 
 import hashlib
@@ -10,6 +10,7 @@ import math
 import sys
 import time
 
+from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription
 from cyclonedds.core import InstanceState, Policy, Qos, ReadCondition, SampleState, ViewState, WaitSet
 from cyclonedds.domain import DomainParticipant
 from cyclonedds.pub import DataWriter
@@ -113,6 +114,20 @@ class Peer:
 
     def matched(self, topic):
         return {"matched": len(self.readers[topic].get_matched_publications())}
+
+    def endpoints(self, seconds=2.0):
+        """All writers and readers of others: topic in DDS, and whether it is latched."""
+        time.sleep(seconds)
+        found = {}
+        for name, builtin in (("writers", BuiltinTopicDcpsPublication), ("readers", BuiltinTopicDcpsSubscription)):
+            samples = BuiltinDataReader(self.participant, builtin).take(N=1000)
+            others = [
+                sample
+                for sample in samples
+                if sample.sample_info.valid_data and sample.participant_key != self.participant.guid
+            ]
+            found[name] = [[each.topic_name, Policy.Durability.TransientLocal in each.qos] for each in others]
+        return found
 
     def rihs01(self, description):
         """The hash of a type description, from itself."""

@@ -36,6 +36,8 @@ section! {
         tool_shape: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `twin/ageing`.
         ageing: f64 = 1.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
+        /// `twin/reactions`.
+        reactions: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `joint_states`.
         joint_states: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `/diagnostics`.

@@ -15,13 +15,13 @@ use super::inbox::{Request, Sample, Way};
 use super::{Shared, TopicCounters};
 use crate::dds::frames::{self, Beat, FromSide, LogLevel, Stall, ToSide};
 use crate::dds::plan::{GuidPrefix, Plan};
-use crate::dds::side::SUBCOMMAND;
+use crate::dds::side::{LAST_REPLIES, SUBCOMMAND};
 use flexdrill_realtime::monotonic;
 
 /// Longest a write may take before it is looked whether the process still lives.
 const WRITE: Duration = Duration::from_millis(100);
-/// How long it may take to leave the network.
-const LEAVE: Duration = Duration::from_secs(2);
+/// How long it may take to leave the network: it waits for its last replies, and then says that it goes.
+const LEAVE: Duration = LAST_REPLIES.saturating_add(Duration::from_secs(2));
 
 /// The process and the thread that hears it.
 pub(super) struct Child {
@@ -234,17 +234,20 @@ impl Hearing {
                 service,
                 ticket,
                 client,
+                sequence,
+                sent,
                 body,
             } => {
-                if let Some(inbox) = self.shared.services.get(usize::from(service)) {
-                    inbox.put(Request {
-                        way: Way::Dds {
-                            life: self.life,
-                            ticket,
-                        },
-                        client,
-                        body,
-                    });
+                if self
+                    .shared
+                    .is_to_be_taken(usize::from(service), &client, sequence, sent)
+                    && let Some(inbox) = self.shared.services.get(usize::from(service))
+                {
+                    let way = Way::Dds {
+                        life: self.life,
+                        ticket,
+                    };
+                    inbox.put(Request::of_a_client(way, client, body, &self.shared.open));
                 }
             }
             FromSide::Beat(beat) => self.beat(&beat),

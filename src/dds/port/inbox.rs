@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::{Notify, oneshot};
 
@@ -40,15 +40,44 @@ pub struct Request {
     pub client: Peer,
     /// CDR without its header.
     pub body: Vec<u8>,
+    /// Counts it for as long as it has no answer.
+    _open: Option<OpenRequest>,
+}
+
+/// Counts a request that came over DDS until it is dropped.
+#[derive(Debug)]
+struct OpenRequest(Arc<AtomicU64>);
+
+impl Drop for OpenRequest {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::AcqRel);
+    }
 }
 
 impl Request {
+    /// Asked for over DDS; counted in `open` until it is answered or given up.
+    pub(super) fn of_a_client(way: Way, client: Peer, body: Vec<u8>, open: &Arc<AtomicU64>) -> Self {
+        open.fetch_add(1, Ordering::AcqRel);
+        Self {
+            way,
+            client,
+            body,
+            _open: Some(OpenRequest(Arc::clone(open))),
+        }
+    }
+
     /// Asked for within this process, by `client`, with a CDR body; the body of the reply comes to the receiver, which hears
     /// nothing where the service does not answer.
     pub fn of_this_process(client: Peer, body: Vec<u8>) -> (Self, oneshot::Receiver<Vec<u8>>) {
         let (sender, receiver) = oneshot::channel();
         let way = Way::Here(sender);
-        (Self { way, client, body }, receiver)
+        let request = Self {
+            way,
+            client,
+            body,
+            _open: None,
+        };
+        (request, receiver)
     }
 
     /// Whether it came over DDS, where clients speak in two forms.

@@ -145,8 +145,12 @@ impl Keeper {
         let began = Instant::now();
         let mut looked = began;
         loop {
-            let frames = self.shared.outbox.wait(LOOK);
+            let mut frames = self.shared.outbox.wait(LOOK);
             let stop = self.shared.stop.load(Ordering::Acquire);
+            if stop {
+                // What came between the two lines above was given before the end, such as the last reply.
+                frames.extend(self.shared.outbox.wait(Duration::ZERO));
+            }
             for frame in &frames {
                 match child.send(frame) {
                     Ok(()) => {}

@@ -10,20 +10,24 @@ mod health;
 mod inbox;
 mod keeper;
 mod outbox;
+mod taken;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 pub use self::health::{Health, Restart};
 use self::inbox::Way;
 pub use self::inbox::{Inbox, Request, Sample};
 use self::keeper::Keeper;
 use self::outbox::Outbox;
+use self::taken::{Arrival, TakenRequests, Verdict};
 use super::frames::{Peer, Peers, ToSide};
 use super::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan, service_topics};
 use crate::dds::network::Network;
+use crate::told::Throttle;
+use flexdrill_realtime::monotonic;
 
 /// Samples that wait for a part of the node that is busy.
 const SAMPLES: usize = 256;
@@ -55,7 +59,24 @@ struct Shared {
     health: Mutex<Health>,
     peers: Mutex<Peers>,
     stop: AtomicBool,
+    /// Names of the services.
+    service_names: Vec<String>,
+    /// Requests over all lives of the process.
+    taken: Mutex<Taken>,
+    /// Requests without an answer yet.
+    open: Arc<AtomicU64>,
 }
+
+/// Requests that were taken, and how often refusals are logged.
+struct Taken {
+    requests: TakenRequests,
+    /// When the node was started (ns of the monotonic clock).
+    began: u64,
+    refusals: Throttle,
+}
+
+/// Least time between two lines on refused requests (s).
+const REFUSALS: f64 = 1.0;
 
 impl Shared {
     fn health(&self) -> MutexGuard<'_, Health> {
@@ -64,6 +85,45 @@ impl Shared {
 
     fn peers(&self) -> MutexGuard<'_, Peers> {
         self.peers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether a request is to be carried out: it is new, and not meant for a node before this one. Why not is logged.
+    fn is_to_be_taken(&self, service: usize, client: &Peer, sequence: i64, sent: Option<i64>) -> bool {
+        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        let steady = monotonic::now();
+        let now = SystemTime::now().duration_since(UNIX_EPOCH);
+        let arrival = Arrival {
+            client: client.id,
+            sequence,
+            sent,
+            now: now.map_or(0, |since| since.as_nanos() as i64),
+            up: steady.saturating_sub(taken.began),
+        };
+        let why = match taken.requests.judge(&arrival) {
+            Verdict::New => return true,
+            Verdict::Repeated => {
+                tracing::debug!("request {sequence} of {client} arrived again and is not carried out again");
+                return false;
+            }
+            Verdict::Older(by) => format!(
+                "it was sent {by:.1} s before this node was started. If it was sent later, the clocks of the two machines \
+                 differ: synchronise them"
+            ),
+            Verdict::WithoutTime => {
+                "it does not say when it was sent, so it may be meant for a node before this one. Have the client send \
+                 source timestamps"
+                    .to_owned()
+            }
+            Verdict::Forgotten => {
+                "it is older than what is remembered of so many clients, so it may have been carried out. Send it again"
+                    .to_owned()
+            }
+        };
+        if let Some(more) = taken.refusals.ending(steady as f64 * 1e-9) {
+            let service = self.service_names.get(service).map_or("?", String::as_str);
+            tracing::warn!("service {service}: a request of {client} is not carried out: {why}{more}");
+        }
+        false
     }
 }
 
@@ -179,7 +239,15 @@ impl PortBuilder {
     /// # Errors
     /// When the process cannot be started, or DDS in it.
     pub fn start(self) -> Result<Port, StartError> {
+        let service_names = self.plan.services.iter().map(|service| service.name.clone()).collect();
         let shared = Arc::new(Shared {
+            service_names,
+            taken: Mutex::new(Taken {
+                requests: TakenRequests::default(),
+                began: monotonic::now(),
+                refusals: Throttle::new(REFUSALS),
+            }),
+            open: Arc::default(),
             outbox: self.outbox,
             writers: self.writers,
             readers: self.readers,
@@ -245,6 +313,11 @@ impl Monitor {
     /// Who writes what the subscriptions read, one list per subscription in the order in which they were made.
     pub fn writers(&self) -> Vec<Vec<Peer>> {
         self.0.peers().writers.clone()
+    }
+
+    /// Requests of clients that have no answer yet.
+    pub fn open_requests(&self) -> u64 {
+        self.0.open.load(Ordering::Acquire)
     }
 
     /// Other nodes of the same name.

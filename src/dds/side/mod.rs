@@ -3,6 +3,7 @@
 //! It keeps no state that matters. Whatever is wrong with DDS in it, it ends, and the node starts another one.
 
 mod backlog;
+mod graph;
 mod limits;
 mod logs;
 mod outlet;
@@ -22,11 +23,11 @@ use std::time::{Duration, Instant};
 
 use futures::StreamExt as _;
 use futures::stream::FuturesUnordered;
-use ros2_client::{Context, Node, NodeName, NodeOptions, Subscription};
 use rustdds::policy::{Durability, History, Reliability};
-use rustdds::{DomainParticipant, QosPolicyBuilder, StatusEvented as _, TopicKind};
+use rustdds::{DomainParticipant, QosPolicyBuilder, StatusEvented as _};
 use tokio::sync::{Notify, mpsc};
 
+use self::graph::{NodeGraph, Reader};
 use self::outlet::Outlet;
 use self::peers::PeerBook;
 use self::pulse::Pulse;
@@ -53,6 +54,8 @@ const LOOK: Duration = Duration::from_millis(500);
 const MOST_BROKEN: u32 = 10;
 /// How long they must have ended: while they come a fresh start jams too.
 const CALM: Duration = Duration::from_millis(500);
+/// How long an end waits for the replies that the node has given to reach their clients.
+pub const LAST_REPLIES: Duration = Duration::from_secs(2);
 /// Replies that may wait for their client to be known.
 const REPLIES: usize = 256;
 
@@ -106,12 +109,14 @@ fn run() -> Result<(), SideError> {
 }
 
 fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<(), SideError> {
-    let context = plan.network.start()?;
-    let participant = context.domain_participant();
-    let mut node = create_node(&context, plan)?;
+    let participant = plan.network.start()?;
+    let mut graph = NodeGraph::new(&participant, plan).map_err(|why| SideError::Node {
+        node: format!("{}/{}", plan.namespace.trim_end_matches('/'), plan.node),
+        why,
+    })?;
     let mut subscriptions = Vec::new();
     for reader in &plan.readers {
-        subscriptions.push(subscribe(&mut node, &participant, reader)?);
+        subscriptions.push(subscribe(&mut graph, reader)?);
     }
     let mut servers = Vec::new();
     for service in &plan.services {
@@ -119,7 +124,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
             service: service.name.clone(),
             why,
         };
-        servers.push(ServiceServer::new(&mut node, &participant, service).map_err(failed)?);
+        servers.push(ServiceServer::new(&mut graph, &participant, service).map_err(failed)?);
     }
     let mut writers = Vec::new();
     for writer in &plan.writers {
@@ -127,12 +132,13 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
             topic: writer.topic.clone(),
             why,
         };
-        writers.push(TopicWriter::new(&mut node, &participant, writer.clone()).map_err(failed)?);
+        writers.push(TopicWriter::new(&mut graph, writer.clone()).map_err(failed)?);
     }
-    let book = PeerBook::new(&mut node, &participant, plan).map_err(|why| SideError::Topic {
-        topic: peers::DISCOVERY_TOPIC.to_owned(),
+    let book = PeerBook::new(&mut graph, &participant, plan).map_err(|why| SideError::Topic {
+        topic: graph::DISCOVERY_TOPIC.to_owned(),
         why,
     })?;
+    graph.announce();
     let book = Arc::new(Mutex::new(book));
     let pulse = Pulse::new(&participant).map_err(|why| SideError::Sick(format!("the pulse: {why}")))?;
     let own = participant_prefix(&participant);
@@ -154,7 +160,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         .spawn(move || inlet.run(from))?;
     let minder = Minder {
         writers,
-        node,
+        graph,
         participant: participant.clone(),
         book: Arc::clone(&book),
         pulse,
@@ -169,11 +175,16 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
             .map(|(index, subscription)| hear(index as u16, subscription, outlet))
             .collect();
         let serving = replies::serve(&servers, answered, &book, outlet);
+        let last_replies = async {
+            end.notified().await;
+            tokio::time::sleep(LAST_REPLIES).await;
+        };
         tokio::select! {
-            () = end.notified() => Ok(()),
+            // All replies are with their clients, or it has taken too long.
+            served = serving => served,
+            () = last_replies => Ok(()),
             sick = minder.mind() => Err(sick),
             Some(()) = listening.next() => Err(SideError::Sick("a subscription ended".into())),
-            () = serving => Err(SideError::Sick("a service ended".into())),
         }
     });
     if let Err(error) = &result {
@@ -184,23 +195,11 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
     }
     // The subscriptions and servers go before the participant that they belong to.
     drop((subscriptions, servers));
-    drop(context);
+    drop(participant);
     if has_peers {
         static_peers::let_them_hear();
     }
     result
-}
-
-fn create_node(context: &Context, plan: &Plan) -> Result<Node, SideError> {
-    let failed = |why: String| SideError::Node {
-        node: format!("{}/{}", plan.namespace.trim_end_matches('/'), plan.node),
-        why,
-    };
-    let name = NodeName::new(&plan.namespace, &plan.node).map_err(|error| failed(error.to_string()))?;
-    let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
-    context
-        .new_node(name, options)
-        .map_err(|error| failed(error.to_string()))
 }
 
 fn participant_prefix(participant: &DomainParticipant) -> super::plan::GuidPrefix {
@@ -212,15 +211,7 @@ fn participant_prefix(participant: &DomainParticipant) -> super::plan::GuidPrefi
 
 /// Reads best effort, so that any writer matches, unless the plan says otherwise; a latched topic reliably and from its newest
 /// sample on.
-fn subscribe(
-    node: &mut Node,
-    participant: &DomainParticipant,
-    plan: &ReaderPlan,
-) -> Result<Subscription<RawCdr>, SideError> {
-    let failed = |why: String| SideError::Topic {
-        topic: plan.topic.clone(),
-        why,
-    };
+fn subscribe(graph: &mut NodeGraph, plan: &ReaderPlan) -> Result<Reader<RawCdr>, SideError> {
     let policies = QosPolicyBuilder::new()
         .reliability(if plan.latched || plan.reliable {
             Reliability::Reliable {
@@ -236,27 +227,23 @@ fn subscribe(
         })
         .history(History::KeepLast { depth: DEPTH })
         .build();
-    let handle = participant
-        .create_topic(
-            dds_topic_name(&plan.topic),
-            plan.dds_type.clone(),
-            &policies,
-            TopicKind::NoKey,
-        )
-        .map_err(|error| failed(error.to_string()))?;
-    node.create_subscription(&handle, None)
-        .map_err(|error| failed(error.to_string()))
+    graph
+        .reader(&dds_topic_name(&plan.topic), &plan.dds_type, &policies)
+        .map_err(|why| SideError::Topic {
+            topic: plan.topic.clone(),
+            why,
+        })
 }
 
 /// Hands over all that a subscription hears.
-async fn hear(reader: u16, subscription: &Subscription<RawCdr>, outlet: &Outlet) {
-    let mut samples = Box::pin(subscription.async_stream());
+async fn hear(reader: u16, subscription: &Reader<RawCdr>, outlet: &Outlet) {
+    let mut samples = Box::pin(subscription.as_async_stream());
     while let Some(sample) = samples.next().await {
         outlet.send(match sample {
-            Ok((RawCdr(body), info)) => FromSide::Sample {
+            Ok(sample) => FromSide::Sample {
                 reader,
-                writer: info.publisher_gid().to_bytes16(),
-                body,
+                writer: sample.writer_guid().to_bytes(),
+                body: sample.into_value().0,
             },
             Err(error) => FromSide::Unreadable {
                 reader,
@@ -291,13 +278,14 @@ impl Inlet {
             }
         }
         self.end.notify_one();
+        // The end of the answers: dropped with `self`.
     }
 }
 
 /// What is done at regular times.
 struct Minder {
     writers: Arc<Mutex<Vec<TopicWriter>>>,
-    node: Node,
+    graph: NodeGraph,
     participant: DomainParticipant,
     book: Arc<Mutex<PeerBook>>,
     pulse: Pulse,
@@ -343,7 +331,7 @@ impl Minder {
     fn tend_writers(&mut self, now: Instant) {
         let (mut writers, mut book) = (locked(&self.writers), locked(&self.book));
         for writer in writers.iter_mut() {
-            let stalled = writer.tend(now, &mut self.node, &self.participant, &mut book);
+            let stalled = writer.tend(now, &mut self.graph, &self.participant, &mut book);
             if let Some(stall) = stalled {
                 self.outlet.send(FromSide::Stalled(stall));
             }

@@ -4,52 +4,27 @@ use std::collections::BTreeMap;
 use std::net::{IpAddr, SocketAddr};
 use std::time::Instant;
 
-use ros2_client::{Gid, Node, Publisher, Subscription};
+use ros2_client::Gid;
 use rustdds::discovery::DiscoveredReaderData;
-use rustdds::policy::{Durability, History, Reliability};
-use rustdds::{DomainParticipant, DomainParticipantStatusEvent, GUID, QosPolicyBuilder, RTPSEntity as _, TopicKind};
-use serde::{Deserialize, Serialize};
+use rustdds::policy::{Durability, Reliability};
+use rustdds::{DomainParticipant, DomainParticipantStatusEvent, GUID, RTPSEntity as _};
 
 use super::backlog;
+use super::graph::{Entities, NodeGraph, Participant, Reader, Writer};
 use super::logs::RepairWatch;
 use super::raw::RawCdr;
 use crate::dds::frames::{Peer, Peers};
 use crate::dds::plan::{Guid, GuidPrefix, Plan, dds_topic_name};
 
-/// Where ROS 2 nodes say which endpoints are theirs.
-pub(super) const DISCOVERY_TOPIC: &str = "ros_discovery_info";
-const DISCOVERY_TYPE: &str = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
 /// Most participants remembered: made-up ones must not pile up.
 const MOST_PARTICIPANTS: usize = 1024;
 
 /// Most readers of which is remembered when they were found.
 const MOST_READERS: usize = 4096;
 
-/// `rmw_dds_common/msg/ParticipantEntitiesInfo`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-struct Participant {
-    gid: Gid,
-    nodes: Vec<Entities>,
-}
-
-/// `rmw_dds_common/msg/NodeEntitiesInfo`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-struct Entities {
-    namespace: String,
-    name: String,
-    readers: Vec<Gid>,
-    writers: Vec<Gid>,
-}
-
-impl Entities {
-    fn full_name(&self) -> String {
-        format!("{}/{}", self.namespace.trim_end_matches('/'), self.name)
-    }
-}
-
 /// What is known of others.
 pub(super) struct PeerBook {
-    announced: Subscription<Participant>,
+    announced: Reader<Participant>,
     nodes: BTreeMap<GuidPrefix, Vec<Entities>>,
     own: GuidPrefix,
     former: Vec<GuidPrefix>,
@@ -62,25 +37,8 @@ pub(super) struct PeerBook {
 }
 
 impl PeerBook {
-    pub(super) fn new(node: &mut Node, participant: &DomainParticipant, plan: &Plan) -> Result<Self, String> {
-        let policies = QosPolicyBuilder::new()
-            .reliability(Reliability::Reliable {
-                max_blocking_time: rustdds::Duration::ZERO,
-            })
-            .durability(Durability::TransientLocal)
-            .history(History::KeepLast { depth: 64 })
-            .build();
-        let topic = participant
-            .create_topic(
-                DISCOVERY_TOPIC.to_owned(),
-                DISCOVERY_TYPE.to_owned(),
-                &policies,
-                TopicKind::NoKey,
-            )
-            .map_err(|error| error.to_string())?;
-        let announced = node
-            .create_subscription(&topic, None)
-            .map_err(|error| error.to_string())?;
+    pub(super) fn new(graph: &mut NodeGraph, participant: &DomainParticipant, plan: &Plan) -> Result<Self, String> {
+        let announced = graph.announcements()?;
         Ok(Self {
             announced,
             nodes: BTreeMap::new(),
@@ -171,7 +129,9 @@ impl PeerBook {
 
     /// Takes what nodes have said of themselves.
     fn hear(&mut self) {
-        while let Ok(Some((announced, _))) = self.announced.take() {
+        self.announced.drain_read_notifications();
+        while let Ok(Some(announced)) = self.announced.try_take_one() {
+            let announced = announced.into_value();
             let from = prefix(&GUID::from(announced.gid));
             if self.nodes.len() < MOST_PARTICIPANTS || self.nodes.contains_key(&from) {
                 self.nodes.insert(from, announced.nodes);
@@ -212,7 +172,7 @@ impl PeerBook {
     /// machine piles up, else all that asked for every sample. Whether it is these for certain.
     pub(super) fn stalled(
         &self,
-        publisher: &Publisher<RawCdr>,
+        writer: &Writer<RawCdr>,
         topic: &str,
         participant: &DomainParticipant,
         watch: &RepairWatch,
@@ -223,7 +183,7 @@ impl PeerBook {
             .into_iter()
             .filter(|reader| reader.subscription_topic_data.topic_name == topic)
             .filter(|reader| reader.subscription_topic_data.qos().is_reliable())
-            .filter(|reader| prefix(&reader.reader_proxy.remote_reader_guid) != prefix(&publisher.guid()))
+            .filter(|reader| prefix(&reader.reader_proxy.remote_reader_guid) != prefix(&writer.guid()))
             .collect();
         let describe = |reader: &DiscoveredReaderData| {
             self.peer(

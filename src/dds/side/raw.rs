@@ -12,8 +12,6 @@ use serde::ser::{Serialize, SerializeTuple, Serializer};
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RawCdr(pub Vec<u8>);
 
-impl ros2_client::Message for RawCdr {}
-
 impl Serialize for RawCdr {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         // Eight bytes at a time: aligned from the start of the body, so that CDR adds no padding between them.

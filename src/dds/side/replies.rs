@@ -6,19 +6,23 @@ use std::time::Duration;
 
 use futures::StreamExt as _;
 use futures::stream::FuturesUnordered;
-use ros2_client::qos::{History, WhenFull};
-use ros2_client::{Name, Node, QosProfile, RmwRequestId, Server, ServiceMapping as Wire, ServiceTypeName};
-use rustdds::{DomainParticipant, GUID};
+use rustdds::no_key::DeserializedCacheChange;
+use rustdds::policy::{Durability, History, Reliability};
+use rustdds::{
+    DomainParticipant, GUID, QosPolicyBuilder, SampleIdentity, SequenceNumber, Timestamp, WriteOptionsBuilder,
+};
 use tokio::sync::mpsc;
 
+use super::graph::{NodeGraph, Reader, Writer};
 use super::outlet::Outlet;
 use super::peers::PeerBook;
 use super::raw::RawCdr;
+use super::{LAST_REPLIES, SideError};
 use crate::dds::frames::{FromSide, LogLevel};
-use crate::dds::plan::{MOST_REPLY, ServicePlan};
+use crate::dds::plan::{MOST_REPLY, ServicePlan, service_topics};
 
 /// Requests and replies kept per service; several clients may ask at once.
-const DEPTH: usize = 64;
+const DEPTH: i32 = 64;
 /// Requests of a service that may be open.
 const MOST_OPEN: usize = 256;
 /// Clients of a service that are remembered.
@@ -38,75 +42,96 @@ pub(super) struct Answer {
 
 /// A service's server.
 pub(super) struct ServiceServer {
-    server: Server<RawCdr, RawCdr>,
+    requests: Reader<RawCdr>,
+    replies: Writer<RawCdr>,
     name: String,
     participant: DomainParticipant,
 }
 
 impl ServiceServer {
-    pub(super) fn new(node: &mut Node, participant: &DomainParticipant, plan: &ServicePlan) -> Result<Self, String> {
-        let mut parts = plan.ros_type.split('/');
-        let package = parts.next().unwrap_or_default();
-        let service_type = ServiceTypeName::new(package, parts.next_back().unwrap_or_default());
-        let name = Name::parse(&plan.name).map_err(|error| error.to_string())?;
-        let qos = QosProfile::publisher_default()
-            .reliability_reliable(WhenFull::Fail)
-            .history(History::KeepLast { depth: DEPTH });
-        // The crate's enhanced mapping is the one that leaves the bytes alone.
-        let server = node
-            .create_server(Wire::Enhanced, &name, &service_type, qos.clone(), qos)
-            .map_err(|error| error.to_string())?;
+    pub(super) fn new(
+        graph: &mut NodeGraph,
+        participant: &DomainParticipant,
+        plan: &ServicePlan,
+    ) -> Result<Self, String> {
+        let qualities = QosPolicyBuilder::new()
+            .reliability(Reliability::Reliable {
+                max_blocking_time: rustdds::Duration::ZERO,
+            })
+            .durability(Durability::Volatile)
+            .history(History::KeepLast { depth: DEPTH })
+            .build();
+        let [(requests, request_type), (replies, reply_type)] = service_topics(&plan.name, &plan.ros_type);
         Ok(Self {
-            server,
+            requests: graph.reader(&requests, &request_type, &qualities)?,
+            replies: graph.writer(&replies, &reply_type, &qualities)?,
             name: plan.name.clone(),
             participant: participant.clone(),
         })
     }
 
-    /// Hands requests over and sends what comes back, for as long as it is polled.
-    async fn serve(&self, service: u16, mut answers: mpsc::Receiver<Answer>, book: &Mutex<PeerBook>, outlet: &Outlet) {
-        let mut requests = self.server.receive_request_stream();
-        let mut open: BTreeMap<u64, RmwRequestId> = BTreeMap::new();
+    /// Hands requests over and sends what comes back. Ends when there are no more answers and the last ones have reached
+    /// their clients; the result says whether that is why.
+    async fn serve(
+        &self,
+        service: u16,
+        mut answers: mpsc::Receiver<Answer>,
+        book: &Mutex<PeerBook>,
+        outlet: &Outlet,
+    ) -> bool {
+        let mut requests = Box::pin(self.requests.as_async_stream());
+        let mut open: BTreeMap<u64, SampleIdentity> = BTreeMap::new();
         let mut known = HashSet::new();
         let mut next = 0;
+        let mut replied: Option<tokio::time::Instant> = None;
         loop {
             tokio::select! {
                 received = requests.next() => match received {
-                    None => return,
+                    None => return false,
                     Some(Err(error)) => outlet.log(
                         LogLevel::Warning,
                         format!("service {}: a request could not be received: {error}", self.name),
                     ),
-                    Some(Ok((id, RawCdr(body)))) => {
+                    Some(Ok(request)) => {
                         if open.len() == MOST_OPEN {
                             open.pop_first();
                         }
-                        let client = GUID::from(id.writer_gid);
-                        open.insert(next, id);
+                        open.insert(next, reply_to(&request));
+                        let client = request.writer_guid();
                         outlet.send(FromSide::Request {
                             service,
                             ticket: next,
                             client: book.lock().unwrap_or_else(PoisonError::into_inner).writer(client, &self.participant),
-                            body,
+                            sequence: i64::from(request.sequence_number),
+                            sent: request.source_timestamp().and_then(nanoseconds),
+                            body: request.into_value().0,
                         });
                         next += 1;
                     }
                 },
-                Some(answer) = answers.recv() => {
-                    let Some(id) = open.remove(&answer.ticket) else { continue };
+                answer = answers.recv() => {
+                    let Some(answer) = answer else { break };
+                    let Some(identity) = open.remove(&answer.ticket) else { continue };
                     if known.len() >= MOST_CLIENTS {
                         known.clear();
                     }
-                    if known.insert(GUID::from(id.writer_gid)) {
-                        self.wait_for_client(&id).await;
+                    if known.insert(identity.writer_guid) {
+                        self.wait_for_client(identity.writer_guid).await;
                     }
-                    self.reply(id, answer.body, outlet);
+                    self.reply(identity, answer.body, outlet);
+                    replied = Some(tokio::time::Instant::now());
                 }
             }
         }
+        if let Some(replied) = replied {
+            // Older replies have arrived, or their clients have gone.
+            let _ =
+                tokio::time::timeout_at(replied + LAST_REPLIES, self.replies.async_wait_for_acknowledgments()).await;
+        }
+        true
     }
 
-    fn reply(&self, id: RmwRequestId, body: Vec<u8>, outlet: &Outlet) {
+    fn reply(&self, identity: SampleIdentity, body: Vec<u8>, outlet: &Outlet) {
         let length = body.len();
         if length > MOST_REPLY {
             return outlet.log(
@@ -117,7 +142,11 @@ impl ServiceServer {
                 ),
             );
         }
-        if let Err(error) = self.server.send_response(id, RawCdr(body)) {
+        let options = WriteOptionsBuilder::new()
+            .source_timestamp(Timestamp::now())
+            .related_sample_identity(identity)
+            .build();
+        if let Err(error) = self.replies.write_with_options(RawCdr(body), options) {
             outlet.log(
                 LogLevel::Warning,
                 format!("service {}: the reply was not sent: {error}", self.name),
@@ -126,8 +155,8 @@ impl ServiceServer {
     }
 
     /// A client's request can arrive before DDS has matched its reply reader; a reply sent then would be lost.
-    async fn wait_for_client(&self, id: &RmwRequestId) {
-        let client = GUID::from(id.writer_gid).prefix;
+    async fn wait_for_client(&self, client: GUID) {
+        let client = client.prefix;
         let topic = format!("rr{}Reply", self.name);
         let known = || {
             self.participant.discovered_readers().iter().any(|reader| {
@@ -143,33 +172,85 @@ impl ServiceServer {
     }
 }
 
-/// Runs all servers; each waits for its own clients only.
+/// Whom a reply is for: the identity that the request gives, or else that of the request's own sample.
+fn reply_to(request: &DeserializedCacheChange<RawCdr>) -> SampleIdentity {
+    let own = SampleIdentity {
+        writer_guid: request.writer_guid(),
+        sequence_number: request.sequence_number,
+    };
+    match request.related_sample_identity() {
+        // Fast DDS leaves the number open: it is the request's.
+        Some(given) if given.sequence_number == SequenceNumber::UNKNOWN => SampleIdentity {
+            sequence_number: own.sequence_number,
+            ..given
+        },
+        Some(given) => given,
+        None => own,
+    }
+}
+
+/// An instant in ns since 1970; none for what is no instant.
+fn nanoseconds(stamp: Timestamp) -> Option<i64> {
+    if stamp == Timestamp::INVALID || stamp == Timestamp::INFINITE {
+        return None;
+    }
+    let ticks = stamp.to_ticks();
+    // Whole seconds, and 2^32nd parts of one.
+    let (seconds, parts) = (ticks >> 32, ticks & 0xffff_ffff);
+    Some((seconds * 1_000_000_000 + ((parts * 1_000_000_000) >> 32)) as i64)
+}
+
+/// Runs all servers; each waits for its own clients only. Ends well after the last answer has been sent.
+///
+/// # Errors
+/// When a service has ended before.
 pub(super) async fn serve(
     servers: &[ServiceServer],
     mut answers: mpsc::Receiver<Answer>,
     book: &Mutex<PeerBook>,
     outlet: &Outlet,
-) {
-    let (senders, receivers): (Vec<_>, Vec<_>) = servers.iter().map(|_| mpsc::channel(DEPTH)).unzip();
+) -> Result<(), SideError> {
+    let (senders, receivers): (Vec<_>, Vec<_>) = servers.iter().map(|_| mpsc::channel(DEPTH as usize)).unzip();
     let mut serving: FuturesUnordered<_> = servers
         .iter()
         .zip(receivers)
         .enumerate()
         .map(|(index, (server, answers))| server.serve(index as u16, answers, book, outlet))
         .collect();
+    let ended = || SideError::Sick("a service ended".into());
     loop {
         tokio::select! {
             // Without services there is nothing to wait for here.
-            Some(()) = serving.next() => return,
+            Some(_) = serving.next() => return Err(ended()),
             answer = answers.recv() => match answer {
                 Some(answer) => {
                     if let Some(sender) = senders.get(usize::from(answer.service)) {
                         let _ = sender.try_send(answer);
                     }
                 }
-                // The node has gone; the process ends for that.
-                None => return std::future::pending().await,
+                None => break,
             },
         }
+    }
+    // The services end when these are gone and what waits in them is sent.
+    drop(senders);
+    while let Some(is_done) = serving.next().await {
+        if !is_done {
+            return Err(ended());
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn instants_are_nanoseconds_since_1970() {
+        let half = Timestamp::from_ticks((1_700_000_000 << 32) | (1 << 31));
+        assert_eq!(nanoseconds(half), Some(1_700_000_000_500_000_000));
+        assert_eq!(nanoseconds(Timestamp::INVALID), None);
+        assert_eq!(nanoseconds(Timestamp::INFINITE), None);
     }
 }

@@ -8,10 +8,11 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use ros2_client::{Node, Publisher, WriteError};
+use rustdds::dds::WriteError;
 use rustdds::policy::{Durability, History, Lifespan, Reliability, ResourceLimits};
-use rustdds::{DomainParticipant, QosPolicies, QosPolicyBuilder, TopicKind};
+use rustdds::{DomainParticipant, QosPolicies, QosPolicyBuilder, RTPSEntity as _, Timestamp};
 
+use super::graph::{NodeGraph, Writer};
 use super::logs::RepairWatch;
 use super::peers::PeerBook;
 use super::raw::RawCdr;
@@ -26,13 +27,13 @@ const PATIENCE: Duration = Duration::from_millis(400);
 const SETTLING: Duration = Duration::from_secs(5);
 /// States of a latched topic that may wait for the one before to be acknowledged.
 const WAITING: usize = 16;
-/// A node's list of endpoints grows with each new writer, so after this many the process begins afresh.
+/// Every participant on the network is sent each new writer, so after this many the process begins afresh.
 pub(super) const MOST_RENEWALS: u32 = 200;
 
 /// Writes one topic.
 pub(super) struct TopicWriter {
     plan: WriterPlan,
-    publisher: Publisher<RawCdr>,
+    writer: Writer<RawCdr>,
     waiting: VecDeque<Vec<u8>>,
     refusing: Option<Refusing>,
     sent: u64,
@@ -48,11 +49,11 @@ struct Refusing {
 }
 
 impl TopicWriter {
-    pub(super) fn new(node: &mut Node, participant: &DomainParticipant, plan: WriterPlan) -> Result<Self, String> {
-        let publisher = create(node, participant, &plan)?;
+    pub(super) fn new(graph: &mut NodeGraph, plan: WriterPlan) -> Result<Self, String> {
+        let writer = create(graph, &plan)?;
         Ok(Self {
             plan,
-            publisher,
+            writer,
             waiting: VecDeque::new(),
             refusing: None,
             sent: 0,
@@ -89,7 +90,7 @@ impl TopicWriter {
     pub(super) fn tend(
         &mut self,
         now: Instant,
-        node: &mut Node,
+        graph: &mut NodeGraph,
         participant: &DomainParticipant,
         book: &mut PeerBook,
     ) -> Option<Stall> {
@@ -102,9 +103,12 @@ impl TopicWriter {
             return None;
         }
         let refusing = self.refusing.take()?;
-        let (readers, is_certain) = book.stalled(&self.publisher, &self.plan.topic, participant, &refusing.watch);
+        let (readers, is_certain) = book.stalled(&self.writer, &self.plan.topic, participant, &refusing.watch);
         // A new writer that cannot be made leaves the old one, to be tried again.
-        self.publisher = create(node, participant, &self.plan).ok()?;
+        let renewed = create(graph, &self.plan).ok()?;
+        graph.forget_writer(self.writer.guid());
+        self.writer = renewed;
+        graph.announce();
         self.renewals += 1;
         // Of states only the newest counts.
         while self.waiting.len() > 1 {
@@ -131,7 +135,7 @@ impl TopicWriter {
     /// # Errors
     /// Gives the body back when there is no room for it.
     fn write(&mut self, body: Vec<u8>) -> Result<(), Vec<u8>> {
-        match self.publisher.publish(RawCdr(body)) {
+        match self.writer.write(RawCdr(body), Some(Timestamp::now())) {
             Ok(()) => {
                 self.sent += 1;
                 self.refusing = None;
@@ -153,16 +157,8 @@ impl TopicWriter {
     }
 }
 
-fn create(node: &mut Node, participant: &DomainParticipant, plan: &WriterPlan) -> Result<Publisher<RawCdr>, String> {
-    let handle = participant
-        .create_topic(
-            dds_topic_name(&plan.topic),
-            plan.dds_type.clone(),
-            &policies(plan.offer),
-            TopicKind::NoKey,
-        )
-        .map_err(|error| error.to_string())?;
-    node.create_publisher(&handle, None).map_err(|error| error.to_string())
+fn create(graph: &mut NodeGraph, plan: &WriterPlan) -> Result<Writer<RawCdr>, String> {
+    graph.writer(&dds_topic_name(&plan.topic), &plan.dds_type, &policies(plan.offer))
 }
 
 fn policies(offer: Offer) -> QosPolicies {

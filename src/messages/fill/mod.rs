@@ -6,6 +6,7 @@ mod arrows;
 mod bit;
 mod contacts;
 mod joints;
+mod reactions;
 mod shape;
 mod whirl;
 
@@ -13,6 +14,7 @@ pub use ageing::ageing;
 pub use bit::bit_state;
 pub use contacts::contact_forces;
 pub use joints::{joint_deflections, joint_state};
+pub use reactions::reactions;
 pub use shape::{ShapeStyle, tool_shape};
 pub use whirl::{whirl_state, whirl_warning, whirl_warning_is_suppressed};
 

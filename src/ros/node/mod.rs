@@ -37,7 +37,7 @@ use super::service::ServiceMapping;
 use super::{DEFAULT_NODE_NAME, NodeError, lifecycle, loggers, logging, type_description};
 use crate::bag::{Recording, RecordingThread, Topic};
 use crate::dds::network::Network;
-use crate::dds::port::PortBuilder;
+use crate::dds::port::{Monitor, PortBuilder};
 use crate::live::{Hub, LiveServer, Steering, Token};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{TwinStatus, outputs};
@@ -51,6 +51,9 @@ use flexdrill_realtime::{INPUT_PERIOD, RealTimeLoop};
 
 /// Longest wait for the solver to end: a step that is split to its limit takes this long on a slow machine.
 const SOLVER_END: Duration = Duration::from_secs(5);
+
+/// Longest wait for the answers to requests that came before the end.
+const LAST_ANSWERS: Duration = Duration::from_secs(2);
 
 /// All that decides how a node runs.
 #[derive(Debug, Clone)]
@@ -284,6 +287,7 @@ async fn run_until(setup: NodeSetup, shutdown: impl Future<Output = ()>) -> Resu
     };
     let outcome = wait(built, &gauges, settings.time_step, setup.duration, shutdown).await;
 
+    answered(&port.monitor()).await;
     // The solver first, so that all it did is published; then the tasks; then what is left is written.
     gauges.stop.store(true, Ordering::Relaxed);
     let solver_ended = joined(solver_thread, SOLVER_END).await;
@@ -428,6 +432,14 @@ fn spawn<T: Send + 'static>(
         .name(name.to_owned())
         .spawn(work)
         .map_err(|error| NodeError::Stopped(format!("the {name}'s thread could not be started: {error}")))
+}
+
+/// Waits until all requests have their answers, [`LAST_ANSWERS`] at most.
+async fn answered(dds: &Monitor) {
+    let deadline = tokio::time::Instant::now() + LAST_ANSWERS;
+    while dds.open_requests() > 0 && tokio::time::Instant::now() < deadline {
+        tokio::time::sleep(Duration::from_millis(2)).await;
+    }
 }
 
 /// Joins a thread, at most so long. Whether it ended.

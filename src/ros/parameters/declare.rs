@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use ros2_client::ParameterValue;
 use serde_json::Value;
 
-use super::descriptions;
 use super::live::{CONFIG_FILE, USE_SIM_TIME, is_live, why_fixed};
-use super::store::{Declaration, ParameterStore};
+use super::store::{Declaration, NumberRange, ParameterStore};
 use crate::ros::args::value::to_parameter;
-use flexdrill_config::{Config, HardBounds, NumberKey};
+use flexdrill_config::{Config, HardBounds, NumberKey, key_texts};
 
 /// Of a key that nobody has described; there is none in the configurations that come with the program.
 const NOT_DESCRIBED: &str = "A key of the configuration.";
@@ -21,7 +20,7 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
         .into_iter()
         .map(|number| (number.key.clone(), number))
         .collect();
-    let hard = HardBounds::of(config);
+    let (hard, texts) = (HardBounds::of(config), key_texts());
     let mut found = Vec::new();
     flatten("", &config.to_tree(), &mut found);
     let fixed = |name: &str, description: &str, value| Declaration {
@@ -45,15 +44,15 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
     ];
     let configured = found.into_iter().map(|(name, value)| {
         let number = numbers.get(&name);
-        let description = match number {
-            Some(NumberKey { unit: "", reason, .. }) => format!("Dimensionless; {reason}."),
-            Some(NumberKey { unit, reason, .. }) => format!("In {unit}; {reason}."),
-            None => descriptions::of(&name).unwrap_or(NOT_DESCRIBED).to_owned(),
-        };
+        let text = texts.get(&name).map_or(NOT_DESCRIBED, String::as_str);
         let range = number
-            .map(|number| hard.cut(&name, [number.low, number.high]))
-            .filter(|range| range.iter().all(|bound| bound.is_finite()));
+            .map(|number| range_of(number, &hard))
+            .filter(|range| range.low.is_finite() && range.high.is_finite());
         let read_only = (!is_live(&name)).then(|| why_fixed(&name));
+        let description = match number {
+            Some(number) => described(text, number, read_only.is_none()),
+            None => text.to_owned(),
+        };
         Declaration {
             name,
             description,
@@ -92,10 +91,36 @@ fn from_json(value: &Value) -> Option<ParameterValue> {
     }
 }
 
+/// The text of a number's key with its unit and, where its limits are shown, their reason.
+fn described(text: &str, number: &NumberKey, is_live: bool) -> String {
+    let mut out = text.to_owned();
+    match number.unit {
+        "" => out += " Dimensionless.",
+        unit if out.contains(&format!("({unit})")) => {}
+        unit => out += &format!(" In {unit}."),
+    }
+    if is_live {
+        out += &format!(" Limits: {}.", number.reason);
+    }
+    out
+}
+
+/// The values that a number may have while the node runs.
+fn range_of(number: &NumberKey, hard: &HardBounds) -> NumberRange {
+    let [low, high] = hard.cut(&number.key, [number.low, number.high]);
+    NumberRange {
+        low,
+        high,
+        // A hard limit may be reached.
+        low_is_in: number.low_is_in || low > number.low,
+        unit: number.unit,
+    }
+}
+
 /// Replaces the limits that follow from a changed configuration; those that hold while the node runs stay.
 pub fn refresh_ranges(store: &mut ParameterStore, config: &Config, hard: &HardBounds) {
     for number in config.numbers().into_iter().filter(|number| is_live(&number.key)) {
-        store.set_range(&number.key, hard.cut(&number.key, [number.low, number.high]));
+        store.set_range(&number.key, range_of(&number, hard));
     }
 }
 
@@ -118,7 +143,11 @@ mod tests {
             "{}",
             slew.description
         );
-        assert_eq!(slew.floating_point_range.len(), 1);
+        // The range of ROS 2 holds its ends, and 0 is refused.
+        assert!(slew.floating_point_range[0].from_value > 0.0, "{slew:?}");
+        assert!(slew.additional_constraints.starts_with("above 0, at most"), "{slew:?}");
+        let rate = store.describe("outputs.rates.whirl");
+        assert!(rate.description.contains("twin/whirl"), "{}", rate.description);
         // As far as it may be set while the node runs: inputs.hard_limits.
         let limit = store.describe("inputs.rotary_speed.max_rpm");
         assert_eq!(limit.floating_point_range[0].to_value, 300.0);
@@ -142,7 +171,10 @@ mod tests {
         texts.push(stations);
         for text in &texts {
             let store = declare(&Config::from_text("a configuration", text).unwrap(), "", false);
+            let mut told = BTreeMap::new();
             for name in store.names() {
+                let before = told.insert(store.describe(name).description, name);
+                assert!(before.is_none(), "{name} and {before:?} have one text");
                 let description = store.describe(name).description;
                 assert!(
                     description.len() > 10 && description != NOT_DESCRIBED,

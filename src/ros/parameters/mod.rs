@@ -2,7 +2,6 @@
 
 mod configured;
 mod declare;
-mod descriptions;
 mod live;
 mod overrides;
 mod refusal;
@@ -11,7 +10,7 @@ mod store;
 
 pub use configured::reconfigured;
 pub use declare::{declare, refresh_ranges};
-pub use overrides::{OverrideError, Started, apply_overrides};
+pub use overrides::{OverrideError, Started, apply_overrides, config_file};
 pub use refusal::Refusal;
 pub use services::{Parameters, Task, serve};
-pub use store::{Declaration, ParameterStore};
+pub use store::{Declaration, NumberRange, ParameterStore};

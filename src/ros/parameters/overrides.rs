@@ -47,6 +47,25 @@ pub struct Started {
     pub use_sim_time: bool,
 }
 
+/// The configuration that the overrides of a node name, with where they do.
+///
+/// # Errors
+/// When it is no path.
+pub fn config_file(overrides: &[Override]) -> Result<Option<(&str, &str)>, OverrideError> {
+    let Some(given) = overrides.iter().find(|given| given.name == CONFIG_FILE) else {
+        return Ok(None);
+    };
+    match &given.value {
+        ParameterValue::String(path) if !path.is_empty() => Ok(Some((path, &given.origin))),
+        other => Err(OverrideError::Value {
+            name: given.name.clone(),
+            value: show(other),
+            origin: given.origin.clone(),
+            why: "give the path of a configuration (YAML)".to_owned(),
+        }),
+    }
+}
+
 /// Applies the overrides of a node to a configuration, all at once.
 ///
 /// # Errors
@@ -67,9 +86,9 @@ pub fn apply_overrides(config: &Config, overrides: &[Override]) -> Result<Starte
         match (name.as_str(), value) {
             (USE_SIM_TIME, ParameterValue::Boolean(on)) => use_sim_time = *on,
             (USE_SIM_TIME, _) => return Err(wrong("use true or false")),
-            // `ros2 param dump` writes them all: which file it was is told by the option --config alone, and rclcpp's own are
-            // in every file.
+            // The configuration was read from it: see `config_file`.
             (CONFIG_FILE, _) => {}
+            // rclcpp's own are in every file that `ros2 param dump` writes.
             (name, _) if name.starts_with("qos_overrides.") || name == "start_type_description_service" => {}
             (key, value) => values.push((
                 key.to_owned(),
@@ -120,7 +139,9 @@ mod tests {
             over("inputs.rotary_speed.initial_rpm", ParameterValue::Integer(40)),
             over("use_sim_time", ParameterValue::Boolean(true)),
             over("qos_overrides./clock.depth", ParameterValue::Integer(1)),
+            over("config_file", ParameterValue::String("rig_7.yaml".into())),
         ];
+        assert_eq!(config_file(&overrides).unwrap(), Some(("rig_7.yaml", "-p config_file")));
         let started = apply_overrides(&config(), &overrides).unwrap();
         assert_eq!(started.config.tool.links, 20);
         assert_eq!(started.config.inputs.rotary_speed.initial_rpm, 40.0);
@@ -135,6 +156,9 @@ mod tests {
                 .unwrap_err()
                 .to_string()
         };
+        let number = [over("config_file", ParameterValue::Integer(3))];
+        let refused = config_file(&number).unwrap_err().to_string();
+        assert!(refused.contains("'config_file' = 3"), "{refused}");
         assert!(error("tool.link", ParameterValue::Integer(3)).contains("'tool.link'"));
         assert!(error("tool.links", ParameterValue::String("many".into())).contains("must be a number"));
         assert!(error("tool.links", ParameterValue::Double(2.5)).contains("2.5"));

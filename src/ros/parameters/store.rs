@@ -9,6 +9,38 @@ use ros2_client::{Parameter, ParameterValue};
 use super::refusal::Refusal;
 use crate::ros::args::value::show;
 
+/// Which values a number may have, for people and tools; the check of the whole enforces it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NumberRange {
+    /// Smallest (see `low_is_in`).
+    pub low: f64,
+    /// Largest, allowed itself.
+    pub high: f64,
+    /// Whether the smallest is allowed itself.
+    pub low_is_in: bool,
+    /// Empty if dimensionless.
+    pub unit: &'static str,
+}
+
+impl NumberRange {
+    /// Smallest number that is allowed: ROS 2's ranges hold both of their ends.
+    fn smallest(&self) -> f64 {
+        if self.low_is_in { self.low } else { self.low.next_up() }
+    }
+}
+
+impl std::fmt::Display for NumberRange {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { low, high, unit, .. } = self;
+        let space = if unit.is_empty() { "" } else { " " };
+        if self.low_is_in {
+            write!(f, "{low} to {high}{space}{unit}")
+        } else {
+            write!(f, "above {low}, at most {high}{space}{unit}")
+        }
+    }
+}
+
 /// What is declared about a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Declaration {
@@ -16,8 +48,8 @@ pub struct Declaration {
     pub name: String,
     /// One sentence with the unit.
     pub description: String,
-    /// Lowest and highest allowed value of a number, for people and tools; the check of the whole enforces it.
-    pub range: Option<[f64; 2]>,
+    /// Which values a number may have.
+    pub range: Option<NumberRange>,
     /// Why it cannot change while the node runs.
     pub read_only: Option<String>,
     /// Value; its type is the parameter's type.
@@ -56,7 +88,7 @@ impl ParameterStore {
     }
 
     /// Replaces the limits that are shown, where they follow from other values.
-    pub fn set_range(&mut self, name: &str, range: [f64; 2]) {
+    pub fn set_range(&mut self, name: &str, range: NumberRange) {
         if let Some(entry) = self.entries.get_mut(name) {
             entry.range = Some(range);
         }
@@ -110,14 +142,14 @@ impl ParameterStore {
             return ParameterDescriptor::unknown(name).into();
         };
         let range = match (&entry.value, entry.range) {
-            (ParameterValue::Integer(_), Some([from, to])) => NumericRange::IntegerRange {
-                from_value: from as i64,
-                to_value: to as i64,
+            (ParameterValue::Integer(_), Some(range)) => NumericRange::IntegerRange {
+                from_value: range.smallest().ceil() as i64,
+                to_value: range.high as i64,
                 step: 0,
             },
-            (_, Some([from_value, to_value])) => NumericRange::FloatingPointRange {
-                from_value,
-                to_value,
+            (_, Some(range)) => NumericRange::FloatingPointRange {
+                from_value: range.smallest(),
+                to_value: range.high,
                 step: 0.0,
             },
             _ => NumericRange::NotSpecified,
@@ -126,7 +158,11 @@ impl ParameterStore {
             name: name.to_owned(),
             param_type: entry.value.to_parameter_type(),
             description: entry.description.clone(),
-            additional_constraints: entry.read_only.clone().unwrap_or_default(),
+            additional_constraints: match (&entry.read_only, entry.range) {
+                (Some(why), _) => why.clone(),
+                (None, Some(range)) => range.to_string(),
+                (None, None) => String::new(),
+            },
             read_only: entry.read_only.is_some(),
             dynamic_typing: false,
             range,
@@ -223,7 +259,16 @@ mod tests {
     use super::*;
     use flexdrill_config::ConfigError;
 
-    fn declare(name: &str, value: ParameterValue, range: Option<[f64; 2]>, read_only: bool) -> Declaration {
+    fn range(low: f64, high: f64) -> NumberRange {
+        NumberRange {
+            low,
+            high,
+            low_is_in: true,
+            unit: "",
+        }
+    }
+
+    fn declare(name: &str, value: ParameterValue, range: Option<NumberRange>, read_only: bool) -> Declaration {
         Declaration {
             name: name.into(),
             description: "one sentence".into(),
@@ -235,10 +280,20 @@ mod tests {
 
     fn store() -> ParameterStore {
         ParameterStore::new([
-            declare("friction.inner", ParameterValue::Double(0.2), Some([0.0, 1.0]), false),
-            declare("friction.outer", ParameterValue::Double(0.3), Some([0.0, 1.0]), false),
+            declare(
+                "friction.inner",
+                ParameterValue::Double(0.2),
+                Some(range(0.0, 1.0)),
+                false,
+            ),
+            declare(
+                "friction.outer",
+                ParameterValue::Double(0.3),
+                Some(range(0.0, 1.0)),
+                false,
+            ),
             declare("tool.links", ParameterValue::Integer(33), None, true),
-            declare("count", ParameterValue::Integer(3), Some([1.0, 9.0]), false),
+            declare("count", ParameterValue::Integer(3), Some(range(1.0, 9.0)), false),
         ])
     }
 
@@ -265,7 +320,7 @@ mod tests {
         let refused = store.set_atomically(&changes[..1], |new, changed| {
             assert_eq!(new.number("friction.inner"), Some(0.4));
             assert_eq!((changed.len(), changed[0].name.as_str()), (1, "friction.inner"));
-            new.set_range("friction.inner", [0.0, 0.5]);
+            new.set_range("friction.inner", range(0.0, 0.5));
             Err(ConfigError::UnknownKey { key: "friction".into() }.into())
         });
         assert!(refused.is_err());

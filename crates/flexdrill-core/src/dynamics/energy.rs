@@ -52,7 +52,9 @@ pub struct EnergyPoint {
     /// How the contacts and the weight bow each span of tools over their joints: what the next step counts with.
     pub(crate) bow: Vec<Bow>,
     /// Value of each point load (N, N m).
-    loads: Vec<f64>,
+    pub(crate) loads: Vec<f64>,
+    /// What the support of each held unknown puts on the tool (N, N m), in the order of [`Model::held`].
+    pub(crate) reactions: Vec<f64>,
     /// Kinetic, elastic, geometric, contact and stop energy (J).
     pub(crate) stored: f64,
     /// Part of `stored` that is kinetic.
@@ -67,7 +69,7 @@ pub struct EnergyPoint {
     /// Torque of the drive (N m).
     pub drive_torque: f64,
     bit_torque: f64,
-    weight_on_bit: f64,
+    pub(crate) weight_on_bit: f64,
 }
 
 impl EnergyPoint {
@@ -82,6 +84,7 @@ impl EnergyPoint {
             spans: vec![SpanForces::default(); spans],
             bow: vec![[[0.0; 16]; 2]; spans],
             loads: vec![0.0; model.loads.len()],
+            reactions: vec![0.0; model.held.len()],
             stored: 0.0,
             kinetic: 0.0,
             geometric_energy: 0.0,
@@ -103,6 +106,7 @@ impl EnergyPoint {
             && self.spans.len() == other.spans.len()
             && self.bow.len() == other.bow.len()
             && self.loads.len() == other.loads.len()
+            && self.reactions.len() == other.reactions.len()
     }
 
     /// Takes another point's values without allocating.
@@ -115,6 +119,7 @@ impl EnergyPoint {
         self.spans.copy_from_slice(&other.spans);
         self.bow.copy_from_slice(&other.bow);
         self.loads.copy_from_slice(&other.loads);
+        self.reactions.copy_from_slice(&other.reactions);
         let Self {
             stored,
             kinetic,
@@ -197,6 +202,9 @@ impl EnergyPoint {
         }
         for (value, load) in self.loads.iter_mut().zip(&model.loads) {
             *value = load.load.history.at(conditions.time);
+        }
+        for (reaction, &held) in self.reactions.iter_mut().zip(&places.held) {
+            *reaction = residual[held];
         }
         self.stored = stored;
         self.drive_torque = places.driven.map_or(0.0, |driven| residual[driven]);

@@ -1,6 +1,8 @@
 //! What is attached to the tool: supports, loads and masses, resolved to unknowns.
 
-use nalgebra::Vector3;
+use std::ops::Range;
+
+use nalgebra::{Matrix3, Vector3};
 
 use super::Model;
 use crate::elements::point_body::PointBody;
@@ -27,6 +29,21 @@ pub struct ResolvedMass {
     pub gravity: Vector3<f64>,
 }
 
+/// A node that supports hold in some of its directions.
+#[derive(Debug, Clone)]
+pub struct HeldNode {
+    /// Station that it is at.
+    pub station: usize,
+    /// Which pipe's.
+    pub body: Body,
+    /// First unknown of the node.
+    pub node: usize,
+    /// The node's axes, columns in the world.
+    pub frame: Matrix3<f64>,
+    /// Its held unknowns, as a range of [`Model::held`].
+    pub held: Range<usize>,
+}
+
 impl Model {
     /// Resolves supports (Table 1), loads and masses.
     pub(super) fn attach(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
@@ -47,6 +64,7 @@ impl Model {
         if let Some(driven) = self.driven {
             self.held.retain(|&unknown| unknown != driven);
         }
+        self.collect_held_nodes();
         for load in &d.loads {
             for node in self.nodes("loads", load.location, load.body, false)? {
                 self.loads.push(ResolvedLoad {
@@ -89,6 +107,62 @@ impl Model {
             });
         }
         Ok(())
+    }
+
+    /// Groups the held unknowns, which are sorted, by their nodes.
+    fn collect_held_nodes(&mut self) {
+        let mut nodes: Vec<HeldNode> = Vec::new();
+        for (index, &unknown) in self.held.iter().enumerate() {
+            match nodes.last_mut() {
+                Some(last) if unknown < last.node + 6 => last.held.end = index + 1,
+                _ => {
+                    let (node, body, frame) = self.node_of(unknown);
+                    nodes.push(HeldNode {
+                        station: self.layout.station_of(unknown),
+                        body,
+                        node,
+                        frame,
+                        held: index..index + 1,
+                    });
+                }
+            }
+        }
+        self.held_nodes = nodes;
+    }
+
+    /// First unknown, pipe and axes (columns in the world) of the node that an unknown belongs to.
+    pub fn node_of(&self, unknown: usize) -> (usize, Body, Matrix3<f64>) {
+        let station = &self.stations[self.layout.station_of(unknown)];
+        let of = |node: usize| (node..node + 6).contains(&unknown);
+        if of(station.guide) {
+            return (station.guide, Body::Guide, station.frame);
+        }
+        match station.joint {
+            Some(joint) if of(station.pipe_below) => (station.pipe_below, Body::Pipe, self.joints[joint].lower),
+            _ => (station.pipe_above, Body::Pipe, station.frame * station.pipe_to_station),
+        }
+    }
+
+    /// Sum in the world of what `values`, per unknown, put on the displacements of all nodes.
+    pub fn sum_in_world(&self, values: &[f64]) -> Vector3<f64> {
+        let at = |node: usize| Vector3::new(values[node], values[node + 1], values[node + 2]);
+        let mut sum = Vector3::zeros();
+        for station in &self.stations {
+            sum += station.frame * (at(station.guide) + station.pipe_to_station * at(station.pipe_above));
+            if let Some(joint) = station.joint {
+                sum += self.joints[joint].lower * at(station.pipe_below);
+            }
+        }
+        sum
+    }
+
+    /// Weight of both pipes and of the point masses in the world (N).
+    pub(super) fn total_weight(&self) -> Vector3<f64> {
+        let masses = self.masses.iter().map(|mass| {
+            let (_, _, frame) = self.node_of(mass.unknown);
+            frame * mass.gravity * mass.body.mass
+        });
+        self.sum_in_world(&self.weight) + masses.sum::<Vector3<f64>>()
     }
 
     /// First unknowns of the nodes at a location; with `both`, both pipe nodes of a joint station.

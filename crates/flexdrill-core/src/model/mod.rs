@@ -9,7 +9,7 @@ mod element;
 mod places;
 mod station;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::elements::beam::{Beam, ElementVector};
 use crate::elements::element_form::{ElementForms, Elements};
@@ -18,7 +18,7 @@ use crate::linear::Layout;
 use crate::tool::description::{Direction, ToolDescription, WobPath};
 use crate::validation::ValidationError;
 
-pub use attached::{ResolvedLoad, ResolvedMass};
+pub use attached::{HeldNode, ResolvedLoad, ResolvedMass};
 pub use element::{GuideElement, PipeElement};
 pub use places::{JointPlaces, Places};
 pub use station::Station;
@@ -42,8 +42,12 @@ pub struct Model {
     pub elements: Elements,
     /// Consistent forces of gravity on both pipes, per unknown (N, N m).
     pub weight: Vec<f64>,
-    /// Unknowns held at zero.
+    /// Unknowns held at zero, in rising order.
     pub held: Vec<usize>,
+    /// The nodes that they belong to, in the same order.
+    pub held_nodes: Vec<HeldNode>,
+    /// Weight of all of the tool, along the axes of the world (N).
+    pub total_weight: Vector3<f64>,
     /// Spin of the top pipe node, if driven.
     pub driven: Option<usize>,
     /// Padding unknowns without an equation of their own.
@@ -130,6 +134,8 @@ impl Model {
             pipe,
             guide,
             held: Vec::new(),
+            held_nodes: Vec::new(),
+            total_weight: Vector3::zeros(),
             driven: d.drive_top.then(|| stations[0].pipe_above + Direction::Psi as usize),
             padding,
             loads: Vec::new(),
@@ -150,6 +156,7 @@ impl Model {
         };
         model.collect_elements();
         model.attach(description)?;
+        model.total_weight = model.total_weight();
         model.places = Places::of(&model);
         Ok(model)
     }

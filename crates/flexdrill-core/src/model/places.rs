@@ -33,6 +33,8 @@ pub struct Places {
     pub loads: Vec<usize>,
     /// Of every mass, (u, v, w, psi, phi_y, phi_z).
     pub masses: Vec<[usize; 6]>,
+    /// Of every unknown that a support holds, in the order of [`Model::held`].
+    pub held: Vec<usize>,
 }
 
 impl Places {
@@ -61,6 +63,7 @@ impl Places {
                 .iter()
                 .map(|mass| std::array::from_fn(|k| mass.unknown + k))
                 .collect(),
+            held: model.held.clone(),
         }
     }
 
@@ -99,6 +102,7 @@ impl Places {
                     Some(to)
                 })
                 .collect::<Option<_>>()?,
+            held: self.held.iter().map(|&held| place(held)).collect::<Option<_>>()?,
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{GUIDE, MULTIPLIER, NODE, Reduced, U, ends};
+use super::{EndForces, GUIDE, MULTIPLIER, NODE, Reduced, U, ends};
 use crate::dynamics::state::State;
 use crate::model::{Model, Places};
 use crate::simd::Kernel;
@@ -114,6 +114,30 @@ impl Reduced {
             self.per * (unknown / NODE),
             (GUIDE..MULTIPLIER).contains(&(unknown % NODE)),
         )
+    }
+
+    /// Sum in the world of what `values`, per reduced unknown, and the `spans` on their ends put on the displacements.
+    pub(crate) fn sum_in_world<'a>(
+        &self,
+        model: &Model,
+        values: &[f64],
+        spans: impl Iterator<Item = &'a EndForces>,
+    ) -> Vector3<f64> {
+        let of = |values: &[f64], first: usize| Vector3::new(values[first], values[first + 1], values[first + 2]);
+        let on_node = |k: usize, pipe: Vector3<f64>, guide: Vector3<f64>| {
+            let station = &model.stations[k * self.per];
+            station.frame * (station.pipe_to_station * pipe + guide)
+        };
+        let mut sum = Vector3::zeros();
+        for k in 0..self.nodes {
+            sum += on_node(k, of(values, NODE * k + U), of(values, NODE * k + GUIDE));
+        }
+        for (l, [pipe, guide]) in spans.enumerate() {
+            sum += on_node(l, of(pipe, 0), of(guide, 0));
+            // The pipe's rotations come before its displacements at the bottom end.
+            sum += on_node(l + 1, of(pipe, 8 + U), of(guide, 8));
+        }
+        sum
     }
 
     /// Shows the reduced state in the model's numbering: inner stations as they are slaved, and the force of each joint,

@@ -23,5 +23,5 @@ pub use run::{Frame, Run, RunInputs};
 pub use schedule::{Due, Output, Schedule, Timeline};
 pub use settings::SimulationSettings;
 pub use simulation::{BuildError, Simulation};
-pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot, SolverCounters};
+pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Reactions, Shape, Snapshot, SolverCounters};
 pub use step_choice::{StepChoice, StepRule};

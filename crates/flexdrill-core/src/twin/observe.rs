@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::quality::{ModelQuality, QualityWatch};
 use super::settings::SimulationSettings;
-use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot};
+use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Reactions, Shape, Snapshot};
 use crate::dynamics::contacts::inner_lateral;
 use crate::dynamics::state::{State, joint_rotations, translation};
 use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Layer, gap};
-use crate::model::Model;
+use crate::model::{HeldNode, Model};
 use crate::motion::{
     AgeingWatch, ChaoticWhirlWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation,
     JointLoadWatch, RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings,
@@ -260,6 +260,7 @@ impl Observer {
                 pipe: vec![[0.0; 2]; model.stations.len()],
                 guide: vec![[0.0; 2]; model.stations.len()],
             },
+            reactions: new_reactions(model),
             ..Snapshot::default()
         };
         self.whirl.report(&mut out.whirl);
@@ -303,6 +304,7 @@ impl Observer {
             lateral_impulse: self.lateral.impulse(),
             stick_slip: self.stick_slip.severity(),
         };
+        fill_reactions(stepper, &mut out.reactions);
         self.whirl.report(&mut out.whirl);
         out.warning = self.whirl.level();
         out.hazards = self.hazards(model, out.time);
@@ -435,6 +437,35 @@ fn fill_layer(out: &mut ContactLayer, touches: &Layer, statistics: &ContactStati
         [out.normal[s], out.tangential[s], out.axial[s]] = values;
     }
     statistics.write(&mut out.normal_peak, &mut out.normal_rms);
+}
+
+fn new_reactions(model: &Model) -> Reactions {
+    let at = |held: &HeldNode| &model.stations[held.station];
+    let supports = &model.held_nodes;
+    Reactions {
+        measured_depth: supports.iter().map(|held| at(held).depth).collect(),
+        inclination: supports.iter().map(|held| at(held).inclination).collect(),
+        body: supports.iter().map(|held| held.body).collect(),
+        force: vec![[0.0; 3]; supports.len()],
+        moment: vec![[0.0; 3]; supports.len()],
+        ..Reactions::default()
+    }
+}
+
+fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
+    for (index, held) in stepper.model().held_nodes.iter().enumerate() {
+        let [force, moment] = stepper.reaction(held);
+        (out.force[index], out.moment[index]) = (force.into(), moment.into());
+    }
+    let forces = stepper.outside_forces();
+    out.supports = forces.supports.into();
+    out.weight = forces.weight.into();
+    out.wall = forces.wall.into();
+    out.bit = forces.bit.into();
+    out.loads = forces.loads.into();
+    out.inertia = forces.inertia.into();
+    out.damping = forces.damping.into();
+    out.unbalance = forces.unbalance().into();
 }
 
 fn fill_joints(stepper: &Stepper, out: &mut Joints) {

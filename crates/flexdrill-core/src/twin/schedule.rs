@@ -22,13 +22,15 @@ pub enum Output {
     ToolShape,
     /// Output `twin/ageing`.
     Ageing,
+    /// Output `twin/reactions`.
+    Reactions,
     /// Not a message of its own: the alarms of the tool are judged, whatever else is published.
     Alarms,
 }
 
 impl Output {
     /// All of them, in order.
-    pub const ALL: [Output; 8] = [
+    pub const ALL: [Output; 9] = [
         Output::JointDeflections,
         Output::JointStates,
         Output::ContactForces,
@@ -36,6 +38,7 @@ impl Output {
         Output::Whirl,
         Output::ToolShape,
         Output::Ageing,
+        Output::Reactions,
         Output::Alarms,
     ];
 }
@@ -92,7 +95,7 @@ impl Schedule {
 
 /// A set of outputs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Due(u8);
+pub struct Due(u16);
 
 impl Due {
     /// Whether it is one of them.
@@ -136,7 +139,7 @@ mod tests {
             Output::JointDeflections | Output::JointStates | Output::BitState => 50.0,
             Output::ContactForces => 25.0,
             Output::Whirl => 10.0,
-            Output::ToolShape | Output::Ageing | Output::Alarms => 0.0,
+            Output::ToolShape | Output::Ageing | Output::Reactions | Output::Alarms => 0.0,
         })
     }
 

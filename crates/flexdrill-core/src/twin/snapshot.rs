@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::quality::ModelQuality;
 use crate::dynamics::outcome::{EnergyAudit, StepFailure};
 use crate::motion::{Ageing, Hazards, Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
+use crate::tool::description::Body;
 
 /// State of the tool at the end of a step, with statistics over the publishing interval.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -23,6 +24,8 @@ pub struct Snapshot {
     pub contacts: Contacts,
     /// Torque, speed, load and accelerations of the bit.
     pub bit: Bit,
+    /// Forces of the supports and all others from outside.
+    pub reactions: Reactions,
     /// Deflected lines of both pipes in the world frame.
     pub shape: Shape,
     /// Whirl at every watched station.
@@ -145,6 +148,38 @@ pub struct Bit {
     pub lateral_impulse: f64,
     /// Level that the stick-slip index has reached.
     pub stick_slip: Severity,
+}
+
+/// The forces on the tool from outside, in the world frame (X horizontal in the build's direction, Y horizontal, Z down).
+/// The sums of forces and [`Reactions::inertia`] and [`Reactions::damping`] balance but for [`Reactions::unbalance`].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Reactions {
+    /// Per support, a node held in some directions: measured depth from the kick-off (m).
+    pub measured_depth: Vec<f64>,
+    /// Inclination of the bore there (rad).
+    pub inclination: Vec<f64>,
+    /// Which pipe is held.
+    pub body: Vec<Body>,
+    /// Force of the support on the pipe (N).
+    pub force: Vec<[f64; 3]>,
+    /// Moment of the support on the pipe (N m), without the drive's.
+    pub moment: Vec<[f64; 3]>,
+    /// Sum of the supports' forces (N).
+    pub supports: [f64; 3],
+    /// Weight of both pipes and of all masses (N).
+    pub weight: [f64; 3],
+    /// Sum of the wall's forces on the guide, friction included (N).
+    pub wall: [f64; 3],
+    /// Force of the rock on the tool (N).
+    pub bit: [f64; 3],
+    /// Sum of the point loads (N).
+    pub loads: [f64; 3],
+    /// Minus mass times acceleration, of all of the tool (N).
+    pub inertia: [f64; 3],
+    /// Damping of the motion as a whole (N).
+    pub damping: [f64; 3],
+    /// Sum of all of these: what the solver leaves (N).
+    pub unbalance: [f64; 3],
 }
 
 /// Lines in the world frame (X horizontal in the build's direction, Y horizontal, Z down), m.

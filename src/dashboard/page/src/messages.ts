@@ -664,6 +664,85 @@ export function decodeJointDeflections(reader: CdrReader): JointDeflections {
 }
 
 /**
+ * The forces on the tool from outside, so that a reader can close the balance: supports, weight, wall, bit and loads. At
+ * rest they sum to zero; in motion they do together with inertia and damping. All vectors are along the axes of the
+ * frame: X horizontal in the build's direction, Y horizontal, Z down.
+ */
+export interface Reactions {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Torque that the drive puts into the top of the pipe (N m), positive drives. */
+  drive_torque: number;
+  /** Torque of the rock against the bit (N m). */
+  bit_torque: number;
+  /** Sum of the forces of all supports (N). */
+  support_force: Float64Array;
+  /** Weight of both pipes and of what they carry, buoyancy taken off (N). */
+  weight: Float64Array;
+  /** Sum of the forces of the wall on the guide pipe, friction included (N). */
+  wall_force: Float64Array;
+  /** Force of the rock on the tool: the weight on bit, along the axis at the bit (N). */
+  bit_force: Float64Array;
+  /** Sum of the configured point loads (N). */
+  load_force: Float64Array;
+  /** Minus mass times acceleration, of all of the tool (N). */
+  inertia_force: Float64Array;
+  /** Damping of the motion of the tool as a whole (N). */
+  damping_force: Float64Array;
+  /** Sum of the seven forces: what the solver leaves (N). */
+  unbalanced_force: Float64Array;
+  /** Per support, a place where a pipe is held in some directions: place along the bore from the kick-off (m). */
+  measured_depth: Float64Array;
+  /** Inclination of the bore there, 0 is straight down (rad). */
+  inclination: Float64Array;
+  /** PIPE or GUIDE. */
+  body: Uint8Array;
+  /** Force of the support on the pipe, X (N). */
+  force_x: Float64Array;
+  /** Force, Y (N). */
+  force_y: Float64Array;
+  /** Force, Z (N). */
+  force_z: Float64Array;
+  /** Moment of the support on the pipe about its place, X (N m). The drive's torque is not in it. */
+  moment_x: Float64Array;
+  /** Moment, Y (N m). */
+  moment_y: Float64Array;
+  /** Moment, Z (N m). */
+  moment_z: Float64Array;
+}
+export const Reactions = {
+  /** The flexible pipe. */
+  PIPE: 0,
+  /** The guide pipe. */
+  GUIDE: 1,
+} as const;
+/** Reads a `flexdrill/msg/Reactions`. */
+export function decodeReactions(reader: CdrReader): Reactions {
+  return {
+    header: decodeHeader(reader),
+    drive_torque: reader.float64(),
+    bit_torque: reader.float64(),
+    support_force: reader.float64Array(3),
+    weight: reader.float64Array(3),
+    wall_force: reader.float64Array(3),
+    bit_force: reader.float64Array(3),
+    load_force: reader.float64Array(3),
+    inertia_force: reader.float64Array(3),
+    damping_force: reader.float64Array(3),
+    unbalanced_force: reader.float64Array(3),
+    measured_depth: reader.float64Array(reader.length()),
+    inclination: reader.float64Array(reader.length()),
+    body: reader.uint8Array(reader.length()),
+    force_x: reader.float64Array(reader.length()),
+    force_y: reader.float64Array(reader.length()),
+    force_z: reader.float64Array(reader.length()),
+    moment_x: reader.float64Array(reader.length()),
+    moment_y: reader.float64Array(reader.length()),
+    moment_z: reader.float64Array(reader.length()),
+  };
+}
+
+/**
  * Both inputs of the rig with the time at which they were measured, for rigs that have it; the topics rig/rotary_speed_rpm and
  * rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
  */
@@ -1393,6 +1472,7 @@ export const DECODERS = {
   "flexdrill/msg/BitState": decodeBitState,
   "flexdrill/msg/ContactForces": decodeContactForces,
   "flexdrill/msg/JointDeflections": decodeJointDeflections,
+  "flexdrill/msg/Reactions": decodeReactions,
   "flexdrill/msg/RigInputs": decodeRigInputs,
   "flexdrill/msg/SessionInfo": decodeSessionInfo,
   "flexdrill/msg/TwinStatus": decodeTwinStatus,

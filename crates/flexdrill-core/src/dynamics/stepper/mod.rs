@@ -1,6 +1,7 @@
 //! The tool in motion: steps that are halved and retried until they converge, or reported as failed.
 
 mod checkpoint;
+mod outside;
 
 use std::cell::{Ref, RefCell};
 use std::f64::consts::TAU;

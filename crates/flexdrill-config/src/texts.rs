@@ -1,0 +1,127 @@
+//! What every key means, by its dotted name: the texts of the JSON Schema, for those who describe keys to others.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value};
+
+use super::json_schema::plain_schema;
+
+/// The meaning of every key, in a sentence or two, with the words that it takes; no two keys have the same text. Bounds
+/// are not in it.
+pub fn key_texts() -> BTreeMap<String, String> {
+    let schema = plain_schema();
+    let mut keys = Vec::new();
+    walk(&schema, &schema, &Place::default(), &mut Vec::new(), &mut keys);
+    let mut count: BTreeMap<&str, usize> = BTreeMap::new();
+    for key in &keys {
+        *count.entry(&key.text).or_default() += 1;
+    }
+    // Sections that several others share: the section says which one is meant.
+    let told = keys.iter().map(|key| match count.get(key.text.as_str()) {
+        Some(2..) => (key.name.clone(), format!("{} {}", key.section, key.text)),
+        _ => (key.name.clone(), key.text.clone()),
+    });
+    told.collect()
+}
+
+/// A key with its own text and that of its section.
+struct Key {
+    name: String,
+    text: String,
+    section: String,
+}
+
+/// Where the walk is: the dotted name and the text of the section.
+#[derive(Default)]
+struct Place {
+    path: String,
+    text: String,
+}
+
+fn walk(root: &Value, schema: &Value, place: &Place, above: &mut Vec<*const Value>, keys: &mut Vec<Key>) {
+    // Definitions that hold themselves would have no end.
+    if above.contains(&std::ptr::from_ref(schema)) {
+        return;
+    }
+    above.push(std::ptr::from_ref(schema));
+    for (key, value) in properties(schema).into_iter().flatten() {
+        let target = resolved(root, value);
+        let name = match place.path.as_str() {
+            "" => key.clone(),
+            path => format!("{path}.{key}"),
+        };
+        let text = described(root, value, target);
+        let below = Place {
+            path: name.clone(),
+            text: text.clone(),
+        };
+        keys.push(Key {
+            name,
+            text,
+            section: place.text.clone(),
+        });
+        walk(root, target, &below, above, keys);
+    }
+    for form in forms(schema) {
+        walk(root, resolved(root, form), place, above, keys);
+    }
+    above.pop();
+}
+
+/// The first paragraph of a key's description, with the words that it takes where they are not in it.
+fn described(root: &Value, value: &Value, target: &Value) -> String {
+    let description = value.get("description").or_else(|| target.get("description"));
+    let text = description.and_then(Value::as_str).unwrap_or_default();
+    let mut text = text.split("\n\n").next().unwrap_or_default().to_owned();
+    let words = words(root, target);
+    if !words.iter().all(|word| text.contains(word)) {
+        text = format!("{text} One of {}.", words.join(", "));
+    }
+    text
+}
+
+/// The words of an enumeration.
+fn words(root: &Value, target: &Value) -> Vec<String> {
+    let listed = target.get("enum").and_then(Value::as_array).into_iter().flatten();
+    let constant = target.get("const").into_iter();
+    let own = listed.chain(constant).filter_map(Value::as_str).map(str::to_owned);
+    let of_forms = forms(target).flat_map(|form| words(root, resolved(root, form)));
+    own.chain(of_forms).collect()
+}
+
+fn forms(schema: &Value) -> impl Iterator<Item = &Value> {
+    let of = |name: &str| schema.get(name).and_then(Value::as_array);
+    of("oneOf").or_else(|| of("anyOf")).into_iter().flatten()
+}
+
+/// The definition that a schema refers to, or itself.
+fn resolved<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
+    let reference = schema.get("$ref").and_then(Value::as_str);
+    reference
+        .and_then(|reference| root.pointer(reference.trim_start_matches('#')))
+        .unwrap_or(schema)
+}
+
+fn properties(schema: &Value) -> Option<&Map<String, Value>> {
+    schema.get("properties").and_then(Value::as_object)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_has_a_text_of_its_own() {
+        let texts = key_texts();
+        assert!(texts.len() > 150, "{}", texts.len());
+        let mut seen: BTreeMap<&str, &str> = BTreeMap::new();
+        for (key, text) in &texts {
+            assert!(text.len() > 5 && !text.contains("\n"), "{key}: {text:?}");
+            let other = seen.insert(text, key);
+            assert!(other.is_none(), "{key} and {other:?}: {text}");
+        }
+        assert!(texts["outputs.rates.whirl"].contains("twin/whirl"));
+        assert!(texts["tool.joint.kind"].contains("ball_cage"));
+        assert_ne!(texts["shock.levels.watch"], texts["stick_slip.levels.watch"]);
+    }
+}

@@ -1,0 +1,252 @@
+//! Which requests were taken already, over all lives of the DDS process and of the node.
+//!
+//! A client's DDS keeps a request for readers that have not acknowledged it, and a reader that died did not. A new reader
+//! is then sent the old requests too: those that the node has taken, and those that were sent to a node before it. Taken
+//! requests are known by their writer and number. Those to a node before are older than this one: the age of a request is
+//! the time since its client sent it, by this machine's clock, and the node's is counted by the monotonic clock, so that
+//! setting the clock does not matter. A client on another machine whose clock is behind by some seconds is refused for as
+//! long after the start.
+
+use std::collections::BTreeMap;
+
+use crate::dds::plan::Guid;
+
+/// Most writers of requests that are remembered.
+const MOST_CLIENTS: usize = 4096;
+/// Numbers below a writer's highest of which it is known one by one whether they were taken.
+const WINDOW: i64 = 64;
+
+/// What is to be done with a request.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Verdict {
+    /// It is carried out.
+    New,
+    /// It was taken before.
+    Repeated,
+    /// It was sent so long before this node was started (s).
+    Older(f64),
+    /// It does not say when it was sent, so that it may be one to a node before.
+    WithoutTime,
+    /// It is from a writer that was forgotten, and may have been taken.
+    Forgotten,
+}
+
+/// One request as it arrives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arrival {
+    /// The client's writer.
+    pub client: Guid,
+    /// Number of the request among the writer's.
+    pub sequence: i64,
+    /// When it was sent, by the client's clock (ns since 1970).
+    pub sent: Option<i64>,
+    /// This machine's clock (ns since 1970).
+    pub now: i64,
+    /// Time since the node was started (ns).
+    pub up: u64,
+}
+
+/// What was taken of one writer.
+struct Client {
+    highest: i64,
+    /// Bit k: number `highest - 1 - k` was taken.
+    below: u64,
+    /// When its newest request was sent.
+    newest: i64,
+    /// Turn of the book at which it was heard last.
+    heard: u64,
+}
+
+/// The requests that were taken.
+#[derive(Default)]
+pub(super) struct TakenRequests {
+    clients: BTreeMap<Guid, Client>,
+    turn: u64,
+    /// When the newest request of all writers that were forgotten was sent.
+    forgotten: Option<i64>,
+}
+
+impl TakenRequests {
+    /// Judges a request, and notes it when it is new.
+    pub(super) fn judge(&mut self, arrival: &Arrival) -> Verdict {
+        let &Arrival {
+            client,
+            sequence,
+            sent,
+            now,
+            up,
+        } = arrival;
+        let Some(sent) = sent else { return Verdict::WithoutTime };
+        let older = i128::from(now) - i128::from(sent) - i128::from(up);
+        if older > 0 {
+            return Verdict::Older(older as f64 * 1e-9);
+        }
+        self.turn += 1;
+        if let Some(known) = self.clients.get_mut(&client) {
+            known.heard = self.turn;
+            return known.judge(sequence, sent);
+        }
+        if self.forgotten.is_some_and(|forgotten| sent <= forgotten) {
+            return Verdict::Forgotten;
+        }
+        if self.clients.len() == MOST_CLIENTS {
+            self.forget_one();
+        }
+        self.clients.insert(client, Client::new(sequence, sent, self.turn));
+        Verdict::New
+    }
+
+    /// Forgets the writer that has not been heard for the longest time.
+    fn forget_one(&mut self) {
+        let longest = self.clients.iter().min_by_key(|(_, client)| client.heard);
+        if let Some(guid) = longest.map(|(guid, _)| *guid)
+            && let Some(client) = self.clients.remove(&guid)
+        {
+            self.forgotten = self.forgotten.max(Some(client.newest));
+        }
+    }
+}
+
+impl Client {
+    fn new(sequence: i64, sent: i64, heard: u64) -> Self {
+        Self {
+            highest: sequence,
+            below: 0,
+            newest: sent,
+            heard,
+        }
+    }
+
+    fn judge(&mut self, sequence: i64, sent: i64) -> Verdict {
+        let ahead = sequence.saturating_sub(self.highest);
+        if ahead > 0 {
+            // The bit of what was the highest goes in first.
+            let with_highest = (self.below << 1) | 1;
+            self.below = u32::try_from(ahead - 1)
+                .ok()
+                .and_then(|by| with_highest.checked_shl(by))
+                .unwrap_or(0);
+            self.highest = sequence;
+        } else if sent > self.newest {
+            // A client that was started again with the id of the one before: its numbers begin anew.
+            *self = Self::new(sequence, sent, self.heard);
+        } else if ahead == 0 || ahead < -WINDOW {
+            return Verdict::Repeated;
+        } else {
+            let bit = 1 << (-ahead - 1);
+            if self.below & bit != 0 {
+                return Verdict::Repeated;
+            }
+            self.below |= bit;
+        }
+        self.newest = self.newest.max(sent);
+        Verdict::New
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: i64 = 1_000_000_000;
+    /// The node was started at second 1000.
+    const START: i64 = 1000 * SECOND;
+
+    fn at(client: u8, sequence: i64, sent: i64, now: i64) -> Arrival {
+        Arrival {
+            client: [client; 16],
+            sequence,
+            sent: Some(sent),
+            now,
+            up: (now - START) as u64,
+        }
+    }
+
+    #[test]
+    fn a_request_is_taken_once() {
+        let mut taken = TakenRequests::default();
+        let request = |sequence: i64, now: i64| at(7, sequence, START + sequence * SECOND, START + now * SECOND);
+        for sequence in [1, 2, 5] {
+            assert_eq!(taken.judge(&request(sequence, 10)), Verdict::New);
+        }
+        // A new reader is sent all of them again, with two that were lost in between.
+        let again: Vec<Verdict> = (1..=6).map(|sequence| taken.judge(&request(sequence, 20))).collect();
+        use Verdict::{New, Repeated};
+        assert_eq!(again, [Repeated, Repeated, New, New, Repeated, New]);
+        let third: Vec<Verdict> = (1..=6).map(|sequence| taken.judge(&request(sequence, 30))).collect();
+        assert_eq!(third, [Repeated; 6]);
+        // Far ahead, nothing of before is taken again.
+        assert_eq!(taken.judge(&at(7, 500, START + 40 * SECOND, START + 40 * SECOND)), New);
+        for sequence in 1..=6 {
+            assert_eq!(taken.judge(&request(sequence, 50)), Repeated, "{sequence}");
+        }
+        // Another writer has numbers of its own.
+        assert_eq!(taken.judge(&at(8, 1, START + SECOND, START + 50 * SECOND)), New);
+    }
+
+    #[test]
+    fn requests_to_a_node_before_are_not_taken() {
+        let mut taken = TakenRequests::default();
+        let Verdict::Older(by) = taken.judge(&at(7, 1, START - 3 * SECOND, START + SECOND)) else {
+            panic!("it was taken");
+        };
+        assert!((by - 3.0).abs() < 1e-9, "{by}");
+        assert_eq!(taken.judge(&at(7, 2, START + 1, START + SECOND)), Verdict::New);
+        let no_time = Arrival {
+            sent: None,
+            ..at(7, 3, 0, START + SECOND)
+        };
+        assert_eq!(taken.judge(&no_time), Verdict::WithoutTime);
+        // What was refused for its age is not taken by its number later either.
+        assert!(matches!(
+            taken.judge(&at(7, 1, START - 3 * SECOND, START + 9 * SECOND)),
+            Verdict::Older(_)
+        ));
+    }
+
+    /// Ages are by the monotonic clock: an hour that the system's clock is set by refuses nobody, and brings nothing back.
+    #[test]
+    fn a_clock_that_is_set_does_not_matter() {
+        let up = (60 * SECOND) as u64;
+        for set_by in [-3600 * SECOND, 3600 * SECOND] {
+            let mut taken = TakenRequests::default();
+            let now = START + 60 * SECOND + set_by;
+            let fresh = Arrival {
+                up,
+                ..at(7, 1, now - SECOND / 100, now)
+            };
+            assert_eq!(taken.judge(&fresh), Verdict::New);
+            assert_eq!(taken.judge(&fresh), Verdict::Repeated);
+        }
+    }
+
+    #[test]
+    fn a_client_that_comes_again_with_its_id_is_heard() {
+        let mut taken = TakenRequests::default();
+        let now = START + 100 * SECOND;
+        for sequence in 1..=9 {
+            assert_eq!(taken.judge(&at(7, sequence, START + sequence, now)), Verdict::New);
+        }
+        assert_eq!(taken.judge(&at(7, 1, START + 50, now)), Verdict::New);
+        assert_eq!(taken.judge(&at(7, 2, START + 60, now)), Verdict::New);
+        assert_eq!(taken.judge(&at(7, 1, START + 50, now)), Verdict::Repeated);
+    }
+
+    #[test]
+    fn memory_is_bounded_and_what_was_forgotten_is_not_taken_again() {
+        let mut taken = TakenRequests::default();
+        let now = START + 1_000_000;
+        let from = |number: usize, sent: i64| {
+            let mut arrival = at(0, 1, sent, now);
+            arrival.client[..8].copy_from_slice(&number.to_le_bytes());
+            arrival
+        };
+        for number in 0..2 * MOST_CLIENTS {
+            assert_eq!(taken.judge(&from(number, START + number as i64)), Verdict::New);
+        }
+        assert_eq!(taken.clients.len(), MOST_CLIENTS);
+        assert_eq!(taken.judge(&from(3, START + 3)), Verdict::Forgotten);
+        assert_eq!(taken.judge(&from(MOST_CLIENTS + 3, START + 3)), Verdict::Repeated);
+        assert_eq!(taken.judge(&from(usize::MAX, now)), Verdict::New);
+    }
+}

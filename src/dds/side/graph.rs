@@ -1,0 +1,186 @@
+//! The node in ROS 2's graph: its endpoints, and the list of them that it announces.
+//!
+//! The endpoints are RustDDS's own. A node of ros2-client would add a second, latched writer of `/parameter_events`, which
+//! makes `ros2 topic echo` and `ros2 bag record` warn of mixed qualities of service, and would hide when a request was
+//! sent.
+
+use ros2_client::Gid;
+use rustdds::no_key::{DataWriterCdr, SimpleDataReaderCdr};
+use rustdds::policy::{Durability, History, Reliability};
+use rustdds::{
+    DomainParticipant, GUID, Publisher, QosPolicies, QosPolicyBuilder, RTPSEntity as _, Subscriber, Timestamp,
+    TopicKind,
+};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use crate::dds::plan::Plan;
+
+/// Where ROS 2 nodes announce which endpoints are theirs.
+pub(super) const DISCOVERY_TOPIC: &str = "ros_discovery_info";
+const DISCOVERY_TYPE: &str = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
+/// Announcements of others that may wait.
+const DISCOVERY_DEPTH: i32 = 64;
+
+/// A topic that is written.
+pub(super) type Writer<M> = DataWriterCdr<M>;
+/// A topic that is read.
+pub(super) type Reader<M> = SimpleDataReaderCdr<M>;
+
+/// `rmw_dds_common/msg/ParticipantEntitiesInfo`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Participant {
+    pub(super) gid: Gid,
+    pub(super) nodes: Vec<Entities>,
+}
+
+/// `rmw_dds_common/msg/NodeEntitiesInfo`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Entities {
+    pub(super) namespace: String,
+    pub(super) name: String,
+    pub(super) readers: Vec<Gid>,
+    pub(super) writers: Vec<Gid>,
+}
+
+impl Entities {
+    pub(super) fn full_name(&self) -> String {
+        format!("{}/{}", self.namespace.trim_end_matches('/'), self.name)
+    }
+}
+
+/// The node's endpoints.
+pub(super) struct NodeGraph {
+    participant: DomainParticipant,
+    publisher: Publisher,
+    subscriber: Subscriber,
+    announcer: Writer<Participant>,
+    node: Entities,
+}
+
+impl NodeGraph {
+    /// A node without endpoints of its own, not announced yet.
+    ///
+    /// # Errors
+    /// What RustDDS says.
+    pub(super) fn new(participant: &DomainParticipant, plan: &Plan) -> Result<Self, String> {
+        // Each topic brings its own qualities.
+        let none = QosPolicyBuilder::new().build();
+        let publisher = participant.create_publisher(&none).map_err(text)?;
+        let subscriber = participant.create_subscriber(&none).map_err(text)?;
+        let qualities = discovery_qualities(1);
+        let topic = participant
+            .create_topic(
+                DISCOVERY_TOPIC.to_owned(),
+                DISCOVERY_TYPE.to_owned(),
+                &qualities,
+                TopicKind::NoKey,
+            )
+            .map_err(text)?;
+        let announcer: Writer<Participant> = publisher.create_datawriter_no_key(&topic, None).map_err(text)?;
+        let node = Entities {
+            namespace: plan.namespace.clone(),
+            name: plan.node.clone(),
+            readers: Vec::new(),
+            writers: vec![announcer.guid().into()],
+        };
+        Ok(Self {
+            participant: participant.clone(),
+            publisher,
+            subscriber,
+            announcer,
+            node,
+        })
+    }
+
+    /// Writes a topic, by the names that DDS has for it and its type.
+    ///
+    /// # Errors
+    /// What RustDDS says.
+    pub(super) fn writer<M: Serialize>(
+        &mut self,
+        topic: &str,
+        dds_type: &str,
+        qualities: &QosPolicies,
+    ) -> Result<Writer<M>, String> {
+        let topic = self
+            .participant
+            .create_topic(topic.to_owned(), dds_type.to_owned(), qualities, TopicKind::NoKey)
+            .map_err(text)?;
+        let writer: Writer<M> = self.publisher.create_datawriter_no_key(&topic, None).map_err(text)?;
+        self.node.writers.push(writer.guid().into());
+        Ok(writer)
+    }
+
+    /// Reads a topic, by the names that DDS has for it and its type.
+    ///
+    /// # Errors
+    /// What RustDDS says.
+    pub(super) fn reader<M: DeserializeOwned + 'static>(
+        &mut self,
+        topic: &str,
+        dds_type: &str,
+        qualities: &QosPolicies,
+    ) -> Result<Reader<M>, String> {
+        let topic = self
+            .participant
+            .create_topic(topic.to_owned(), dds_type.to_owned(), qualities, TopicKind::NoKey)
+            .map_err(text)?;
+        let reader: Reader<M> = self
+            .subscriber
+            .create_simple_datareader_no_key(&topic, None)
+            .map_err(text)?;
+        self.node.readers.push(reader.guid().into());
+        Ok(reader)
+    }
+
+    /// Reads what nodes announce of themselves.
+    ///
+    /// # Errors
+    /// What RustDDS says.
+    pub(super) fn announcements(&mut self) -> Result<Reader<Participant>, String> {
+        self.reader(DISCOVERY_TOPIC, DISCOVERY_TYPE, &discovery_qualities(DISCOVERY_DEPTH))
+    }
+
+    /// Takes a writer off the list that [`NodeGraph::announce`] sends.
+    pub(super) fn forget_writer(&mut self, writer: GUID) {
+        let writer = Gid::from(writer);
+        self.node.writers.retain(|known| *known != writer);
+    }
+
+    /// Announces the node with all its endpoints.
+    pub(super) fn announce(&self) {
+        self.send(vec![self.node.clone()]);
+    }
+
+    fn send(&self, nodes: Vec<Entities>) {
+        let announcement = Participant {
+            gid: self.participant.guid().into(),
+            nodes,
+        };
+        if let Err(error) = self.announcer.write(announcement, Some(Timestamp::now())) {
+            log::error!("the node could not be announced to ROS 2: {error}");
+        }
+    }
+}
+
+impl Drop for NodeGraph {
+    /// The participant has no node any more.
+    fn drop(&mut self) {
+        self.send(Vec::new());
+    }
+}
+
+fn discovery_qualities(depth: i32) -> QosPolicies {
+    QosPolicyBuilder::new()
+        .reliability(Reliability::Reliable {
+            max_blocking_time: rustdds::Duration::ZERO,
+        })
+        .durability(Durability::TransientLocal)
+        .history(History::KeepLast { depth })
+        .build()
+}
+
+fn text(error: impl std::fmt::Display) -> String {
+    error.to_string()
+}
