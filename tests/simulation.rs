@@ -255,7 +255,7 @@ impl World {
                     live: self.config.live(),
                     slew: [simulation.rotary_speed_slew, simulation.weight_on_bit_slew],
                     whirl: self.config.whirl_settings(),
-                    schedule: outputs::schedule(&self.config),
+                    schedule: outputs::schedule(&self.config, &self.config.outputs.rates),
                 })
             }
         };
@@ -485,7 +485,7 @@ impl Clock for WorldClock {
 fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
     let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     simulation.restore(fresh).unwrap();
-    let run = Run::new(simulation, outputs::schedule(config));
+    let run = Run::new(simulation, outputs::schedule(config, &config.outputs.rates));
     let targets = Targets::new(config.simulation().initial_inputs);
     let gauges = Arc::new(Gauges::default());
     let (end, publisher, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));

@@ -37,7 +37,7 @@ struct Bench {
 impl Bench {
     fn new(config: &Config, quality: InputState) -> Self {
         let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
-        let run = Run::new(simulation, schedule(config));
+        let run = Run::new(simulation, schedule(config, &config.outputs.rates));
         let mut bench = Self {
             frame: run.new_frame(),
             run,

@@ -6,6 +6,7 @@ use std::time::SystemTime;
 
 use clap::Args;
 
+use super::built_in::BuiltIn;
 use super::{WrongUse, numbers, record_name, signals};
 use crate::alarms::state_file;
 use crate::bag::Losses;
@@ -21,10 +22,6 @@ use crate::ros::service::ServiceMapping;
 use crate::ros::{DEFAULT_NODE_NAME, logging};
 use flexdrill_config::Config;
 use flexdrill_core::twin::Output;
-
-/// The paper's case, so that the binary runs anywhere.
-const DEFAULT_CONFIG: &str = include_str!("../../config/default.yaml");
-const DEFAULT_CONFIG_NAME: &str = "config/default.yaml (built in)";
 
 /// Run the twin as a ROS 2 node.
 #[derive(Debug, Args)]
@@ -165,13 +162,8 @@ fn chosen_config<'a>(option: Option<&'a Path>, named: Option<(&'a str, &str)>) -
 
 /// The configuration and the name of its source.
 pub(super) fn load_config(path: Option<&std::path::Path>) -> anyhow::Result<(Config, String)> {
-    Ok(match path {
-        Some(path) => (Config::load(path)?, path.display().to_string()),
-        None => (
-            Config::from_text(DEFAULT_CONFIG_NAME, DEFAULT_CONFIG)?,
-            DEFAULT_CONFIG_NAME.to_owned(),
-        ),
-    })
+    let name = path.map_or_else(|| BuiltIn::Default.name(), |path| path.display().to_string());
+    Ok((BuiltIn::Default.or_file(path)?, name))
 }
 
 fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
@@ -212,7 +204,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
         "input",
         format!("{} [{}, {units}]", setup.topic_name(topic)?, topic.kind.ros_type),
     );
-    let schedule = outputs::schedule(config);
+    let schedule = outputs::published(config);
     for topic in topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received) {
         let rate = match topic.cadence {
             Cadence::Rate(key) => rate(config, &schedule, key),

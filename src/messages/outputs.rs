@@ -15,7 +15,7 @@ use super::{
     Ageing, AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, Reactions, SessionInfo, WhirlState,
     WhirlWarning, to_cdr_into,
 };
-use flexdrill_config::Config;
+use flexdrill_config::{Config, Rates};
 use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
 
 /// How often the alarms of the tool are judged, per second of model time: ten times within the shortest duration that a
@@ -81,9 +81,18 @@ pub struct Outputs {
     driven: Option<Driven>,
 }
 
-/// The publishing schedule of a configuration.
-pub fn schedule(config: &Config) -> Schedule {
-    let rates = &config.outputs.rates;
+/// When outputs are made for recordings and viewers, under a configuration and the rates with which the run began. Lower
+/// rates that are set while the twin runs act on DDS only: no parameter takes an output out of a recording.
+pub fn schedule(config: &Config, begun: &Rates) -> Schedule {
+    schedule_of(config, &config.outputs.rates.at_least(begun))
+}
+
+/// When outputs are published on DDS under a configuration.
+pub fn published(config: &Config) -> Schedule {
+    schedule_of(config, &config.outputs.rates)
+}
+
+fn schedule_of(config: &Config, rates: &Rates) -> Schedule {
     Schedule::new(config.solver.time_step, |output| match output {
         Output::JointDeflections => rates.joint_deflections,
         Output::JointStates => rates.joint_states,
@@ -369,8 +378,8 @@ impl Outputs {
 }
 
 /// The drive of a run as a recorded message has it; what it leaves to the configuration is taken from `config`, in
-/// which its parameters must already be set.
-pub fn run_inputs(message: &AppliedInputs, config: &Config) -> RunInputs {
+/// which its parameters must already be set. `begun` are the rates with which the run began.
+pub fn run_inputs(message: &AppliedInputs, config: &Config, begun: &Rates) -> RunInputs {
     RunInputs {
         step: message.step,
         skipped: message.skipped_steps,
@@ -388,6 +397,6 @@ pub fn run_inputs(message: &AppliedInputs, config: &Config) -> RunInputs {
         whirl: config.whirl_settings(),
         input_quality: message.input_quality,
         refinement: message.refinement.into(),
-        schedule: schedule(config),
+        schedule: schedule(config, begun),
     }
 }

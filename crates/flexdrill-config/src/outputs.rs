@@ -19,7 +19,9 @@ section! {
 }
 
 section! {
-    /// Messages per second of model time (Hz); 0 switches a topic off. Keys are the topics' last names.
+    /// Messages per second of model time (Hz). Keys are the topics' last names. 0 switches a topic off, except those by
+    /// which an operator knows that the twin works. A recording keeps at least the rates with which the run began: rates
+    /// that are set lower while the twin runs act on DDS only.
     #[derive(Copy)]
     pub struct Rates(this) {
         /// `twin/joint_deflections`.
@@ -31,7 +33,8 @@ section! {
         /// `twin/bit_state`.
         bit_state: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `twin/status`.
-        status: f64 = 5.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
+        status: f64 = 5.0, within(1.0, 1000.0), "Hz",
+            "it shows that the twin works; more would flood the network";
         /// `twin/tool_shape`.
         tool_shape: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `twin/ageing`.
@@ -41,7 +44,26 @@ section! {
         /// `joint_states`.
         joint_states: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// `/diagnostics`.
-        diagnostics: f64 = 1.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
+        diagnostics: f64 = 1.0, within(1.0, 1000.0), "Hz",
+            "it shows that the twin works; more would flood the network";
+    }
+}
+
+impl Rates {
+    /// Of each topic the higher of two rates.
+    #[must_use]
+    pub fn at_least(&self, other: &Self) -> Self {
+        Self {
+            joint_deflections: self.joint_deflections.max(other.joint_deflections),
+            contact_forces: self.contact_forces.max(other.contact_forces),
+            whirl: self.whirl.max(other.whirl),
+            bit_state: self.bit_state.max(other.bit_state),
+            status: self.status.max(other.status),
+            tool_shape: self.tool_shape.max(other.tool_shape),
+            ageing: self.ageing.max(other.ageing),
+            joint_states: self.joint_states.max(other.joint_states),
+            diagnostics: self.diagnostics.max(other.diagnostics),
+        }
     }
 }
 

@@ -21,7 +21,7 @@ pub struct Solver {
     /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Default 0.55. Given alone, it means `scheme: newmark`.
     pub gamma: f64,
     /// Spectral radius at infinite frequency of the other schemes: the part of the highest frequencies that a step
-    /// leaves. Default 0.4; for `hht` 0.5.
+    /// leaves. Default 0.45; for `hht` 0.5.
     pub rho_infinity: f64,
     /// Most Newton iterations per sub-step. Default 15.
     pub max_iterations: u32,

@@ -243,20 +243,33 @@ fn live_parameters_stop_at_the_hard_limits() {
         ("outputs.rates.contact_forces", 200.0, 201.0),
     ] {
         assert!(refused(key, beyond).contains(key));
-        let changed = config.with_value("inputs.rotary_speed.initial_rpm", 20.0).unwrap();
-        let changed = changed.with_value("inputs.rotary_speed.safe_rpm", 20.0).unwrap();
+        // A minimum of 10 r/min needs a start and a safe value above it.
+        let start = [("initial_rpm", 20.0), ("safe_rpm", 20.0)]
+            .map(|(name, value)| (format!("inputs.rotary_speed.{name}"), value));
+        let config = config.with_values("rig.yaml", start).unwrap();
+        let bounds = HardBounds::of(&config);
         assert!(
-            bounds.check(&changed.with_value(key, within).unwrap()).is_ok(),
+            bounds.check(&config.with_value(key, within).unwrap()).is_ok(),
             "{key} = {within}"
         );
     }
-    let both = [
-        ("inputs.rotary_speed.max_rpm", 250.0),
-        ("inputs.rotary_speed.safe_rpm", 130.0),
-    ];
-    let changed = config.with_values("parameter", both).unwrap();
-    let error = bounds.check(&changed).unwrap_err().to_string();
-    assert!(error.contains("safe_rpm = 130 r/min: must be at most 120"), "{error}");
+    // A safe value is only lowered: a rig that falls silent is not brought to full speed by a parameter.
+    for (key, value, unit) in [
+        ("inputs.rotary_speed.safe_rpm", 120.0, "r/min"),
+        ("inputs.weight_on_bit.safe_kn", 60.0, "kN"),
+    ] {
+        let error = refused(key, value);
+        assert!(
+            error.contains(&format!("{key} = {value} {unit}: must be at most 0 {unit}")),
+            "{error}"
+        );
+    }
+    let started = config.with_value("inputs.rotary_speed.safe_rpm", 30.0).unwrap();
+    let bounds_of_started = HardBounds::of(&started);
+    for (value, accepted) in [(30.0, true), (10.0, true), (31.0, false)] {
+        let changed = started.with_value("inputs.rotary_speed.safe_rpm", value).unwrap();
+        assert_eq!(bounds_of_started.check(&changed).is_ok(), accepted, "{value} r/min");
+    }
     assert_eq!(
         bounds.cut("inputs.rotary_speed.max_rpm", [-5000.0, 5000.0]),
         [-5000.0, 300.0]
@@ -284,6 +297,23 @@ fn what_the_configuration_itself_asks_for_is_within_its_hard_limits() {
         warnings.contains("inputs.rotary_speed.max_rpm 400 r/min is beyond inputs.hard_limits.max_rpm 300 r/min"),
         "{warnings}"
     );
+}
+
+/// The outputs by which an operator knows that the twin works cannot be switched off; the others can.
+#[test]
+fn status_and_diagnostics_have_a_least_rate() {
+    let config = Config::from_text("rig.yaml", GOOD).unwrap();
+    for key in ["outputs.rates.status", "outputs.rates.diagnostics"] {
+        for rate in [0.0, 0.999] {
+            let error = config.with_value(key, rate).unwrap_err().to_string();
+            assert!(
+                error.contains(&format!("{key} = {rate} Hz: must be 1 to 1000 Hz")),
+                "{error}"
+            );
+        }
+        assert!(config.with_value(key, 1.0).is_ok());
+    }
+    assert!(config.with_value("outputs.rates.contact_forces", 0.0).is_ok());
 }
 
 #[test]

@@ -4,7 +4,7 @@
 mod support;
 
 use flexdrill_core::dynamics::{FailureCause, StartError, StepFailure, StepOutcome};
-use flexdrill_core::inputs::Inputs;
+use flexdrill_core::inputs::{InputKind, Inputs};
 use flexdrill_core::tool::{
     Body, Direction, LoadHistory, Location, PointLoad, Support, ToolDescription, WellDescription, WellSection,
 };
@@ -63,20 +63,68 @@ fn not_converged() {
     assert!(words.ends_with("sub-step 2.000e-3 s)"), "{words}");
 }
 
+/// An input that is not finite, or far beyond any rig, is named with its value, bound and unit, and nothing is computed
+/// from it.
+#[test]
+fn inputs_out_of_bounds() {
+    use InputKind::{RotarySpeed, WeightOnBit};
+    for (kind, value) in [
+        (RotarySpeed, f64::NAN),
+        (RotarySpeed, f64::INFINITY),
+        (RotarySpeed, 1e6),
+        (RotarySpeed, -1001.0),
+        (WeightOnBit, f64::NAN),
+        (WeightOnBit, f64::NEG_INFINITY),
+        (WeightOnBit, 1e12),
+        (WeightOnBit, -1.0),
+    ] {
+        let simulation = Simulation::new(&tiny(), &SimulationSettings::default()).unwrap();
+        let mut inputs = INPUTS;
+        match kind {
+            RotarySpeed => inputs.rotary_speed = value,
+            WeightOnBit => inputs.weight_on_bit = value,
+        }
+        let failure = failure(simulation, &inputs, 1);
+        assert_eq!(failure.cause, FailureCause::InputOutOfBounds(kind), "{failure}");
+        let [low, high] = Inputs::bounds(kind);
+        let (name, unit) = (kind.name(), kind.si_unit());
+        let words = failure.to_string();
+        assert!(
+            words.ends_with(&format!(
+                "inputs.{name} = {value} {unit}: must be {low} to {high} {unit}"
+            )),
+            "{words}"
+        );
+    }
+    // The bounds themselves are taken, and settings are held to the same ones.
+    let bound = Inputs {
+        rotary_speed: -1000.0,
+        weight_on_bit: 1e7,
+    };
+    assert_eq!(bound.out_of_bounds(), None);
+    let settings = SimulationSettings {
+        initial_inputs: Inputs {
+            rotary_speed: 1e6,
+            ..INPUTS
+        },
+        ..SimulationSettings::default()
+    };
+    let refused = Simulation::new(&tiny(), &settings).err().map(|error| error.to_string());
+    assert_eq!(
+        refused.as_deref(),
+        Some("settings: initial_inputs.rotary_speed = 1000000 rad/s: must be -1000 to 1000")
+    );
+}
+
 #[test]
 fn not_finite() {
-    for rotary_speed in [f64::NAN, f64::INFINITY] {
-        let simulation = Simulation::new(
-            &tiny(),
-            &SimulationSettings {
-                rotary_speed_slew: f64::MAX,
-                ..SimulationSettings::default()
-            },
-        );
-        let inputs = Inputs { rotary_speed, ..INPUTS };
-        let failure = failure(simulation.unwrap(), &inputs, 1);
-        assert_eq!(failure.cause, FailureCause::NotFinite, "{failure}");
-    }
+    // A torque of this size overflows within the first step.
+    let mut tool = tiny();
+    tool.static_start = false;
+    tool.loads = vec![load(Location::Bottom, Body::Pipe, Direction::Psi, 1e308)];
+    let simulation = Simulation::new(&tool, &SimulationSettings::default()).unwrap();
+    let failure = failure(simulation, &INPUTS, 1);
+    assert_eq!(failure.cause, FailureCause::NotFinite, "{failure}");
 }
 
 #[test]

@@ -221,6 +221,76 @@ fn stale_is_held_then_brought_to_safe() {
     assert_eq!(conditioner.target(RotarySpeed, 1000.0), 0.0);
 }
 
+/// The safe value of a silent rig is a bound from above, in either sense of rotation.
+#[test]
+fn a_silent_rig_is_never_sped_up_by_its_safe_value() {
+    for (safe, value, after) in [
+        (120.0, 40.0, 40.0),
+        (30.0, 40.0, 30.0),
+        (-50.0, -20.0, -20.0),
+        (-50.0, 20.0, 0.0),
+        (0.0, -20.0, 0.0),
+        (60.0, 0.0, 0.0),
+    ] {
+        let mut rules = [*conditioner().rule(RotarySpeed); 2];
+        (rules[0].min, rules[0].safe) = (-120.0, safe);
+        let mut conditioner = Conditioner::new(rules);
+        conditioner.offer(RotarySpeed, value, 0.0).unwrap();
+        assert_eq!(
+            conditioner.target(RotarySpeed, 1000.0),
+            after,
+            "safe {safe} after {value}"
+        );
+    }
+}
+
+/// Each rule that could raise the target of a silent rig is changed once it has been brought to standstill.
+#[test]
+fn no_change_of_rules_raises_the_target_of_a_silent_rig() {
+    let changes: [fn(&mut InputRule); 4] = [
+        |rule| rule.safe = 120.0,
+        |rule| rule.hold_before_safe = 1e6,
+        |rule| rule.max_age = 1e6,
+        |rule| (rule.min, rule.safe) = (100.0, 120.0),
+    ];
+    for (number, change) in changes.into_iter().enumerate() {
+        // Changed on the way to the safe value, at 20 r/min, and at standstill.
+        for (at, present) in [(19.0, 20.0), (1000.0, 0.0)] {
+            let mut conditioner = conditioner();
+            conditioner.offer(RotarySpeed, 40.0, 0.0).unwrap();
+            let mut rule = *conditioner.rule(RotarySpeed);
+            change(&mut rule);
+            let rules = [rule, *conditioner.rule(WeightOnBit)];
+            assert_eq!(conditioner.target(RotarySpeed, at), present);
+            conditioner.set_rules(rules, at);
+            for later in [0.0, 1.0, 100.0, 1e5] {
+                let target = conditioner.target(RotarySpeed, at + later);
+                assert!(
+                    target <= present,
+                    "change {number} at {at} s: {target} r/min after {later} s"
+                );
+            }
+            // A good sample ends it.
+            conditioner.offer(RotarySpeed, 110.0, at + 2e5).unwrap();
+            assert_eq!(conditioner.target(RotarySpeed, at + 2e5), 110.0);
+        }
+    }
+}
+
+/// A changed ramp acts from the change on, without a jump.
+#[test]
+fn a_changed_ramp_begins_at_the_present_value() {
+    let mut conditioner = conditioner();
+    conditioner.offer(RotarySpeed, 40.0, 0.0).unwrap();
+    let mut rules = [*conditioner.rule(RotarySpeed), *conditioner.rule(WeightOnBit)];
+    rules[0].safe_ramp = 1.0;
+    // Held to 15 s, then 5 r/min per s for 2 s, then 1 r/min per s.
+    conditioner.set_rules(rules, 17.0);
+    assert_eq!(conditioner.target(RotarySpeed, 17.0), 30.0);
+    assert_eq!(conditioner.target(RotarySpeed, 20.0), 27.0);
+    assert_eq!(conditioner.target(RotarySpeed, 100.0), 0.0);
+}
+
 #[test]
 fn a_clock_that_starts_over_does_not_lock_the_input() {
     let mut conditioner = conditioner();

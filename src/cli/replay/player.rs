@@ -11,7 +11,7 @@ use crate::bag::{BagError, Recorder, Recording, Topic};
 use crate::messages::CdrError;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
-use flexdrill_config::Config;
+use flexdrill_config::{Config, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation};
 use flexdrill_realtime::monotonic;
@@ -36,6 +36,8 @@ enum WriteError {
 pub(super) struct Player {
     run: Run,
     config: Config,
+    /// Publishing rates at the start: no output is recorded less often.
+    begun: Rates,
     frame: Frame,
     outputs: Outputs,
     alarms: AlarmBook,
@@ -61,12 +63,13 @@ impl Player {
         let recorder = Recorder::create(out, &recorded)?;
         let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
         simulation.set_clock(monotonic::now);
-        let run = Run::new(simulation, schedule(&config));
+        let run = Run::new(simulation, schedule(&config, &config.outputs.rates));
         let mut player = Self {
             frame: run.new_frame(),
             run,
             outputs: Outputs::new(&config, start),
             alarms: AlarmBook::fresh(Arc::new(config.clone()), start),
+            begun: config.outputs.rates,
             config,
             recorder,
             topics,
@@ -110,6 +113,11 @@ impl Player {
         self.outputs.reconfigure(&config);
         self.alarms.reconfigure(&Arc::new(config.clone()));
         self.config = config;
+    }
+
+    /// Publishing rates at the start.
+    pub(super) fn begun(&self) -> &Rates {
+        &self.begun
     }
 
     /// The present configuration.

@@ -224,7 +224,7 @@ impl Script {
             }
             let inputs = RunInputs {
                 skipped: message.skipped_steps.saturating_sub(base.skipped),
-                ..run_inputs(message, player.config())
+                ..run_inputs(message, player.config(), player.begun())
             };
             player.apply(&inputs, &changes, index == 0)?;
             if message.reset {

@@ -7,6 +7,7 @@ pub mod names;
 pub mod params;
 pub mod value;
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 pub use names::{NameProblem, NodeIdentity, Remapping};
@@ -78,10 +79,11 @@ pub struct RosArgs {
 }
 
 /// Splits a command line into what is outside and inside of `--ros-args ... [--]` sections.
-pub fn split(arguments: impl IntoIterator<Item = String>) -> (Vec<String>, Vec<String>) {
+pub fn split<A: AsRef<OsStr>>(arguments: impl IntoIterator<Item = A>) -> (Vec<A>, Vec<A>) {
     let (mut outside, mut inside, mut ros) = (Vec::new(), Vec::new(), false);
     for argument in arguments {
-        match (ros, argument.as_str()) {
+        // Names of files need not be UTF-8; the words looked for here are.
+        match (ros, argument.as_ref().to_str().unwrap_or_default()) {
             (false, "--ros-args") => ros = true,
             (true, "--") => ros = false,
             (true, "--ros-args") => {}

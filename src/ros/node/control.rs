@@ -17,7 +17,7 @@ use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest,
 use crate::ros::NodeError;
 use crate::ros::parameters::{ParameterStore, Refusal, Task, reconfigured, refresh_ranges};
 use crate::ros::service::{ServiceMapping, ServiceServer, asked_by, at_once, shared};
-use flexdrill_config::{Config, HardBounds};
+use flexdrill_config::{Config, HardBounds, Rates};
 use flexdrill_core::twin::CheckpointError;
 use flexdrill_realtime::link::{Command, Gauges, RunState, Settings};
 
@@ -90,6 +90,8 @@ pub struct Control {
     rig_inputs: RigInputs,
     gauges: Arc<Gauges>,
     hard_bounds: HardBounds,
+    /// Publishing rates at the start: recordings keep them.
+    begun: Rates,
     /// When one was asked for last.
     checkpoint: Mutex<Option<Instant>>,
     /// State of a managed node that is not active, in which model time stands still.
@@ -97,13 +99,13 @@ pub struct Control {
 }
 
 /// What of a configuration acts while the solver runs.
-fn settings(config: &Config) -> Settings {
+fn settings(config: &Config, begun: &Rates) -> Settings {
     let simulation = config.simulation();
     Settings {
         live: config.live(),
         slew: [simulation.rotary_speed_slew, simulation.weight_on_bit_slew],
         whirl: config.whirl_settings(),
-        schedule: outputs::schedule(config),
+        schedule: outputs::schedule(config, begun),
     }
 }
 
@@ -118,6 +120,7 @@ impl Control {
     ) -> Arc<Self> {
         Arc::new(Self {
             hard_bounds: HardBounds::of(&config),
+            begun: config.outputs.rates,
             commands: Mutex::new(Commands { sender, sent: 0 }),
             config: Mutex::new(config),
             changes,
@@ -179,7 +182,7 @@ impl Control {
                 config,
             });
         };
-        self.send_with(Command::Settings(settings(&config)), tell)
+        self.send_with(Command::Settings(settings(&config, &self.begun)), tell)
             .map_err(|why| Refusal::NotPassedOn { why: why.to_string() })?;
         *self.config.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&config);
         refresh_ranges(candidate, &config, &self.hard_bounds);

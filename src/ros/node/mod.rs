@@ -11,6 +11,7 @@ mod ending;
 pub mod publish;
 pub mod publishers;
 pub mod rig;
+mod thinned;
 pub mod viewers;
 
 use std::future::Future;
@@ -368,7 +369,7 @@ fn build(config: &Config, checkpoint: Option<&[u8]>) -> Result<Run, BuildError> 
         "the tool is at its start after {:.1} s; model time runs",
         began.elapsed().as_secs_f64()
     );
-    Ok(Run::new(simulation, outputs::schedule(config)))
+    Ok(Run::new(simulation, outputs::schedule(config, &config.outputs.rates)))
 }
 
 fn read_checkpoint(setup: &NodeSetup) -> Result<Option<Vec<u8>>, NodeError> {

@@ -10,6 +10,7 @@ use super::alarms::{self, AlarmDesk};
 use super::control::Change;
 use super::publishers::Publishers;
 use super::rig::{Now, Received, RigTime, ToRecord};
+use super::thinned::{Share, Thinned};
 use crate::bag::RecordingThread;
 use crate::dds::port::Monitor;
 use crate::health::diagnostics::{Diagnostics, Evidence};
@@ -83,6 +84,7 @@ pub struct PublisherParts {
 pub struct Publisher {
     parts: PublisherParts,
     outputs: Option<Outputs>,
+    thinned: Thinned,
     status: StatusKeeper,
     diagnostics: Diagnostics,
     evidence: Evidence,
@@ -108,6 +110,7 @@ impl Publisher {
         let status = StatusKeeper::new(parts.config.solver.time_step, parts.config.hash())?;
         let now = monotonic::now();
         Ok(Self {
+            thinned: Thinned::new(&parts.config),
             parts,
             outputs: None,
             status,
@@ -217,10 +220,19 @@ impl Publisher {
             LoopEvent::Frame(frame) => {
                 self.status.observe(&frame.snapshot);
                 self.evidence.motion = MotionEvidence::of(&frame.snapshot);
-                let parts = &self.parts;
+                let (parts, thinned) = (&self.parts, &mut self.thinned);
                 let began = monotonic::now();
                 let sent = self.outputs.as_mut().map_or(Ok(()), |outputs| {
-                    outputs.frame(&frame, |encoded| parts.send(encoded))?;
+                    outputs.frame(&frame, |encoded| {
+                        match thinned.share(&frame, encoded.topic, encoded.cdr)? {
+                            Share::Same => parts.publishers.publish(encoded.topic, encoded.cdr),
+                            Share::Instead(cdr) => parts.publishers.publish(encoded.topic, &cdr),
+                            Share::Nothing => {}
+                        }
+                        keep(&parts.beside(), encoded.topic, encoded.stamp, encoded.cdr);
+                        Ok::<(), CdrError>(())
+                    })?;
+                    thinned.end_frame(&frame);
                     outputs.repeat_applied(&frame, |encoded| parts.send(encoded))
                 });
                 self.status.add_publishing(monotonic::now().saturating_sub(began));
@@ -280,6 +292,7 @@ impl Publisher {
             self.parts.config = change.config;
         }
         self.parts.alarms.reconfigure(&self.parts.config);
+        self.thinned.reconfigure(inputs.schedule, &self.parts.config);
         let parts = &self.parts;
         let Some(outputs) = self.outputs.as_mut() else {
             return Ok(());

@@ -167,7 +167,7 @@ impl RigInputs {
     /// Takes over changed limits, ages and safe values.
     pub fn set_rules(&self, inputs: &InputsConfig) {
         locked(&self.intake).set_rules(inputs);
-        locked(&self.conditioner).set_rules(inputs.rules());
+        locked(&self.conditioner).set_rules(inputs.rules(), (self.now)());
     }
 
     /// Takes over what is known of a publisher that discovery does not know.

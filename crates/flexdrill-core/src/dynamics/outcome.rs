@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::inputs::{InputKind, Inputs};
 use crate::tool::description::Body;
 
 /// Result of one advance by the configured step.
@@ -46,7 +47,8 @@ pub struct StepFailure {
     pub station: usize,
     /// Which pipe, where that makes sense.
     pub body: Body,
-    /// Worst residual (N or N m) or, for a singular system, the pivot.
+    /// Worst residual (N or N m); for a singular system, the pivot; for an input out of its bounds, the input (rad/s or
+    /// N).
     pub value: f64,
 }
 
@@ -62,6 +64,8 @@ pub enum FailureCause {
     Singular,
     /// A displacement or tilt left the range in which the model holds.
     OutOfRange,
+    /// An input is not finite or beyond [`Inputs::bounds`]. No sub-step was tried; station and body have no meaning.
+    InputOutOfBounds(InputKind),
 }
 
 impl FailureCause {
@@ -72,6 +76,8 @@ impl FailureCause {
             Self::NotFinite => "not_finite",
             Self::Singular => "singular",
             Self::OutOfRange => "out_of_range",
+            Self::InputOutOfBounds(InputKind::RotarySpeed) => "rotary_speed_out_of_bounds",
+            Self::InputOutOfBounds(InputKind::WeightOnBit) => "weight_on_bit_out_of_bounds",
         }
     }
 }
@@ -83,6 +89,8 @@ impl fmt::Display for FailureCause {
             Self::NotFinite => "a number is not finite",
             Self::Singular => "the linear system is singular",
             Self::OutOfRange => "a displacement or tilt left the model's range",
+            Self::InputOutOfBounds(InputKind::RotarySpeed) => "the rotary speed asked for is out of its bounds",
+            Self::InputOutOfBounds(InputKind::WeightOnBit) => "the weight on bit asked for is out of its bounds",
         })
     }
 }
@@ -90,6 +98,14 @@ impl fmt::Display for FailureCause {
 impl fmt::Display for StepFailure {
     /// Cause, place and size, without the time: whoever reports it has a clock of its own.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let FailureCause::InputOutOfBounds(kind) = self.cause {
+            let ([low, high], unit) = (Inputs::bounds(kind), kind.si_unit());
+            return write!(
+                f,
+                "{}: inputs.{kind} = {} {unit}: must be {low} to {high} {unit}",
+                self.cause, self.value
+            );
+        }
         write!(
             f,
             "{} (station {} of the {}, worst value {:.3e}, sub-step {:.3e} s)",

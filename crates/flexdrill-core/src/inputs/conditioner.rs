@@ -37,8 +37,11 @@ struct Channel {
     refusing_since: Option<f64>,
     last_rejection: Option<Rejection>,
     counts: Counts,
+    /// Target at the last change of rules, while there has been no good sample since: the target goes on from here.
+    carried: Option<Sample>,
 }
 
+/// A value (r/min or kN) at a time (s).
 #[derive(Debug, Clone, Copy)]
 struct Sample {
     value: f64,
@@ -54,8 +57,13 @@ impl Conditioner {
         }
     }
 
-    /// Changes limits, ages and safe values; samples seen are kept.
-    pub fn set_rules(&mut self, rules: InputRules) {
+    /// Changes limits, ages and safe values at `now` (s); samples seen are kept. No change of rules raises a target: each
+    /// goes on from its present value until the next good sample.
+    pub fn set_rules(&mut self, rules: InputRules, now: f64) {
+        for kind in InputKind::ALL {
+            let value = self.target(kind, now);
+            self.channels[kind.index()].carried = Some(Sample { value, time: now });
+        }
         self.rules = rules;
     }
 
@@ -119,6 +127,7 @@ impl Conditioner {
                 channel.good = Some(Sample { value, time: measured });
                 channel.refused = None;
                 channel.refusing_since = None;
+                channel.carried = None;
                 channel.counts.accepted += 1;
                 Ok(())
             }
@@ -209,16 +218,29 @@ impl Conditioner {
 
     /// What is asked for at `now` (s), in the unit of the samples: the last good value, held while it ages, then
     /// brought to the safe value; the start value before the first good sample, held and brought to the safe value too
-    /// where all samples are refused. Always within the limits.
+    /// where all samples are refused.
+    ///
+    /// A silent rig is never sped up or loaded further: a safe value beyond the value that is held, or of the other sign,
+    /// acts as the held value or as zero. Always within the limits, except that a minimum that was raised above the held
+    /// value does not raise it.
     pub fn target(&self, kind: InputKind, now: f64) -> f64 {
         let rule = self.rule(kind);
-        let held = self.last_good(kind).unwrap_or(rule.initial);
+        let carried = self.channels[kind.index()].carried;
+        let held = carried
+            .map(|carried| carried.value)
+            .or(self.last_good(kind))
+            .unwrap_or(rule.initial);
         let value = match self.beyond_hold(kind, now) {
-            Some(over) => towards(held, rule.safe, rule.safe_ramp * over),
+            Some(over) => {
+                // A changed rule ramps from the value at the change, not from that at the end of the hold.
+                let over = carried.map_or(over, |carried| over.min(age(now, carried.time)));
+                towards(held, not_beyond(rule.safe, held), rule.safe_ramp * over)
+            }
             None => held,
         };
         // `max` and `min` instead of `clamp`, which panics on limits that are not in order.
-        value.max(rule.min).min(rule.max)
+        let limited = value.max(rule.min).min(rule.max);
+        if limited.abs() > held.abs() { held } else { limited }
     }
 
     /// What the twin is asked for at `now` (s), SI.
@@ -242,6 +264,9 @@ impl Conditioner {
             }
             if let Some(since) = &mut channel.refusing_since {
                 *since = now;
+            }
+            if let Some(carried) = &mut channel.carried {
+                carried.time = now;
             }
         }
     }
@@ -283,6 +308,11 @@ fn judge(rule: &InputRule, value: f64, time: f64, last_time: Option<f64>) -> Res
 /// Never negative: a sample can be stamped a little after `now` is read.
 fn age(now: f64, time: f64) -> f64 {
     (now - time).max(0.0)
+}
+
+/// `value` where it lies between zero and `held`, else the nearer of the two.
+fn not_beyond(value: f64, held: f64) -> f64 {
+    value.max(held.min(0.0)).min(held.max(0.0))
 }
 
 fn towards(from: f64, to: f64, by: f64) -> f64 {

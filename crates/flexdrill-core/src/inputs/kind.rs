@@ -52,6 +52,14 @@ impl InputKind {
         }
     }
 
+    /// SI unit, that of [`crate::inputs::Inputs`].
+    pub const fn si_unit(self) -> &'static str {
+        match self {
+            Self::RotarySpeed => "rad/s",
+            Self::WeightOnBit => "N",
+        }
+    }
+
     /// A sample in SI: rad/s or N.
     pub fn to_si(self, value: f64) -> f64 {
         match self {

@@ -45,6 +45,8 @@ pub struct Frame {
     pub ticks: u64,
     /// Which outputs are due.
     pub due: Due,
+    /// The peak and root-mean-square statistics end with it, and begin anew.
+    pub ends_interval: bool,
     /// As in [`RunInputs`].
     pub input_quality: u8,
 }
@@ -142,8 +144,8 @@ impl Run {
     /// the interval of the statistics.
     pub fn capture(&mut self, frame: &mut Frame) {
         let step = self.simulation.step();
-        self.simulation
-            .snapshot(&mut frame.snapshot, self.applied.schedule.ends_interval(step));
+        frame.ends_interval = self.applied.schedule.ends_interval(step);
+        self.simulation.snapshot(&mut frame.snapshot, frame.ends_interval);
         frame.ticks = self.ticks();
         frame.due = self.due();
         frame.input_quality = self.applied.input_quality;

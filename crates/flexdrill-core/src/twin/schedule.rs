@@ -84,6 +84,11 @@ impl Schedule {
         self.due(step).has(keeper)
     }
 
+    /// Steps between two messages of an output; 0 is off.
+    pub fn interval(&self, output: Output) -> u64 {
+        self.every[output as usize]
+    }
+
     /// Rate at which an output is published in fact (Hz); 0 is off.
     pub fn rate(&self, output: Output, time_step: f64) -> f64 {
         match self.every[output as usize] {

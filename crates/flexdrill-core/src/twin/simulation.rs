@@ -120,8 +120,11 @@ impl Simulation {
     }
 
     /// Advances by one step of [`SimulationSettings::time_step`] towards `inputs`, as fast as the slew limits allow.
-    /// When the step fails, nothing changes but the counters.
+    /// When the step fails, or an input is out of [`Inputs::bounds`], nothing changes but the counters.
     pub fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
+        if let Some(kind) = inputs.out_of_bounds() {
+            return StepOutcome::Failed(self.stepper.refuse_input(kind, inputs.get(kind)));
+        }
         let dt = self.settings.time_step;
         let speed = self.applied.rotary_speed;
         let load = self.applied.weight_on_bit;
@@ -324,8 +327,7 @@ impl Simulation {
     }
 }
 
-/// `from` moved towards `target` by at most `most`, and not at all if that is negative or NaN. From a target that is
-/// NaN comes NaN, so that the step reports it.
+/// `from` moved towards `target` by at most `most`, and not at all if that is negative or NaN.
 fn towards(from: f64, target: f64, most: f64) -> f64 {
     let most = most.max(0.0);
     from + (target - from).clamp(-most, most)

@@ -2,6 +2,7 @@
 
 use super::settings::SimulationSettings;
 use crate::dynamics::Scheme;
+use crate::inputs::{InputKind, Inputs};
 use crate::motion::{
     AlarmThresholds, ChaoticWhirlSettings, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings,
     WhirlSettings,
@@ -29,8 +30,11 @@ impl SimulationSettings {
         self.scheme.validate()?;
         count("max_iterations", self.max_iterations as usize, 1, 1000)?;
         count("max_halvings", self.max_halvings as usize, 0, MOST_HALVINGS)?;
-        Bound::Finite.check("initial_inputs.rotary_speed", self.initial_inputs.rotary_speed, "rad/s")?;
-        Bound::NotNegative.check("initial_inputs.weight_on_bit", self.initial_inputs.weight_on_bit, "N")?;
+        for kind in InputKind::ALL {
+            let [low, high] = Inputs::bounds(kind);
+            let field = format!("initial_inputs.{kind}");
+            Bound::Within(low, high).check(&field, self.initial_inputs.get(kind), kind.si_unit())?;
+        }
         validate_slew(self.rotary_speed_slew, self.weight_on_bit_slew)?;
         self.whirl.validate()?;
         self.stick_slip.validate()?;

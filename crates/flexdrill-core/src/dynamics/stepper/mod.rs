@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::newton::{self, Stride};
-use crate::dynamics::outcome::{EnergyAudit, StepFailure, StepOutcome};
+use crate::dynamics::outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::{State, translation};
@@ -19,13 +19,14 @@ use crate::dynamics::sub_steps::{SubSteps, most_attempts};
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::dynamics::track::Track;
 use crate::dynamics::view::{BottomMotion, Shown, StateView};
+use crate::inputs::InputKind;
 #[cfg(feature = "reference")]
 use crate::linear::SparseReference;
 use crate::linear::{BlockLu, LinearSolver};
 use crate::model::Model;
 use crate::reduced::{self, Reduced};
 use crate::simd::Instructions;
-use crate::tool::description::{Direction, LiveParameters, ToolDescription};
+use crate::tool::description::{Body, Direction, LiveParameters, ToolDescription};
 use crate::validation::ValidationError;
 
 pub use checkpoint::StepperCheckpoint;
@@ -373,6 +374,21 @@ impl Stepper {
             self.over_joints = true;
             self.start_from(&before, self.weight_on_bit);
         }
+    }
+
+    /// Counts a step that is not tried because an input (rad/s or N) is out of its bounds, and says so.
+    pub(crate) fn refuse_input(&mut self, kind: InputKind, value: f64) -> StepFailure {
+        let failure = StepFailure {
+            cause: FailureCause::InputOutOfBounds(kind),
+            time: self.track.state.time,
+            step: 0.0,
+            station: 0,
+            body: Body::Pipe,
+            value,
+        };
+        self.counters.last_rejection = Some(failure);
+        self.counters.failed_steps += 1;
+        failure
     }
 
     /// Advances by `h` (s) under `forcing`, in the parts of [`Stepper::set_refinement`]. A sub-step that does not converge is halved and retried; when the smallest
