@@ -20,6 +20,9 @@ pub struct Mapping {
     /// One character between fields. Default a comma.
     #[serde(default = "comma")]
     pub separator: char,
+    /// `point` or `comma`, in numbers. Default point.
+    #[serde(default)]
+    pub decimal: Decimal,
     /// Values that stand for "no value", beside an empty field. Default none.
     #[serde(default)]
     pub missing: Vec<f64>,
@@ -32,6 +35,43 @@ pub struct Mapping {
 
 fn comma() -> char {
     ','
+}
+
+/// What separates the whole part of a number from its fraction.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Decimal {
+    /// `12.5`.
+    #[default]
+    Point,
+    /// `12,5`. A point in a number is refused then: `1.234` may be a thousand or one.
+    Comma,
+}
+
+impl Decimal {
+    /// A number of the log; `None` when it is none in this notation.
+    pub(super) fn parse(self, text: &str) -> Option<f64> {
+        match self {
+            Self::Point => text.parse().ok(),
+            Self::Comma if text.contains('.') => None,
+            Self::Comma => text.replacen(',', ".", 1).parse().ok(),
+        }
+    }
+
+    /// What to change in the mapping where `text` is a number in the other notation; empty where it is none.
+    pub(super) fn hint(self, text: &str) -> &'static str {
+        let other = match self {
+            Self::Point => Self::Comma,
+            Self::Comma => Self::Point,
+        };
+        match self {
+            _ if other.parse(text).is_none() => "",
+            Self::Point => "; if its comma is a decimal comma, set `decimal: comma` in the mapping",
+            Self::Comma => {
+                "; the mapping says `decimal: comma`, with which a point may separate thousands: remove it if this is a decimal point"
+            }
+        }
+    }
 }
 
 /// The columns.
@@ -119,7 +159,7 @@ fn one() -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SpeedUnit {
     /// Turns per minute.
-    #[serde(rename = "r/min")]
+    #[serde(rename = "r/min", alias = "rpm")]
     RevolutionsPerMinute,
     /// Radians per second.
     #[serde(rename = "rad/s")]
@@ -154,7 +194,7 @@ pub enum WeightUnit {
     #[serde(rename = "kgf")]
     KilogramForce,
     /// Tonne-force: a thousand kilograms-force.
-    #[serde(rename = "tf")]
+    #[serde(rename = "tf", alias = "t")]
     TonneForce,
     /// Pound-force.
     #[serde(rename = "lbf")]

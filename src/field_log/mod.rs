@@ -20,7 +20,9 @@ mod time_format;
 
 pub use condition::Condition;
 pub use error::FieldLogError;
-pub use mapping::{Columns, Direct, Hookload, Mapping, Quality, RotarySpeedColumn, TimeColumn, WeightOnBitColumn};
+pub use mapping::{
+    Columns, Decimal, Direct, Hookload, Mapping, Quality, RotarySpeedColumn, TimeColumn, WeightOnBitColumn,
+};
 pub use mapping::{SpeedUnit, TorqueColumn, TorqueUnit, WeightUnit};
 pub use range::{Position, Range};
 pub use read::{read, read_range};

@@ -1,5 +1,6 @@
 //! From a file to timed inputs and a report.
 
+use std::io::Read as _;
 use std::path::Path;
 
 use super::hookload::weigh;
@@ -31,10 +32,7 @@ pub fn read_range(
 ) -> Result<(InputSequence, Report), FieldLogError> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    let content = std::fs::read(path).map_err(|reason| FieldLogError::Read {
-        path: path.to_path_buf(),
-        reason: reason.to_string(),
-    })?;
+    let content = content_of(path, &name)?;
     let mut issues = Issues::default();
     let mut table = read_table(&name, &content, mapping, &mut issues)?;
     let tares = clean_and_weigh(&mut table.rows, mapping, &mut issues);
@@ -86,6 +84,30 @@ pub fn read_range(
         }
     }
     Ok((sequence(part, mapping), report))
+}
+
+/// Largest log that is read (bytes): two months at 1 Hz with thirty columns. It is held in memory.
+const LARGEST: u64 = 1 << 30;
+
+/// The bytes of a log.
+fn content_of(path: &Path, name: &str) -> Result<Vec<u8>, FieldLogError> {
+    let failed = |reason: std::io::Error| FieldLogError::Read {
+        path: path.to_path_buf(),
+        reason: reason.to_string(),
+    };
+    let file = std::fs::File::open(path).map_err(failed)?;
+    let bytes = file.metadata().map_err(failed)?.len();
+    if bytes > LARGEST {
+        return Err(FieldLogError::TooLarge {
+            file: name.to_owned(),
+            bytes,
+            most: LARGEST,
+        });
+    }
+    let mut content = Vec::new();
+    // A file that grows while it is read ends at the same bound.
+    file.take(LARGEST).read_to_end(&mut content).map_err(failed)?;
+    Ok(content)
 }
 
 /// What reports are made from.

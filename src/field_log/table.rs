@@ -55,27 +55,55 @@ pub(super) fn read_table(
     mapping: &Mapping,
     issues: &mut Issues,
 ) -> Result<Table, FieldLogError> {
+    if let Some(encoding) = foreign_encoding(content) {
+        return Err(FieldLogError::Encoding {
+            file: file.to_owned(),
+            encoding,
+        });
+    }
     let mut reader = LineReader::new(mapping);
     let mut lines = lines(content);
-    let header = lines
-        .next()
-        .map_or_else(csv::ByteRecord::new, |(_, line)| reader.read(line));
+    let first = lines.next().map_or(&b""[..], |(_, line)| line);
+    if first.len() > LONGEST_LINE {
+        return Err(FieldLogError::LongHeader {
+            file: file.to_owned(),
+            bytes: first.len(),
+            most: LONGEST_LINE,
+        });
+    }
+    let header = reader.read(first);
     let places = Places::find(file, &header, mapping)?;
     let time_column = &mapping.columns.time;
     let mut readable: Vec<(Timed, &[u8])> = Vec::new();
     let mut written = Vec::new();
+    // The first time that could not be read, for the error if none could.
+    let mut unreadable = String::new();
     for (number, line) in lines {
         written.push(number);
-        let record = reader.read(line);
-        if record.len() != places.width {
-            let found = format!("{} fields instead of {}", record.len(), places.width);
+        if line.len() > LONGEST_LINE {
+            let found = format!("{} bytes, at most {LONGEST_LINE} are read", line.len());
             issues.add(IssueKind::Unreadable, "", number, || found);
             continue;
         }
-        let Some(time) = text(&record, places.time).and_then(|text| time_column.format.parse(text)) else {
-            issues.add(IssueKind::Unreadable, &time_column.column, number, || {
-                format!("{:?} is not a time", text(&record, places.time).unwrap_or("not text"))
-            });
+        let record = reader.read(line);
+        if record.len() != places.width {
+            let found = format!(
+                "{} fields instead of {}{}",
+                record.len(),
+                places.width,
+                too_many(&record, places.width, mapping)
+            );
+            issues.add(IssueKind::Unreadable, "", number, || found);
+            continue;
+        }
+        let parsed = text(&record, places.time).and_then(|text| time_column.format.parse(text, mapping.decimal));
+        let Some(time) = parsed else {
+            let found = text(&record, places.time).unwrap_or("not text");
+            let wrong = format!("{} is not a time{}", quoted(found), mapping.decimal.hint(found));
+            if unreadable.is_empty() {
+                unreadable = format!("; row {number}: {wrong}");
+            }
+            issues.add(IssueKind::Unreadable, &time_column.column, number, || wrong);
             continue;
         };
         readable.push((Timed { number, time }, line));
@@ -100,9 +128,54 @@ pub(super) fn read_table(
             file: file.to_string(),
             column: time_column.column.clone(),
             format: time_column.format.name(),
+            hint: unreadable,
         });
     }
     Ok(Table { rows, parts, written })
+}
+
+/// Longest line that is read (bytes): a thousand columns of a thousand characters. What reads a line needs 18 times its
+/// length.
+const LONGEST_LINE: usize = 1 << 20;
+
+/// The encoding of a text that is not UTF-8 and not read, by its byte order mark, or by the zero bytes that it has beside
+/// the letters of a header.
+fn foreign_encoding(content: &[u8]) -> Option<&'static str> {
+    match content {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("UTF-32"),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("UTF-16"),
+        [first, 0, second, 0, ..] if *first > 0 && *second > 0 => Some("UTF-16LE"),
+        [0, first, 0, second, ..] if *first > 0 && *second > 0 => Some("UTF-16BE"),
+        _ => None,
+    }
+}
+
+/// What may have made too many fields of a row: decimal commas between commas.
+fn too_many(record: &csv::ByteRecord, width: usize, mapping: &Mapping) -> &'static str {
+    let whole = |field: &[u8]| {
+        let digits = field.strip_prefix(b"-").unwrap_or(field);
+        digits.iter().all(u8::is_ascii_digit)
+    };
+    if mapping.separator == ',' && record.len() > width && record.iter().all(whole) {
+        "; decimal commas cannot be told from separators: export the log with `;` between fields, and set `separator: \";\"` \
+         and `decimal: comma` in the mapping"
+    } else {
+        ""
+    }
+}
+
+/// The separator that a header seems to have, where it is not that of the mapping.
+fn other_separator(header: &csv::ByteRecord, mapping: &Mapping) -> String {
+    let Some(only) = header.get(0).filter(|_| header.len() == 1) else {
+        return String::new();
+    };
+    let found = [';', '\t', ',', '|'].into_iter().find(|separator| {
+        *separator != mapping.separator && only.contains(&u8::try_from(*separator).unwrap_or_default())
+    });
+    found.map_or_else(String::new, |separator| {
+        let written = separator.escape_default();
+        format!("; its fields seem to be separated otherwise: set `separator: \"{written}\"` in the mapping")
+    })
 }
 
 /// Lines with anything in them, as an editor numbers them; they end with CR, LF or both.
@@ -181,6 +254,33 @@ const LINE: usize = 1024;
 /// Room for its fields at first.
 const FIELDS: usize = 64;
 
+/// Longest text of a field that is shown (characters).
+const SHOWN: usize = 60;
+
+/// A field for a message, without what is beyond [`SHOWN`].
+fn quoted(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{:?}...", &text[..end]),
+        None => format!("{text:?}"),
+    }
+}
+
+/// Longest list of column names in an error (characters).
+const NAMES: usize = 2000;
+
+/// The names of a header, for an error.
+fn names(header: &csv::ByteRecord) -> String {
+    let all = header
+        .iter()
+        .map(String::from_utf8_lossy)
+        .collect::<Vec<_>>()
+        .join(", ");
+    match all.char_indices().nth(NAMES) {
+        Some((end, _)) => format!("{} ... ({} columns)", &all[..end], header.len()),
+        None => all,
+    }
+}
+
 fn text(record: &csv::ByteRecord, place: usize) -> Option<&str> {
     record.get(place).and_then(|bytes| std::str::from_utf8(bytes).ok())
 }
@@ -188,19 +288,27 @@ fn text(record: &csv::ByteRecord, place: usize) -> Option<&str> {
 impl Places {
     fn find(file: &str, header: &csv::ByteRecord, mapping: &Mapping) -> Result<Self, FieldLogError> {
         let find = |column: &str, key: &str| {
-            header
-                .iter()
-                .position(|name| name == column.as_bytes())
-                .ok_or_else(|| FieldLogError::MissingColumn {
+            let named = header.iter().enumerate();
+            let mut places = named
+                .filter(|(_, name)| *name == column.as_bytes())
+                .map(|(place, _)| place);
+            match (places.next(), places.next()) {
+                (Some(place), None) => Ok(place),
+                (Some(first), Some(second)) => Err(FieldLogError::DuplicateColumn {
                     file: file.to_string(),
                     column: column.to_string(),
                     key: key.to_string(),
-                    found: header
-                        .iter()
-                        .map(String::from_utf8_lossy)
-                        .collect::<Vec<_>>()
-                        .join(", "),
-                })
+                    first: first + 1,
+                    second: second + 1,
+                }),
+                (None, _) => Err(FieldLogError::MissingColumn {
+                    file: file.to_string(),
+                    column: column.to_string(),
+                    key: key.to_string(),
+                    found: names(header),
+                    hint: other_separator(header, mapping),
+                }),
+            }
         };
         let columns = &mapping.columns;
         let (weight, drilling, off_bottom) = match &columns.weight_on_bit {
@@ -238,21 +346,21 @@ impl Places {
                 issues.add(IssueKind::Missing, column, number, || "empty".to_string());
                 return None;
             }
-            match text.parse::<f64>() {
-                Ok(value) if mapping.missing.contains(&value) => {
+            match mapping.decimal.parse(text) {
+                Some(value) if mapping.missing.contains(&value) => {
                     issues.add(IssueKind::Missing, column, number, || text.to_string());
                     None
                 }
-                Ok(value) if value.abs() <= LARGEST => Some(value),
-                Ok(value) if value.is_finite() => {
+                Some(value) if value.abs() <= LARGEST => Some(value),
+                Some(value) if value.is_finite() => {
                     issues.add(IssueKind::Unreadable, column, number, || {
-                        format!("{text:?} is beyond {LARGEST:e}, which no sensor measures")
+                        format!("{} is beyond {LARGEST:e}, which no sensor measures", quoted(text))
                     });
                     None
                 }
                 _ => {
                     issues.add(IssueKind::Unreadable, column, number, || {
-                        format!("{text:?} is not a number")
+                        format!("{} is not a number{}", quoted(text), mapping.decimal.hint(text))
                     });
                     None
                 }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Decimal;
+
 /// How a log writes time. Only differences matter.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -34,12 +36,16 @@ impl TimeFormat {
     }
 
     /// Seconds, from some epoch; `None` when the text is not of this format.
-    pub fn parse(self, text: &str) -> Option<f64> {
+    pub fn parse(self, text: &str, decimal: Decimal) -> Option<f64> {
+        let clock = || match decimal {
+            Decimal::Point => text.to_owned(),
+            Decimal::Comma => text.replacen(',', ".", 1),
+        };
         let seconds = match self {
-            Self::Seconds => text.parse::<f64>().ok()?,
-            Self::Milliseconds => text.parse::<f64>().ok()? * 1e-3,
-            Self::Iso8601 => iso8601(text)?,
-            Self::TimeOfDay => time_of_day(text)?,
+            Self::Seconds => decimal.parse(text)?,
+            Self::Milliseconds => decimal.parse(text)? * 1e-3,
+            Self::Iso8601 => iso8601(&clock())?,
+            Self::TimeOfDay => time_of_day(&clock())?,
         };
         (seconds.abs() <= LATEST).then_some(seconds)
     }
@@ -125,7 +131,7 @@ mod tests {
 
     #[test]
     fn known_instants() {
-        let parse = |text| TimeFormat::Iso8601.parse(text);
+        let parse = |text| TimeFormat::Iso8601.parse(text, Decimal::Point);
         assert_eq!(parse("1970-01-01T00:00:00Z"), Some(0.0));
         assert_eq!(parse("2000-02-29 12:00:00.5"), Some(951_825_600.5));
         assert_eq!(parse("2024-12-31T23:59:59+01:00"), Some(1_735_685_999.0));
@@ -143,15 +149,30 @@ mod tests {
             "2024-01-01Tx",
             "2024-01-01T00:00:00+é1",
         ] {
-            assert_eq!(TimeFormat::Iso8601.parse(text), None, "{text}");
+            assert_eq!(TimeFormat::Iso8601.parse(text, Decimal::Point), None, "{text}");
         }
         for text in ["24:00:00", "12", "12:61", "12:30:0x", "-1", "86401", "nan", "12:30:00Z"] {
-            let parsed = TimeFormat::TimeOfDay.parse(text);
+            let parsed = TimeFormat::TimeOfDay.parse(text, Decimal::Point);
             assert_eq!(parsed, (text == "12").then_some(12.0), "{text}");
         }
-        assert_eq!(TimeFormat::TimeOfDay.parse("23:59:58.5"), Some(DAY - 1.5));
-        assert_eq!(TimeFormat::TimeOfDay.parse("86399.25"), Some(DAY - 0.75));
-        assert_eq!(TimeFormat::Seconds.parse("nan"), None);
-        assert_eq!(TimeFormat::Milliseconds.parse("1500"), Some(1.5));
+        let point = Decimal::Point;
+        assert_eq!(TimeFormat::TimeOfDay.parse("23:59:58.5", point), Some(DAY - 1.5));
+        assert_eq!(TimeFormat::TimeOfDay.parse("86399.25", point), Some(DAY - 0.75));
+        assert_eq!(TimeFormat::Seconds.parse("nan", point), None);
+        assert_eq!(TimeFormat::Milliseconds.parse("1500", point), Some(1.5));
+    }
+
+    #[test]
+    fn decimal_commas_are_read_only_where_the_mapping_says_so() {
+        for (format, text, seconds) in [
+            (TimeFormat::Seconds, "0,5", 0.5),
+            (TimeFormat::TimeOfDay, "23:59:58,5", DAY - 1.5),
+            (TimeFormat::Iso8601, "1970-01-01T00:00:01,25Z", 1.25),
+        ] {
+            assert_eq!(format.parse(text, Decimal::Comma), Some(seconds), "{text}");
+            assert_eq!(format.parse(text, Decimal::Point), None, "{text}");
+        }
+        // A point may stand between thousands then.
+        assert_eq!(TimeFormat::Seconds.parse("1.234", Decimal::Comma), None);
     }
 }
