@@ -15,7 +15,9 @@ use flexdrill::bag::{self, Recorder, Topic};
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::std_msgs::{Float64, Header};
 use flexdrill::messages::topics::{self, TopicInfo};
-use flexdrill::messages::{AlarmEvent, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus, to_cdr};
+use flexdrill::messages::{
+    AlarmEvent, AppliedInputs, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus, to_cdr,
+};
 
 /// An instant of the rig's clock (ns): 2023-11-14 22:13:20 UTC.
 const START: i64 = 1_700_000_000_000_000_000;
@@ -240,11 +242,69 @@ fn alarms_and_health_are_told_and_texts_of_others_stay_text() {
     assert!(page.contains("HIGH") && page.contains("once, 7.0 s in all"), "{page}");
     assert!(page.contains("pipe, 2.50 m") && page.contains("Lower the speed."));
     assert!(page.contains("Inspect the joints."), "what the engineer can do");
-    assert!(page.contains("good 75 %, degraded 25 %") && page.contains("steps too long"));
+    // Good from 0 to 15 s, degraded from there to the last message at 19.8 s.
+    assert!(page.contains("good 75.8 %, degraded 24.2 %") && page.contains("steps too long"));
     assert!(page.contains("0.250 to 1") && page.contains("recording 17"));
     assert!(said.contains("1 messages of twin/bit_state cannot be read"), "{said}");
     for missing in ["twin/contact_forces", "twin/joint_deflections", "twin/session"] {
         assert!(said.contains(&format!("The bag has no {missing}")), "{missing}: {said}");
+    }
+}
+
+/// The same weight on three ways, each with messages of its own rhythm, has one mean: samples once per second, what the
+/// model is asked for on change and every second, the bit at 50 Hz. It rises from 0 to 10 kN within a second, from 5 s on.
+#[test]
+fn means_are_over_time_in_one_window() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.mcap");
+    let (received, asked, bit) = (&topics::WEIGHT_ON_BIT_KN, &topics::APPLIED_INPUTS, &topics::BIT_STATE);
+    let mut bag = Bag::new(&path, &[("/", received), ("/", asked), ("/", bit)]);
+    let weight = |time: f64| 10.0 * (time - 5.0).clamp(0.0, 1.0);
+    for hundredth in 0..=4000_u32 {
+        let time = 0.01 * f64::from(hundredth);
+        let ramp = (5.0..=6.0).contains(&time);
+        if ramp || hundredth % 100 == 0 {
+            let message = AppliedInputs {
+                header: header(time),
+                weight_on_bit: 1e3 * weight(time),
+                ..AppliedInputs::default()
+            };
+            bag.put("/twin/applied_inputs", time, &to_cdr(&message).unwrap());
+        }
+        // The rig begins later and ends earlier.
+        if hundredth % 100 == 0 && (200..=2000).contains(&hundredth) {
+            let message = Float64 { data: weight(time) };
+            bag.put("/rig/weight_on_bit_kn", time, &to_cdr(&message).unwrap());
+        }
+        if hundredth % 2 == 0 {
+            let message = BitState {
+                header: header(time),
+                weight_on_bit: 1e3 * weight(time),
+                ..BitState::default()
+            };
+            bag.put("/twin/bit_state", time, &to_cdr(&message).unwrap());
+        }
+    }
+    bag.recorder.finish().unwrap();
+    let (page, _) = report(&path, &[]);
+    assert!(page.contains("Means are over time, from 2 to 20 s"), "{page}");
+    let mean = |what: &str| -> f64 {
+        let row = page.split(&format!("<td>weight on bit, {what}</td>")).nth(1).unwrap();
+        let cell = row.split("<td class=\"n\">").nth(2).unwrap();
+        cell.split('<').next().unwrap().parse().unwrap()
+    };
+    // 0 to 5 s, half of 10 kN to 6 s, 10 kN to 20 s. Samples of 1 Hz know of the ramp at its end only.
+    let exact = (0.5 * 10.0 + 14.0 * 10.0) / 18.0;
+    for (what, off) in [
+        ("received", 5.0 / 18.0),
+        ("asked of the model", 0.02),
+        ("at the bit", 0.02),
+    ] {
+        assert!(
+            (mean(what) - exact).abs() <= off + 0.005,
+            "{what}: {} instead of {exact}",
+            mean(what)
+        );
     }
 }
 
@@ -442,4 +502,45 @@ fn interop_the_python_example_reads_and_draws_a_recording() {
     assert!(newtons > 10.0, "{said}");
     let tile = format!("<b>{:.3} kN</b>largest force, pipe on guide", newtons / 1e3);
     assert!(newtons >= 1000.0 || page.contains(&tile), "{tile}");
+}
+
+/// A recording with the default's rates has too few positions to count turns in: the example says so and prints the rest.
+#[test]
+fn interop_the_example_that_counts_turns_reads_a_recording_of_any_rate() {
+    let Some(python) = common::python::with("mcap_ros2, numpy, ruamel.yaml") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let run = replayed(folder.path());
+    let file = std::fs::read_dir(&run)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .find(|path| path.extension().is_some_and(|extension| extension == "mcap"))
+        .unwrap();
+    let read = |path: &Path| {
+        let mut command = Command::new(&python);
+        let script = common::root().join("docs/examples/count_turns.py");
+        let output = command.arg(script).args(["read", text(path)]).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+        assert!(!said.contains("Traceback"), "{said}");
+        (output.status.success(), said)
+    };
+    let (done, said) = read(&file);
+    assert!(done, "{said}");
+    assert!(
+        said.contains("bit speed ripple") && said.contains("largest pipe-guide force"),
+        "{said}"
+    );
+    assert!(
+        said.contains("turns are not counted: twin/tool_shape comes every 0.10 s"),
+        "{said}"
+    );
+    assert!(said.contains("record with outputs.rates.tool_shape: 50"), "{said}");
+    // Of a bag without the twin, what is missing is named.
+    let path = folder.path().join("rig.mcap");
+    let mut bag = Bag::new(&path, &[("/", &topics::ROTARY_SPEED_RPM)]);
+    bag.put("/rig/rotary_speed_rpm", 0.0, &to_cdr(&Float64 { data: 40.0 }).unwrap());
+    bag.recorder.finish().unwrap();
+    let (done, said) = read(&path);
+    assert!(!done && said.contains("0 messages of twin/tool_shape"), "{said}");
 }

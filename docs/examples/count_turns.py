@@ -1,12 +1,13 @@
 """Counts the turns of the pipe in the guide from raw positions, without the whirl analysis.
 
-    pip install mcap==1.6.0 mcap-ros2-support==0.6.0 numpy pyyaml
+    pip install mcap==1.6.0 mcap-ros2-support==0.6.0 numpy ruamel.yaml
     python3 docs/examples/count_turns.py read RECORDING.mcap...
     python3 docs/examples/count_turns.py run config/default.yaml --set tool.joint.limit_deg=8 --runs 3
 
 `run` makes the recordings by `flexdrill replay` at constant inputs, each with 1 N more for a tenth of a second than the
-one before, so that their differences show the scatter. A recording needs /twin/tool_shape at 20 Hz or more, which
-`run` sees to. What is printed is taken from the last three quarters, as in `flexdrill bench`.
+one before, so that their differences show the scatter. To count turns, a recording needs twin/tool_shape at 20 Hz or
+more, which `run` sees to. Of others, such as those of the default configuration (10 Hz), `read` prints the rest. Figures
+are of the last three quarters, as in `flexdrill bench`.
 """
 
 import argparse
@@ -16,12 +17,15 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import yaml
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
+from ruamel.yaml import YAML
 
+read_yaml = YAML(typ="safe", pure=True).load
 RPM = 2 * np.pi / 60
 SHAPE_RATE = 50  # Hz, 75 positions per turn at 40 r/min
+# s between positions, of 20 Hz: at 120 r/min an orbit of four turns per turn moves by 2.5 rad from one to the next.
+LONGEST_INTERVAL = 0.051
 TOPICS = {"shape": "twin/tool_shape", "contact": "twin/contact_forces", "joint": "twin/joint_deflections",
           "bit": "twin/bit_state", "session": "twin/session"}
 
@@ -35,6 +39,10 @@ def read(bag):
             for name, topic in TOPICS.items():
                 if channel.topic.endswith(topic):
                     found[name].append((1e-9 * record.log_time, message))
+    for name, messages in found.items():
+        if len(messages) < (1 if name == "session" else 2):
+            raise SystemExit(f"{bag}: {len(messages)} messages of {TOPICS[name]}, which is needed; is it a recording by "
+                             "flexdrill run or replay, with all outputs.rates above 0?")
     start, end = found["bit"][0][0], found["bit"][-1][0]
     late = {name: [pair for pair in pairs if pair[0] >= start + (end - start) / 4] for name, pairs in found.items()}
     times = {name: np.array([time for time, _ in pairs]) for name, pairs in late.items()}
@@ -69,9 +77,10 @@ def turns(path):
 def measure(bag):
     """What is counted in one recording."""
     configuration, times, messages = read(bag)
-    configuration = yaml.safe_load(configuration)
+    configuration = read_yaml(configuration)
     tool = configuration["tool"]
-    assert np.median(np.diff(times["shape"])) < 0.051, "too few positions: set outputs.rates.tool_shape to 50"
+    interval = float(np.median(np.diff(times["shape"])))
+    counted = interval < LONGEST_INTERVAL
     pipe, guide = lateral(configuration["outputs"]["exaggeration"], messages)
     joints = np.arange(1, tool["links"]) * tool["elements_per_link"]
     path = (pipe - guide)[:, joints]
@@ -89,14 +98,15 @@ def measure(bag):
     axial = np.array([m.axial_force for m in messages["joint"]])
     return {
         "inclination_deg": np.degrees(np.array(messages["contact"][0].inclination)[joints]),
-        "about_centre": turns(path) / tool_turns,
-        "about_mean": turns(path - path.mean(0)) / tool_turns,
+        "interval": interval,
+        "about_centre": turns(path) / tool_turns if counted else None,
+        "about_mean": turns(path - path.mean(0)) / tool_turns if counted else None,
         "ripple_rms_rpm": bit.std() / RPM,
         "ripple_half_range_rpm": np.ptp(bit) / 2 / RPM,
         "joints_at_limit": np.mean([m.joints_at_limit for m in messages["joint"]]),
         "axial_force": axial.mean(0),
         "pushed": (axial[:, -1] < 0).mean(),
-        "tilt_rate": (np.sqrt((tilt_rate ** 2).mean()), tilt_rate.max()),
+        "tilt_rate": (np.sqrt((tilt_rate ** 2).mean()), tilt_rate.max()) if counted else None,
         "wall_force": np.mean([m.guide_wall_normal for m in messages["contact"]], axis=0),
         "peak_force": np.max([max(m.pipe_guide_normal_peak) for m in messages["contact"]]),
         "shortening_mm": 1e3 * np.array([shortening.mean(), shortening.min(), shortening.max()]),
@@ -104,18 +114,24 @@ def measure(bag):
 
 
 def show(name, found):
-    middle = slice(len(found["about_centre"]) // 3, -(len(found["about_centre"]) // 3))
+    joints = len(found["inclination_deg"])
+    middle = slice(joints // 3, joints - joints // 3)
     centre, mean = found["about_centre"], found["about_mean"]
     print(f"{name}: bit speed ripple {found['ripple_rms_rpm']:.2f} r/min rms, {found['ripple_half_range_rpm']:.2f} "
-          f"half of the range; {found['joints_at_limit']:.1f} of {len(centre)} joints at the limit")
+          f"half of the range; {found['joints_at_limit']:.1f} of {joints} joints at the limit")
     print(f"  shortening of the tilted links: {found['shortening_mm'][0]:.2f} mm, "
           f"{found['shortening_mm'][1]:.2f} to {found['shortening_mm'][2]:.2f}")
     first, last = found["axial_force"][[0, -1]]
     print(f"  mean axial force {first:.0f} N in the first joint, {last:.0f} N in the last, which is pushed in "
-          f"{100 * found['pushed']:.0f} % of the time; largest pipe-guide force {found['peak_force']:.0f} N; "
-          f"tilt of links changes by {found['tilt_rate'][0]:.2f} rad/s rms, {found['tilt_rate'][1]:.1f} at most")
+          f"{100 * found['pushed']:.0f} % of the time; largest pipe-guide force {found['peak_force']:.0f} N")
+    if found["tilt_rate"]:
+        print(f"  tilt of links changes by {found['tilt_rate'][0]:.2f} rad/s rms, {found['tilt_rate'][1]:.1f} at most")
     upper, lower = (half.sum() for half in np.array_split(found["wall_force"], 2))
     print(f"  mean guide-wall force, summed up: {upper:.0f} N in the upper half, {lower:.0f} N in the lower")
+    if centre is None:
+        print(f"  turns are not counted: {TOPICS['shape']} comes every {found['interval']:.2f} s, at most "
+              f"{LONGEST_INTERVAL} s are needed; record with outputs.rates.tool_shape: {SHAPE_RATE}")
+        return
     for what, ratio in (("the gap's centre", centre), ("the orbit's mean", mean)):
         low, median, high = np.percentile(ratio[middle], [10, 50, 90])
         print(f"  turns per turn of the tool about {what}, middle third: median {median:.2f}, "
@@ -125,14 +141,14 @@ def show(name, found):
 def configured(flexdrill, path, changes):
     """The whole configuration with the changes, each KEY=VALUE with the key's dotted path."""
     full = subprocess.run([flexdrill, "check", "--full", path], check=True, capture_output=True, text=True).stdout
-    config = yaml.safe_load(full)
+    config = read_yaml(full)
     for change in [*changes, f"outputs.rates.tool_shape={SHAPE_RATE}", "outputs.exaggeration=1"]:
         keys, value = change.split("=", 1)
         *parents, key = keys.split(".")
         place = config
         for parent in parents:
             place = place[parent]
-        place[key] = yaml.safe_load(value)
+        place[key] = read_yaml(value)
     return config
 
 

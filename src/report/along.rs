@@ -1,11 +1,13 @@
 //! Quantities along the tool: what they came to at each place over the whole recording.
 
+use super::history::HELD;
 use super::is_quantity;
 
 /// One quantity at each place.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Envelope {
     places: Vec<Statistics>,
+    last: Option<f64>,
 }
 
 /// One quantity at one place.
@@ -15,8 +17,12 @@ pub(super) struct Statistics {
     pub max: f64,
     /// When it was largest in size (s from the beginning).
     pub when: f64,
-    sum: f64,
+    /// Of values times the time since the message before (s).
+    area: f64,
     squares: f64,
+    weight: f64,
+    /// Of the first value, which has no time.
+    first: f64,
     count: u64,
 }
 
@@ -24,23 +30,29 @@ const NOTHING: Statistics = Statistics {
     min: f64::INFINITY,
     max: f64::NEG_INFINITY,
     when: 0.0,
-    sum: 0.0,
+    area: 0.0,
     squares: 0.0,
+    weight: 0.0,
+    first: 0.0,
     count: 0,
 };
 
 impl Statistics {
-    fn push(&mut self, time: f64, value: f64) {
+    fn push(&mut self, time: f64, weight: f64, value: f64) {
         if !is_quantity(value) {
             return;
+        }
+        if self.count == 0 {
+            self.first = value;
         }
         if self.count == 0 || value.abs() > self.size() {
             self.when = time;
         }
         self.min = self.min.min(value);
         self.max = self.max.max(value);
-        self.sum += value;
-        self.squares += value * value;
+        self.area += weight * value;
+        self.squares += weight * value * value;
+        self.weight += weight;
         self.count += 1;
     }
 
@@ -49,24 +61,36 @@ impl Statistics {
         self.max.abs().max(self.min.abs())
     }
 
+    /// Over time.
     pub(super) fn mean(&self) -> f64 {
-        self.sum / self.count as f64
+        if self.weight > 0.0 {
+            self.area / self.weight
+        } else {
+            self.first
+        }
     }
 
-    /// Root mean square.
+    /// Root mean square over time.
     pub(super) fn rms(&self) -> f64 {
-        (self.squares / self.count as f64).sqrt()
+        if self.weight > 0.0 {
+            (self.squares / self.weight).sqrt()
+        } else {
+            self.first.abs()
+        }
     }
 }
 
 impl Envelope {
-    /// Takes the values of an instant, one per place. Its caller has seen to it that the places are the same each time.
+    /// Takes the values of an instant, one per place; they count for the time since the message before, which is what a
+    /// root mean square of a message covers. Its caller has seen to it that the places are the same each time.
     pub(super) fn push(&mut self, time: f64, values: impl IntoIterator<Item = f64>) {
+        let weight = self.last.map_or(0.0, |last| (time - last).clamp(0.0, HELD));
+        self.last = Some(time);
         for (index, value) in values.into_iter().enumerate() {
             if index == self.places.len() {
                 self.places.push(NOTHING);
             }
-            self.places[index].push(time, value);
+            self.places[index].push(time, weight, value);
         }
     }
 
@@ -119,8 +143,9 @@ mod tests {
         envelope.push(2.0, [2.0, 1.0, f64::NAN]);
         let second = envelope.at(1).unwrap();
         assert_eq!((second.min, second.max, second.when), (-6.0, 1.0, 1.0));
-        assert!((envelope.at(0).unwrap().mean() - 2.0).abs() < 1e-15);
-        assert!((envelope.at(0).unwrap().rms() - (14.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+        // Each value counts for the second before it; the first has none.
+        assert!((envelope.at(0).unwrap().mean() - 2.5).abs() < 1e-15);
+        assert!((envelope.at(0).unwrap().rms() - (13.0_f64 / 2.0).sqrt()).abs() < 1e-15);
         assert!(envelope.at(2).is_none());
         assert_eq!(envelope.largest(&[0.0, 0.1, 0.2], 0.0, 3), [1, 0]);
         assert_eq!(envelope.largest(&[0.0, 0.1, 0.2], 0.15, 3), [1]);

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::history::History;
+use super::history::{HELD, History};
+use super::shares::Shares;
 use crate::messages::{AppliedInputs, BitState, JointDeflections, RigInputs};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
@@ -27,19 +28,33 @@ pub(super) struct Change {
     pub value: f64,
 }
 
-/// Means while the drive turns.
+/// Means over the time in which the drive turns.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Transfer {
+    /// Integrals over time (N m s).
     top: f64,
     bit: f64,
-    count: u64,
+    /// s.
+    time: f64,
+    /// Time (s) of the last message, and its torques where the drive turned.
+    last: Option<(f64, Option<[f64; 2]>)>,
 }
 
 impl Transfer {
     /// Mean torque at the uppermost joint and of the bit (N m); `None` when the drive never turned.
     pub(super) fn means(&self) -> Option<[f64; 2]> {
-        let count = self.count as f64;
-        (self.count > 0).then(|| [self.top / count, self.bit / count])
+        (self.time > 0.0).then(|| [self.top / self.time, self.bit / self.time])
+    }
+
+    /// Takes the torques of an instant (s), none while the drive stands; they stand until the next.
+    fn push(&mut self, time: f64, torques: Option<[f64; 2]>) {
+        if let Some((before, Some([top, bit]))) = self.last {
+            let held = (time - before).clamp(0.0, HELD);
+            self.top += top * held;
+            self.bit += bit * held;
+            self.time += held;
+        }
+        self.last = Some((time, torques));
     }
 }
 
@@ -58,8 +73,8 @@ pub(super) struct Drive {
     pub stick_slip: History,
     pub lateral_acceleration: History,
     pub transfer: Transfer,
-    /// Messages of applied inputs by the worse state of both inputs.
-    pub input_quality: BTreeMap<u8, u64>,
+    /// The worse state of both inputs.
+    pub input_quality: Shares,
     pub changes: Vec<Change>,
     /// Changes beyond those.
     pub more_changes: u64,
@@ -85,7 +100,7 @@ impl Drive {
     pub(super) fn applied(&mut self, time: f64, message: &AppliedInputs) {
         self.asked.rotary_speed.push(time, message.rotary_speed);
         self.asked.weight_on_bit.push(time, message.weight_on_bit);
-        *self.input_quality.entry(message.input_quality).or_default() += 1;
+        self.input_quality.push(time, message.input_quality);
         self.resets += u64::from(message.reset);
         for (name, value) in message.parameter_name.iter().zip(&message.parameter_value) {
             // Sent again every second: only what differs is a change.
@@ -119,12 +134,19 @@ impl Drive {
             return;
         };
         self.top_torque.push(time, torque);
-        if let Some(bit) = self.newest_bit_torque.filter(|bit| (bit + torque).is_finite())
-            && spin.abs() > STANDS
-        {
-            self.transfer.top += torque;
-            self.transfer.bit += bit;
-            self.transfer.count += 1;
-        }
+        let bit = self.newest_bit_torque.filter(|bit| (bit + torque).is_finite());
+        let torques = bit.filter(|_| spin.abs() > STANDS).map(|bit| [torque, bit]);
+        self.transfer.push(time, torques);
+    }
+
+    /// The time in which all inputs and what reached the bit are known (s), for means that can be compared; `None` where
+    /// there is no such time.
+    pub(super) fn common_window(&self) -> Option<[f64; 2]> {
+        let pairs = [&self.received, &self.asked, &self.bit];
+        let spans = pairs.iter().flat_map(|pair| [&pair.rotary_speed, &pair.weight_on_bit]);
+        let window = spans
+            .filter_map(History::span)
+            .reduce(|[from, to], [begin, end]| [from.max(begin), to.min(end)]);
+        window.filter(|[from, to]| to > from)
     }
 }

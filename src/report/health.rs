@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::history::History;
+use super::shares::Shares;
 use crate::messages::TwinStatus;
 
 /// Most publishers of an input that are named.
@@ -16,16 +17,16 @@ pub(super) struct Health {
     pub lateness: History,
     pub step_time_p99: History,
     pub step_time_max: f64,
-    /// Messages by model quality.
-    pub quality: BTreeMap<u8, u64>,
+    /// Model quality.
+    pub quality: Shares,
     /// The newest cause of a quality that is not good.
     pub quality_cause: String,
-    /// Messages by the state of each input.
-    pub inputs: BTreeMap<String, BTreeMap<u8, u64>>,
+    /// State of each input.
+    pub inputs: BTreeMap<String, Shares>,
     /// Publishers that drove each input.
     pub drivers: BTreeMap<String, BTreeSet<String>>,
-    /// Messages by state of the twin.
-    pub states: BTreeMap<u8, u64>,
+    /// State of the twin.
+    pub states: Shares,
     /// Longest time between two heartbeats (s), and when (s from the beginning).
     pub longest_silence: (f64, f64),
     pub newest: Option<TwinStatus>,
@@ -39,12 +40,12 @@ impl Health {
         self.lateness.push(time, status.lateness);
         self.step_time_p99.push(time, status.step_time_p99);
         self.step_time_max = self.step_time_max.max(status.step_time_max);
-        *self.quality.entry(status.model_quality).or_default() += 1;
+        self.quality.push(time, status.model_quality);
         if status.model_quality != TwinStatus::QUALITY_GOOD {
             self.quality_cause.clone_from(&status.model_quality_cause);
         }
         for (name, state) in status.input_name.iter().zip(&status.input_state) {
-            *self.inputs.entry(name.clone()).or_default().entry(*state).or_default() += 1;
+            self.inputs.entry(name.clone()).or_default().push(time, *state);
         }
         for (name, driver) in status.input_name.iter().zip(&status.input_driver) {
             let drivers = self.drivers.entry(name.clone()).or_default();
@@ -52,7 +53,7 @@ impl Health {
                 drivers.insert(driver.clone());
             }
         }
-        *self.states.entry(status.state).or_default() += 1;
+        self.states.push(time, status.state);
         if let Some(last) = self.last_time.filter(|last| time - last > self.longest_silence.0) {
             self.longest_silence = (time - last, last);
         }

@@ -11,12 +11,19 @@ const GAP: usize = 3;
 /// Time without a value that does not interrupt the line (s): some topics come once per second.
 const GAP_TIME: f64 = 2.5;
 
+/// Longest time for which a value stands where no other follows (s): as for the line.
+pub(super) const HELD: f64 = GAP_TIME;
+
 #[derive(Debug, Clone, Copy)]
 struct Bucket {
     min: f64,
     max: f64,
     sum: f64,
     count: u64,
+    /// Integral over time of the values, each of which stands until the next one (value times s).
+    area: f64,
+    /// Part of the bucket in which a value stood (s).
+    covered: f64,
 }
 
 const EMPTY: Bucket = Bucket {
@@ -24,6 +31,8 @@ const EMPTY: Bucket = Bucket {
     max: f64::NEG_INFINITY,
     sum: 0.0,
     count: 0,
+    area: 0.0,
+    covered: 0.0,
 };
 
 impl Bucket {
@@ -33,6 +42,8 @@ impl Bucket {
             max: self.max.max(other.max),
             sum: self.sum + other.sum,
             count: self.count + other.count,
+            area: self.area + other.area,
+            covered: self.covered + other.covered,
         }
     }
 }
@@ -42,6 +53,8 @@ impl Bucket {
 pub(super) struct History {
     width: f64,
     buckets: Vec<Bucket>,
+    /// Times of the first and the last value (s), and the last value.
+    span: Option<([f64; 2], f64)>,
 }
 
 impl Default for History {
@@ -49,6 +62,7 @@ impl Default for History {
         Self {
             width: FINEST,
             buckets: Vec::new(),
+            span: None,
         }
     }
 }
@@ -57,6 +71,7 @@ impl Default for History {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Range {
     pub min: f64,
+    /// Over time: each value stands until the next one.
     pub mean: f64,
     pub max: f64,
 }
@@ -89,8 +104,51 @@ impl History {
                 max: value,
                 sum: value,
                 count: 1,
+                ..EMPTY
             });
         }
+        let first = match self.span {
+            Some(([first, last], before)) => {
+                self.hold(before, last, time.min(last + HELD));
+                first.min(time)
+            }
+            None => time,
+        };
+        self.span = Some(([first, time], value));
+    }
+
+    /// Adds the time from `from` to `to` (s), in which `value` stood, to the buckets.
+    fn hold(&mut self, value: f64, from: f64, to: f64) {
+        let mut begin = from;
+        let first = (from / self.width) as usize;
+        for (index, bucket) in self.buckets.iter_mut().enumerate().skip(first) {
+            let end = ((index + 1) as f64 * self.width).min(to);
+            if end > begin {
+                bucket.area += value * (end - begin);
+                bucket.covered += end - begin;
+                begin = end;
+            }
+            if begin >= to {
+                break;
+            }
+        }
+    }
+
+    /// Times of the first and the last value (s); `None` without any.
+    pub(super) fn span(&self) -> Option<[f64; 2]> {
+        self.span.map(|(span, _)| span)
+    }
+
+    /// Mean over time from `from` to `to` (s), to the width of a bucket; `None` where no value stood for a time.
+    pub(super) fn mean_between(&self, from: f64, to: f64) -> Option<f64> {
+        let (mut area, mut covered) = (0.0, 0.0);
+        for (index, bucket) in self.buckets.iter().enumerate() {
+            let begin = index as f64 * self.width;
+            let inside = ((begin + self.width).min(to) - begin.max(from)).max(0.0) / self.width;
+            area += bucket.area * inside;
+            covered += bucket.covered * inside;
+        }
+        (covered > 0.0).then(|| area / covered)
     }
 
     fn widen(&mut self) {
@@ -107,7 +165,11 @@ impl History {
         let all = self.buckets.iter().copied().fold(EMPTY, Bucket::join);
         (all.count > 0).then(|| Range {
             min: all.min,
-            mean: all.sum / all.count as f64,
+            mean: if all.covered > 0.0 {
+                all.area / all.covered
+            } else {
+                all.sum / all.count as f64
+            },
             max: all.max,
         })
     }
@@ -156,6 +218,32 @@ mod tests {
         assert_eq!((range.min, range.max), (0.0, 100.0));
         assert!((range.mean - 0.5).abs() < 1e-4, "{}", range.mean);
         assert_eq!(history.stretches(1.0).len(), 1);
+    }
+
+    /// Samples on change and every second, as the applied inputs have: a hundred in one second do not outweigh a minute.
+    #[test]
+    fn a_mean_is_over_time_and_not_over_messages() {
+        let mut history = History::default();
+        for step in 0..100 {
+            history.push(f64::from(step) * 0.01, 8.0);
+        }
+        for second in 1..=60 {
+            history.push(f64::from(second), 2.0);
+        }
+        // 8 for a second, 2 for 59 seconds.
+        assert!((history.range().unwrap().mean - 126.0 / 60.0).abs() < 1e-9);
+        assert_eq!(history.span(), Some([0.0, 60.0]));
+        assert!((history.mean_between(0.0, 2.0).unwrap() - 5.0).abs() < 1e-3);
+        assert!((history.mean_between(10.0, 20.0).unwrap() - 2.0).abs() < 1e-9);
+        assert_eq!(history.mean_between(100.0, 200.0), None);
+        // Nothing is known of a long silence, and a single value has no time.
+        history.push(3600.0, 9.0);
+        let known = 60.0 + HELD;
+        let mean = history.range().unwrap().mean;
+        assert!((mean - (126.0 + 2.0 * HELD) / known).abs() < 1e-9, "{mean}");
+        let mut single = History::default();
+        single.push(1.0, 3.0);
+        assert_eq!(single.range().unwrap().mean, 3.0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //!
 //! # Layout
 //! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]; `roles` says which topic is what.
-//! - What is kept: `history` (over time), `along` (over the tool), `drive` (inputs, bit, torque), `incidents` (alarms),
+//! - What is kept: `history` (over time), `along` (over the tool), `drive` (inputs, bit, torque), `incidents` (alarms), `shares` (of the time),
 //!   `places` (the worst places and their orbits), `health` (pace, model, recording).
 //! - `plots`: the figures. `page`: the HTML, nothing outside of itself.
 
@@ -18,6 +18,7 @@ mod places;
 mod plots;
 mod reading;
 mod roles;
+mod shares;
 
 use std::path::{Path, PathBuf};
 

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::drawn;
+use super::health::shares;
 use super::text::{number, percent};
 use crate::messages::words;
 use crate::report::ReportError;
@@ -11,12 +12,14 @@ use crate::report::plots;
 use crate::report::reading::Summary;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
-fn row(what: &str, unit: &str, history: &History, factor: f64) -> Markup {
+/// `window` (s): the time over which the mean is taken; all of it where there is none.
+fn row(what: &str, unit: &str, history: &History, factor: f64, window: Option<[f64; 2]>) -> Markup {
     html! {
         @if let Some(range) = history.range() {
+            @let mean = window.map_or(Some(range.mean), |[from, to]| history.mean_between(from, to));
             tr {
                 td { (what) }
-                @for value in [range.min, range.mean, range.max] { td.n { (number(factor * value)) } }
+                @for value in [range.min, mean.unwrap_or(f64::NAN), range.max] { td.n { (number(factor * value)) } }
                 td { (unit) }
             }
         }
@@ -32,6 +35,7 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
     let drive = &summary.drive;
     let (rpm, kn) = (rad_per_s_to_rpm(1.0), n_to_kn(1.0));
     let newest = summary.health.newest.as_ref();
+    let window = drive.common_window();
     let figure = drawn(
         plots::inputs(summary),
         "Received: as the rig sent it. Asked of the model: what passed the checks, before the slew limit. Pale: least to \
@@ -43,11 +47,17 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
             table {
                 (head("quantity"))
                 tbody {
-                    (row("rotary speed, received", "r/min", &drive.received.rotary_speed, rpm))
-                    (row("rotary speed, asked of the model", "r/min", &drive.asked.rotary_speed, rpm))
-                    (row("weight on bit, received", "kN", &drive.received.weight_on_bit, kn))
-                    (row("weight on bit, asked of the model", "kN", &drive.asked.weight_on_bit, kn))
-                    (row("weight on bit, at the bit", "kN", &drive.bit.weight_on_bit, kn))
+                    (row("rotary speed, received", "r/min", &drive.received.rotary_speed, rpm, window))
+                    (row("rotary speed, asked of the model", "r/min", &drive.asked.rotary_speed, rpm, window))
+                    (row("weight on bit, received", "kN", &drive.received.weight_on_bit, kn, window))
+                    (row("weight on bit, asked of the model", "kN", &drive.asked.weight_on_bit, kn, window))
+                    (row("weight on bit, at the bit", "kN", &drive.bit.weight_on_bit, kn, window))
+                }
+            }
+            @if let Some([from, to]) = window {
+                p {
+                    "Means are over time, from " (number(from)) " to " (number(to)) " s, in which all of these are known. \
+                     Least and largest are of the whole recording."
                 }
             }
             @if !summary.health.inputs.is_empty() {
@@ -55,14 +65,10 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                     thead { tr { th { "input" } th { "its state, share of the time" } th { "driven by" } th.n { "refused" } } }
                     tbody {
                         @for (name, states) in &summary.health.inputs {
-                            @let all: u64 = states.values().sum();
                             @let index = newest.and_then(|status| status.input_name.iter().position(|known| known == name));
                             tr {
                                 td { code { (name) } }
-                                td { @for (at, (state, count)) in states.iter().enumerate() {
-                                    @if at > 0 { ", " }
-                                    (words::input_state(*state)) " " (percent(*count as f64 / all as f64))
-                                } }
+                                td { (shares(states, words::input_state)) }
                                 td { @for (at, driver) in summary.health.drivers.get(name).into_iter().flatten().enumerate() { @if at > 0 { ", " } (driver) } }
                                 td.n { @if let Some(count) = index.and_then(|index| newest?.input_rejected.get(index)) { (count) } }
                             }
@@ -70,14 +76,8 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                     }
                 }
             } @else if !drive.input_quality.is_empty() {
-                @let all: u64 = drive.input_quality.values().sum();
                 p {
-                    "State of the inputs, the worse of both: "
-                    @for (at, (state, count)) in drive.input_quality.iter().enumerate() {
-                        @if at > 0 { ", " }
-                        (words::input_state(*state)) " " (percent(*count as f64 / all as f64))
-                    }
-                    "."
+                    "State of the inputs, the worse of both: " (shares(&drive.input_quality, words::input_state)) "."
                 }
             }
             (figure)
@@ -107,11 +107,11 @@ pub(super) fn torque(summary: &Summary) -> Result<Markup, ReportError> {
             table {
                 (head("quantity"))
                 tbody {
-                    (row("torque at the uppermost joint", "N m", &drive.top_torque, 1.0))
-                    (row("torque at the bit", "N m", &drive.bit_torque, 1.0))
-                    (row("speed of the bit", "r/min", &drive.bit.rotary_speed, rad_per_s_to_rpm(1.0)))
-                    (row("stick-slip index", "", &drive.stick_slip, 1.0))
-                    (row("largest lateral acceleration above the bit", "m/s²", &drive.lateral_acceleration, 1.0))
+                    (row("torque at the uppermost joint", "N m", &drive.top_torque, 1.0, None))
+                    (row("torque at the bit", "N m", &drive.bit_torque, 1.0, None))
+                    (row("speed of the bit", "r/min", &drive.bit.rotary_speed, rad_per_s_to_rpm(1.0), None))
+                    (row("stick-slip index", "", &drive.stick_slip, 1.0, None))
+                    (row("largest lateral acceleration above the bit", "m/s²", &drive.lateral_acceleration, 1.0, None))
                 }
             }
             (figure)

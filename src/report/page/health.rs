@@ -8,6 +8,7 @@ use crate::messages::{TwinStatus, words};
 use crate::report::ReportError;
 use crate::report::plots;
 use crate::report::reading::Summary;
+use crate::report::shares::Shares;
 
 fn state(code: u8) -> &'static str {
     match code {
@@ -77,13 +78,12 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
     })
 }
 
-/// Codes with their share.
-fn shares(counts: &std::collections::BTreeMap<u8, u64>, word: impl Fn(u8) -> &'static str) -> Markup {
-    let all: u64 = counts.values().sum();
+/// Codes with their shares of the time.
+pub(super) fn shares(shares: &Shares, word: impl Fn(u8) -> &'static str) -> Markup {
     html! {
-        @for (index, (code, count)) in counts.iter().enumerate() {
+        @for (index, (code, share)) in shares.iter().enumerate() {
             @if index > 0 { ", " }
-            (word(*code)) " " (percent(*count as f64 / all as f64))
+            (word(code)) " " (percent(share))
         }
     }
 }

@@ -238,15 +238,14 @@ impl Summary {
 
     /// Share of the status messages that call the model good, and how that is to be shown.
     fn trust(&self) -> Option<(f64, &'static str)> {
-        let count = |code: u8| self.health.quality.get(&code).copied().unwrap_or(0);
-        let all: u64 = self.health.quality.values().sum();
-        let class = if count(TwinStatus::QUALITY_POOR) > 0 {
+        let quality = &self.health.quality;
+        let class = if quality.has(TwinStatus::QUALITY_POOR) {
             "high"
-        } else if count(TwinStatus::QUALITY_DEGRADED) > 0 {
+        } else if quality.has(TwinStatus::QUALITY_DEGRADED) {
             "medium"
         } else {
             "good"
         };
-        (all > 0).then(|| (count(TwinStatus::QUALITY_GOOD) as f64 / all as f64, class))
+        (!quality.is_empty()).then(|| (quality.of(TwinStatus::QUALITY_GOOD), class))
     }
 }
