@@ -41,6 +41,10 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/torque_buckling.yaml"),
     ),
     (
+        "torque_folding",
+        include_str!("../../../config/verify/torque_folding.yaml"),
+    ),
+    (
         "torsion_pendulum",
         include_str!("../../../config/verify/torsion_pendulum.yaml"),
     ),

@@ -4,75 +4,216 @@ use super::bench::Bench;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction};
 
-const CASE: &str = "torque_buckling";
 /// The chain is linear but for the squares of its tilts, 1e-5 where the search ends, and its last extrapolation reaches
 /// over some thousandths of the torque.
 const LIMIT: f64 = 1e-4;
 /// The search ends when this part of the squared torque is left.
 const LEFT: f64 = 2e-3;
-/// Part of the way to the extrapolated squared torque that a step goes. At first the extrapolation lies beyond, with
-/// this load at 1.73 times the square at most (crosses in phase), for it sees the next mode too.
-const PART: f64 = 0.4;
+/// Part of the way to the extrapolated squared torque that a step goes, and the part by which the square grows at most.
+/// The extrapolation lies beyond at first, for it sees higher modes too: of eight links at three times the square. With
+/// both parts no step goes beyond, which the same search over the equations in `docs/mechanics.md` shows.
+const PART: f64 = 0.25;
+const GROWTH: f64 = 0.1;
+/// Pull in the chains (N), as in their configurations.
+const PULL: f64 = 1000.0;
+/// First torque of a search, over pull times length of a link: all chains buckle above 0.5.
+const FIRST: f64 = 0.2;
 
-/// Deflection (m) of the first joint at rest under `torque` (N m), with crosses turned by `phase_step` (degrees).
-fn deflection(kind: &str, phase_step: f64, torque: f64) -> Result<f64, VerifyError> {
-    let bench = Bench::with(CASE, |config| {
-        config
-            .with_value("tool.joint.kind", kind)?
-            .with_value("tool.joint.cross_phase_step_deg", phase_step)?
-            .with_value("loads.0.history.constant", torque)
-    })?;
-    let joint = bench.simulation.joint_stations()[0];
-    Ok(bench.displacement(joint, Body::Pipe, Direction::W))
+/// A chain of links that hangs under [`PULL`], pinned at both ends.
+#[derive(Debug, Clone, Copy)]
+struct Chain {
+    case: &'static str,
+    links: u32,
+    joints: &'static str,
+    /// From cross to cross (degrees).
+    phase_step: f64,
 }
 
-/// The torque (N m) at which the chain's lateral stiffness vanishes. It is even in the torque, and nearly linear in its
-/// square: extrapolated so from two torques, and approached from below.
-fn buckling_torque(kind: &str, phase_step: f64) -> Result<f64, VerifyError> {
-    let stiffness = |square: f64| deflection(kind, phase_step, square.sqrt()).map(|deflection| 1.0 / deflection);
-    let mut before = (0.0, stiffness(0.0)?);
-    // Far below all that is looked for.
-    let mut square = 100.0_f64.powi(2);
-    for _ in 0..50 {
-        let now = (square, stiffness(square)?);
-        let vanishes = now.0 + now.1 * (now.0 - before.0) / (before.1 - now.1);
-        if vanishes - square < LEFT * vanishes {
-            return Ok(vanishes.sqrt());
-        }
-        square += PART * (vanishes - square);
-        before = now;
+impl Chain {
+    fn bench(&self, torque: f64) -> Result<Bench, VerifyError> {
+        Bench::with(self.case, |config| {
+            config
+                .with_value("tool.links", self.links)?
+                .with_value("tool.joint.kind", self.joints)?
+                .with_value("tool.joint.cross_phase_step_deg", self.phase_step)?
+                .with_value("loads.0.history.constant", torque)
+        })
     }
-    Err(VerifyError::Missing {
-        case: CASE,
-        what: "buckling",
-    })
+
+    /// Deflection (m) of the first joint at rest under `torque` (N m).
+    fn deflection(&self, torque: f64) -> Result<f64, VerifyError> {
+        let bench = self.bench(torque)?;
+        let joint = bench.simulation.joint_stations()[0];
+        Ok(bench.displacement(joint, Body::Pipe, Direction::W))
+    }
+
+    /// Pull times length of a link (N m).
+    fn unit(&self) -> Result<f64, VerifyError> {
+        let config = self.bench(0.0)?.config;
+        Ok(PULL * config.well.length() / f64::from(self.links))
+    }
+
+    /// The torque (N m) at which the chain's lateral stiffness vanishes. It is even in the torque, and nearly linear in
+    /// its square: extrapolated so from two torques, and approached from below.
+    fn buckling_torque(&self) -> Result<f64, VerifyError> {
+        let stiffness = |square: f64| self.deflection(square.sqrt()).map(|deflection| 1.0 / deflection);
+        let mut before = (0.0, stiffness(0.0)?);
+        let mut square = (FIRST * self.unit()?).powi(2);
+        for _ in 0..100 {
+            let now = (square, stiffness(square)?);
+            let vanishes = now.0 + now.1 * (now.0 - before.0) / (before.1 - now.1);
+            if vanishes - square < LEFT * vanishes {
+                return Ok(vanishes.sqrt());
+            }
+            square += (PART * (vanishes - square)).min(GROWTH * square);
+            before = now;
+        }
+        Err(VerifyError::Missing {
+            case: self.case,
+            what: "buckling",
+        })
+    }
+
+    fn row(&self, quantity: &str, factor: f64) -> Result<Row, VerifyError> {
+        let expected = factor * self.unit()?;
+        Ok(Row::relative(
+            self.case,
+            quantity,
+            expected,
+            self.buckling_torque()?,
+            LIMIT,
+        ))
+    }
 }
 
+/// Three links, by kind of joint.
 pub(super) fn torque() -> Result<Vec<Row>, VerifyError> {
-    let bench = Bench::new(CASE)?;
-    let tool = bench.config.tool();
-    let length = bench.config.well.length() / tool.links as f64;
-    let unit = 1000.0 * length;
     let root = 3.0_f64.sqrt();
-    let rows = [
-        ("ball_cage", 90.0, "ball cage, sqrt(3) N L (N m)", root),
-        (
-            "universal",
-            90.0,
-            "crosses at 90 deg, 2 sqrt(3) N L / 5 (N m)",
-            0.4 * root,
-        ),
-        (
-            "universal",
-            0.0,
+    let chain = |joints, phase_step| Chain {
+        case: "torque_buckling",
+        links: 3,
+        joints,
+        phase_step,
+    };
+    Ok(vec![
+        chain("ball_cage", 90.0).row("ball cage, sqrt(3) N L (N m)", root)?,
+        chain("universal", 90.0).row("crosses at 90 deg, 2 sqrt(3) N L / 5 (N m)", 0.4 * root)?,
+        chain("universal", 0.0).row(
             "crosses in phase, (8 sqrt(3) - 6) N L / 13 (N m)",
             (8.0 * root - 6.0) / 13.0,
-        ),
-    ];
-    rows.into_iter()
-        .map(|(kind, phase_step, quantity, factor)| {
-            let got = buckling_torque(kind, phase_step)?;
-            Ok(Row::relative(CASE, quantity, factor * unit, got, LIMIT))
+        )?,
+    ])
+}
+
+/// Longer chains of universal joints.
+pub(super) fn folding() -> Result<Vec<Row>, VerifyError> {
+    let chain = |links, phase_step| Chain {
+        case: "torque_folding",
+        links,
+        joints: "universal",
+        phase_step,
+    };
+    Ok(vec![
+        chain(4, 90.0).row("4 links, crosses at 90 deg, 0.6037 N L (N m)", folding_factor(4, 90.0))?,
+        chain(4, 0.0).row(
+            "4 links, in phase, 4 / (1 + sqrt(39)) N L (N m)",
+            4.0 / (1.0 + 39.0_f64.sqrt()),
+        )?,
+        chain(8, 90.0).row("8 links, crosses at 90 deg, 0.5301 N L (N m)", folding_factor(8, 90.0))?,
+    ])
+}
+
+/// Iterations for the largest eigenvalue: its error falls by (3.56 / 3.89)^2 in each, with eight links.
+const POWERS: u32 = 400;
+
+/// Torque at which `links` links with universal joints, each turned against the one before by `phase_step` (degrees),
+/// fold, over pull times length: the inverse of the largest eigenvalue of the symmetric map from slopes to slopes in
+/// `docs/mechanics.md`, found by powers of the map plus 2, which leaves no eigenvalue negative.
+fn folding_factor(links: usize, phase_step: f64) -> f64 {
+    // Slopes that no symmetry excludes, whose sum is 0.
+    let mut slopes: Vec<[f64; 2]> = (0..links).map(|k| [(k as f64).cos(), (2.0 * k as f64).sin()]).collect();
+    let mut largest = 0.0;
+    for _ in 0..POWERS {
+        without_mean(&mut slopes);
+        let size: f64 = slopes.iter().flatten().map(|s| s * s).sum::<f64>().sqrt();
+        slopes.iter_mut().flatten().for_each(|s| *s /= size);
+        let mut mapped = balance(&slopes, phase_step);
+        without_mean(&mut mapped);
+        largest = slopes
+            .iter()
+            .flatten()
+            .zip(mapped.iter().flatten())
+            .map(|(a, b)| a * b)
+            .sum();
+        for (slope, image) in slopes.iter_mut().zip(mapped) {
+            *slope = [image[0] + 2.0 * slope[0], image[1] + 2.0 * slope[1]];
+        }
+    }
+    1.0 / largest
+}
+
+/// -i (m_k - m_(k-1)) / T of each link, of the moments m across the chain at both ends of the link.
+fn balance(slopes: &[[f64; 2]], phase_step: f64) -> Vec<[f64; 2]> {
+    let moment = |joint: usize| match (joint.checked_sub(1), slopes.get(joint)) {
+        (Some(above), Some(&[x_b, y_b])) => {
+            let [x_a, y_a] = slopes[above];
+            let (sin, cos) = (2.0 * above as f64 * phase_step.to_radians()).sin_cos();
+            let (x, y) = (x_a - x_b, y_a - y_b);
+            [
+                0.5 * (x_a + x_b + cos * x + sin * y),
+                0.5 * (y_a + y_b + sin * x - cos * y),
+            ]
+        }
+        (None, Some(&[x, y])) => [0.5 * x, 0.5 * y],
+        _ => slopes.last().map_or([0.0; 2], |[x, y]| [0.5 * x, 0.5 * y]),
+    };
+    (0..slopes.len())
+        .map(|link| {
+            let ([x_above, y_above], [x_below, y_below]) = (moment(link), moment(link + 1));
+            [y_below - y_above, x_above - x_below]
         })
         .collect()
+}
+
+fn without_mean(slopes: &mut [[f64; 2]]) {
+    let count = slopes.len() as f64;
+    for axis in 0..2 {
+        let mean = slopes.iter().map(|slope| slope[axis]).sum::<f64>() / count;
+        slopes.iter_mut().for_each(|slope| slope[axis] -= mean);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::folding_factor;
+
+    /// Against the chains that are solved by hand in `docs/mechanics.md`.
+    #[test]
+    fn short_chains_fold_at_their_closed_forms() {
+        let root = 3.0_f64.sqrt();
+        for (links, phase_step, exact) in [
+            (2, 90.0, 1.0),
+            (2, 0.0, 1.0),
+            (3, 90.0, 0.4 * root),
+            (3, 0.0, (8.0 * root - 6.0) / 13.0),
+            (4, 0.0, 4.0 / (1.0 + 39.0_f64.sqrt())),
+        ] {
+            let got = folding_factor(links, phase_step);
+            // The powers converge to rounding.
+            assert!(
+                (got - exact).abs() < 1e-12,
+                "{links} links at {phase_step} deg: {got}, {exact}"
+            );
+        }
+        // 1 / factor of four links at 90 degrees is a root of a cubic.
+        let inverse = 1.0 / folding_factor(4, 90.0);
+        assert!(
+            (((16.0 * inverse - 16.0) * inverse - 18.0) * inverse + 1.0).abs() < 1e-9,
+            "{inverse}"
+        );
+        // Figures that the documents quote.
+        for (links, phase_step, rounded) in [(4, 90.0, 0.604), (8, 90.0, 0.530), (4, 0.0, 0.552), (33, 90.0, 0.502)] {
+            assert!((folding_factor(links, phase_step) - rounded).abs() < 6e-4);
+        }
+    }
 }

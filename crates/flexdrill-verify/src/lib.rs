@@ -193,6 +193,11 @@ pub const CASES: &[Case] = &[
         run: buckling::torque,
     },
     Case {
+        name: "torque_folding",
+        shows: "twisted chains of four and eight links",
+        run: buckling::folding,
+    },
+    Case {
         name: "torsion_pendulum",
         shows: "rotary inertia at the end of a rod",
         run: bodies::torsion_pendulum,
