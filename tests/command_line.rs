@@ -63,6 +63,131 @@ fn wrong_use_is_told_the_nearest_right_command() {
     assert!(!err.contains('\u{1b}'), "{err:?}");
 }
 
+/// A name of a file is bytes; whatever a command does with it, it does not panic.
+#[test]
+fn a_file_name_that_is_not_utf_8_is_a_name_as_any_other() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let name = std::ffi::OsStr::from_bytes(b"tool_\xff.yaml");
+    let path = folder.path().join(name);
+    std::fs::copy(root().join("config/default.yaml"), &path).unwrap();
+    let run = |arguments: &[&std::ffi::OsStr]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+            .args(arguments)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!said.contains("panicked"), "{arguments:?}: {said}");
+        (output.status.code(), said)
+    };
+    let (code, said) = run(&["check".as_ref(), path.as_os_str()]);
+    assert_eq!(code, Some(0), "{said}");
+    let missing = folder.path().join(std::ffi::OsStr::from_bytes(b"no_\xff"));
+    for command in ["rig", "replay", "report", "recover", "check"] {
+        let (code, said) = run(&[
+            command.as_ref(),
+            missing.as_os_str(),
+            "--out".as_ref(),
+            folder.path().as_ref(),
+        ]);
+        assert!(matches!(code, Some(1 | 2)), "{command}: {said}");
+    }
+    // ROS 2 arguments are text.
+    let (code, said) = run(&["run".as_ref(), "--ros-args".as_ref(), "-r".as_ref(), name]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("is not UTF-8; ROS 2 arguments are text"), "{said}");
+}
+
+/// Rust's runtime opens /dev/null in the place of a standard output that is not open: without a look before that, a
+/// command whose result went nowhere would succeed.
+#[test]
+fn a_closed_standard_output_is_a_failure_with_a_word() {
+    for arguments in [
+        "check config/default.yaml",
+        "completions bash",
+        "--version",
+        "verify --help",
+    ] {
+        let shell = format!("exec \"$0\" {arguments} >&-");
+        let mut command = Command::new("sh");
+        command
+            .args(["-c", &shell, env!("CARGO_BIN_EXE_flexdrill")])
+            .current_dir(root());
+        let output = command.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{arguments}: {said}");
+        assert!(
+            said.contains("standard output does not take what is printed: Bad file descriptor"),
+            "{said}"
+        );
+        // What the system says is said once.
+        assert_eq!(said.matches("Bad file descriptor").count(), 1, "{said}");
+    }
+    // Whoever sends it to /dev/null wants none of it.
+    let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .arg("--version")
+        .stdout(std::process::Stdio::null())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0));
+}
+
+#[test]
+fn an_error_of_the_system_is_told_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    let (file, below) = (file.to_str().unwrap(), format!("{}/report", file.display()));
+    for arguments in [
+        &["check", "/does/not/exist.yaml"][..],
+        &["replay", "/does/not/exist.csv", "--out", &below],
+        &["report", "/does/not/exist.mcap", "--out", &below],
+        &["recover", "/does/not/exist.mcap", "--out", &below],
+        &["rig", "/does/not/exist.csv"],
+        &["paper", "--out", &below],
+        &["man", "--out", &below],
+        &[
+            "run",
+            "--config",
+            file,
+            "--token-file",
+            "/does/not/exist",
+            "--foxglove",
+            "127.0.0.1:0",
+            "--allow-control",
+        ],
+        &["run", "--ros-args", "--params-file", "/does/not/exist.yaml"],
+    ] {
+        let (code, _, err) = said(arguments);
+        assert!(matches!(code, Some(1 | 2)), "{arguments:?}: {err}");
+        for words in ["No such file or directory", "Not a directory", "os error"] {
+            assert!(err.matches(words).count() <= 1, "{arguments:?}: {err}");
+        }
+    }
+}
+
+/// As `run`, these need no file of the repository.
+#[test]
+fn bench_and_paper_work_anywhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
+        let output = command.args(arguments).current_dir(folder.path()).output().unwrap();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let (code, out, err) = run(&["bench", "--duration", "0.002"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(
+        out.contains("### config/default.yaml") && out.contains("### config/coarse.yaml"),
+        "{out}"
+    );
+    // The configuration is read and then refused for what is asked of it, before anything runs.
+    let (code, _, err) = run(&["paper", "--out", "paper", "--set", "tool.links=0"]);
+    assert_eq!(code, Some(1), "{err}");
+    assert!(err.contains("tool.links = 0"), "{err}");
+}
+
 #[test]
 fn completions_and_man_pages_know_every_command() {
     let (_, help, _) = said(&["--help"]);

@@ -1,6 +1,7 @@
 //! The command line, one file per subcommand. Exit codes: 0 done, 1 failed with a reason, 2 wrong use.
 
 mod bench;
+mod built_in;
 mod check;
 mod dashboard;
 mod first_start;
@@ -21,6 +22,7 @@ mod source;
 mod verify;
 mod watch;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -69,28 +71,32 @@ impl WrongUse {
 }
 
 const WRONG_USE: u8 = 2;
+const FAILED: u8 = 1;
 
 /// Says what is wrong with the command line, or what was asked for (`--help`), with the command that was probably meant,
 /// and ends the program.
-fn wrong_use(error: &clap::Error, arguments: &[String]) -> ! {
+fn wrong_use(error: &clap::Error, arguments: &[OsString]) -> ! {
     if error.kind() == ErrorKind::InvalidSubcommand
-        && let Some(command) = arguments.get(1).and_then(|word| {
-            let cli = Cli::command();
-            first_start::meant(word, cli.get_subcommands().map(clap::Command::get_name))
-        })
+        && let Some(word) = arguments.get(1).map(|word| word.to_string_lossy())
+        && let Some(command) = first_start::meant(&word, Cli::command().get_subcommands().map(clap::Command::get_name))
     {
-        let word = arguments
-            .get(1)
-            .map(|word| printable(word).to_string())
-            .unwrap_or_default();
         tell!(
-            "error: '{word}' is no command of flexdrill\n\n  try: {}\n",
+            "error: '{}' is no command of flexdrill\n\n  try: {}\n",
+            printable(&word),
             printable(&command)
         );
         tell!("For more information, try 'flexdrill --help'.");
         std::process::exit(i32::from(WRONG_USE));
     }
-    error.exit()
+    let printed = error.print();
+    // What was asked for, such as --help, is a result: where it cannot be printed, the command has failed.
+    if !error.use_stderr()
+        && let Err(why) = output::judge(printed.err().or_else(output::closed))
+    {
+        tell!("error: {why}");
+        std::process::exit(i32::from(FAILED));
+    }
+    std::process::exit(error.exit_code());
 }
 
 /// What is wrong with a command line.
@@ -104,13 +110,16 @@ pub struct Misunderstood {
 
 /// The arguments outside and inside of `--ros-args`. With ROS 2 arguments and without a subcommand, as `ros2 run` and
 /// `ros2 launch` start a program, it is `run`.
-fn split(given: Vec<String>) -> (Vec<String>, Vec<String>) {
+fn split(given: Vec<OsString>) -> (Vec<OsString>, Vec<OsString>) {
     let is_ros = given.iter().any(|argument| argument == "--ros-args");
     let (mut arguments, ros_args) = args::split(given);
     let asks = ["-h", "--help", "-V", "--version"];
-    let names_none = |word: &String| word.starts_with('-') && !asks.contains(&word.as_str());
+    let names_none = |word: &OsString| {
+        let word = word.to_string_lossy();
+        word.starts_with('-') && !asks.contains(&&*word)
+    };
     if is_ros && !arguments.is_empty() && arguments.get(1).is_none_or(names_none) {
-        arguments.insert(1, "run".to_owned());
+        arguments.insert(1, "run".into());
     }
     (arguments, ros_args)
 }
@@ -120,7 +129,12 @@ fn split(given: Vec<String>) -> (Vec<String>, Vec<String>) {
 /// # Errors
 /// What is wrong with it.
 pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), Misunderstood> {
-    let (arguments, ros_args) = split(arguments.into_iter().collect());
+    let (arguments, ros_args) = split(arguments.into_iter().map(OsString::from).collect());
+    // They were text before.
+    let ros_args: Vec<String> = ros_args
+        .iter()
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect();
     match Cli::try_parse_from(arguments) {
         Err(error) if error.use_stderr() => {
             let ends_early = [ErrorKind::MissingRequiredArgument, ErrorKind::MissingSubcommand];
@@ -141,8 +155,36 @@ pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), Mis
     })
 }
 
-/// Parses the command line, runs the subcommand, reports a failure on standard error.
-pub fn main() -> ExitCode {
+/// What follows `--ros-args`, which names nodes, topics and files of ROS 2 and is text.
+fn as_text(arguments: Vec<OsString>) -> Result<Vec<String>, WrongUse> {
+    let text = |argument: OsString| {
+        argument.into_string().map_err(|argument| {
+            let shown = argument.to_string_lossy();
+            WrongUse(format!("--ros-args: `{shown}` is not UTF-8; ROS 2 arguments are text"))
+        })
+    };
+    arguments.into_iter().map(text).collect()
+}
+
+/// An error and its causes in one line. A cause that the text before it has already is left out.
+fn in_words(error: &anyhow::Error) -> String {
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if text.is_empty() {
+            text = cause;
+        } else if !text.contains(&cause) {
+            text = format!("{text}: {cause}");
+        }
+    }
+    text
+}
+
+/// Parses the command line, runs the subcommand, reports a failure on standard error. `no_output` says that the program
+/// was started without a standard output.
+pub fn main(no_output: bool) -> ExitCode {
+    if no_output {
+        output::close();
+    }
     // The node's own child, not a subcommand for people.
     if std::env::args_os()
         .nth(1)
@@ -150,7 +192,7 @@ pub fn main() -> ExitCode {
     {
         return side::main();
     }
-    let (arguments, ros_args) = split(std::env::args().collect());
+    let (arguments, ros_args) = split(std::env::args_os().collect());
     if arguments.len() < 2 {
         tell_text!("{}", first_start::WELCOME);
         return ExitCode::from(WRONG_USE);
@@ -159,9 +201,22 @@ pub fn main() -> ExitCode {
     if let Err(error) = signals::outlive_file_size_limit() {
         tell!("warning: a limit of the file size will end the program: {error}");
     }
-    let result: anyhow::Result<()> = match cli.command {
-        Command::Run(args) => run::run(&args, &ros_args),
-        Command::Rig(args) => rig::run(&args, &ros_args),
+    let result = as_text(ros_args)
+        .map_err(anyhow::Error::from)
+        .and_then(|ros_args| run_command(cli.command, &ros_args));
+    match result.and_then(|()| Ok(output::end()?)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            tell!("error: {}", printable_lines(&in_words(&error)));
+            ExitCode::from(if error.is::<WrongUse>() { WRONG_USE } else { FAILED })
+        }
+    }
+}
+
+fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
+    match command {
+        Command::Run(args) => run::run(&args, ros_args),
+        Command::Rig(args) => rig::run(&args, ros_args),
         _ if !ros_args.is_empty() => Err(WrongUse::new("only `run` and `rig` take --ros-args").into()),
         Command::Replay(args) => replay::run(&args),
         Command::Report(args) => report::run(&args),
@@ -181,17 +236,6 @@ pub fn main() -> ExitCode {
             reference::run(&args);
             Ok(())
         }
-    };
-    match result.and_then(|()| Ok(output::end()?)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            tell!("error: {}", printable_lines(&format!("{error:#}")));
-            if error.is::<WrongUse>() {
-                ExitCode::from(WRONG_USE)
-            } else {
-                ExitCode::FAILURE
-            }
-        }
     }
 }
 
@@ -199,8 +243,17 @@ pub fn main() -> ExitCode {
 mod tests {
     use super::*;
 
-    fn split_line(line: &str) -> (Vec<String>, Vec<String>) {
-        split(line.split_whitespace().map(str::to_owned).collect())
+    #[test]
+    fn an_error_that_shows_its_cause_is_not_followed_by_it() {
+        let missing = || std::io::Error::from_raw_os_error(2);
+        let shown = output::NotPrinted(missing());
+        assert_eq!(in_words(&shown.into()).matches("No such file").count(), 1);
+        let context = anyhow::Error::from(missing()).context("log.csv");
+        assert_eq!(in_words(&context), format!("log.csv: {}", missing()));
+    }
+
+    fn split_line(line: &str) -> (Vec<OsString>, Vec<OsString>) {
+        split(line.split_whitespace().map(OsString::from).collect())
     }
 
     #[test]

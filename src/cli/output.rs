@@ -1,7 +1,7 @@
 //! What is printed. Standard output may be full or closed, and so may standard error: that ends no run.
 //!
-//! The first error of standard output is kept, and what comes after it is left out. [`end`] tells it, so that a program
-//! that prints the whole result is not taken to have done so. Where the reader has gone (`| head`), it wanted no more.
+//! The first error of standard output is kept, and what comes after it is left out. [`end`] returns it, so that a command
+//! does not succeed whose result was not printed. Where the reader has gone (`| head`), it wanted no more.
 
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write as _};
@@ -50,7 +50,26 @@ pub(super) fn print_error(text: Arguments<'_>) {
 /// Why standard output does not have all that was printed.
 #[derive(Debug, thiserror::Error)]
 #[error("standard output does not take what is printed: {0}; what is missing there was not written")]
-pub(super) struct NotPrinted(#[source] io::Error);
+pub(super) struct NotPrinted(#[source] pub(super) io::Error);
+
+/// Error number of a file descriptor that is not open (EBADF).
+const NOT_OPEN: i32 = 9;
+
+/// The error of a standard output that was not open at the start.
+static CLOSED: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
+
+/// To be called where standard output was not open when the program started. Rust's runtime opens /dev/null in its place,
+/// which takes everything.
+pub(super) fn close() {
+    CLOSED.store(true, std::sync::atomic::Ordering::Relaxed);
+    *FAILED.lock().unwrap_or_else(PoisonError::into_inner) = closed();
+}
+
+/// Why standard output takes nothing, where it was not open at the start.
+pub(super) fn closed() -> Option<io::Error> {
+    let closed = CLOSED.load(std::sync::atomic::Ordering::Relaxed);
+    closed.then(|| io::Error::from_raw_os_error(NOT_OPEN))
+}
 
 /// Whether all was printed.
 ///
@@ -58,7 +77,14 @@ pub(super) struct NotPrinted(#[source] io::Error);
 /// When standard output did not take it and its reader was still there.
 pub(super) fn end() -> Result<(), NotPrinted> {
     let mut failed = FAILED.lock().unwrap_or_else(PoisonError::into_inner);
-    let error = failed.take().or_else(|| io::stdout().lock().flush().err());
+    judge(failed.take().or_else(|| io::stdout().lock().flush().err()))
+}
+
+/// Whether an error of standard output is a failure.
+///
+/// # Errors
+/// When it is one, and not that of a reader that has gone.
+pub(super) fn judge(error: Option<io::Error>) -> Result<(), NotPrinted> {
     match error {
         Some(error) if error.kind() != ErrorKind::BrokenPipe => Err(NotPrinted(error)),
         _ => Ok(()),

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 
+use super::built_in::BuiltIn;
 use super::numbers;
 use super::progress::Progress;
 use crate::cli::output::{say, tell};
-use flexdrill_config::Config;
 use flexdrill_paper::hinge::Hinge;
 use flexdrill_paper::search::{self, Outcome, Plan, Stage};
 use flexdrill_paper::{
@@ -22,9 +22,9 @@ pub struct PaperArgs {
     /// Folder for the results; made if it is not there.
     #[arg(long)]
     out: PathBuf,
-    /// The tool; config/paper.yaml is the parameter set that agrees best.
-    #[arg(long, default_value = "config/paper.yaml")]
-    config: PathBuf,
+    /// The tool [default: config/paper.yaml, built in, the parameter set that agrees best].
+    #[arg(long)]
+    config: Option<PathBuf>,
     /// Rotary speed (r/min), instead of inputs.rotary_speed.initial_rpm (40 if that is 0).
     #[arg(long, value_parser = numbers::rpm)]
     rpm: Option<f64>,
@@ -53,12 +53,12 @@ pub struct PaperArgs {
 /// The plan of `--search`.
 #[derive(Debug, Args)]
 struct PlanArgs {
-    /// Mesh of the Latin hypercube.
-    #[arg(long, default_value = "config/coarse.yaml", requires = "search")]
-    coarse: PathBuf,
-    /// Mesh of all else.
-    #[arg(long, default_value = "config/default.yaml", requires = "search")]
-    full: PathBuf,
+    /// Mesh of the Latin hypercube [default: config/coarse.yaml, built in].
+    #[arg(long, requires = "search")]
+    coarse: Option<PathBuf>,
+    /// Mesh of all else [default: config/default.yaml, built in].
+    #[arg(long, requires = "search")]
+    full: Option<PathBuf>,
     /// Points of the Latin hypercube.
     #[arg(long, default_value_t = 60, requires = "search", value_parser = numbers::count())]
     points: usize,
@@ -92,7 +92,7 @@ pub fn run(args: &PaperArgs) -> anyhow::Result<()> {
 }
 
 fn case(args: &PaperArgs) -> anyhow::Result<Case> {
-    let mut config = Config::load(&args.config)?;
+    let mut config = BuiltIn::Paper.or_file(args.config.as_deref())?;
     if let Some(step) = args.time_step {
         config = config.with_value("solver.time_step", step)?;
     }
@@ -176,8 +176,8 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
 
 fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
     let plan = Plan {
-        coarse: Config::load(&args.plan.coarse)?,
-        full: Config::load(&args.plan.full)?,
+        coarse: BuiltIn::Coarse.or_file(args.plan.coarse.as_deref())?,
+        full: BuiltIn::Default.or_file(args.plan.full.as_deref())?,
         points: args.plan.points,
         descents: args.plan.descents,
         generations: args.plan.generations,

@@ -19,6 +19,7 @@ use clap::{Args, ValueEnum};
 
 use self::document::Table;
 use self::measure::{Load, Measured, percentiles};
+use super::built_in::BuiltIn;
 use super::{WrongUse, numbers};
 use crate::cli::output::{say, say_text, tell};
 use flexdrill_config::Config;
@@ -30,7 +31,7 @@ use flexdrill_core::twin::ModelQuality;
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// Configurations to run, one after another; with --cases the first one, of step-error the others too, as they are
-    /// [default: config/default.yaml, without --cases and of step-error also config/coarse.yaml].
+    /// [default: config/default.yaml, without --cases and of step-error also config/coarse.yaml, both built in].
     #[arg(long = "config", value_name = "FILE")]
     configs: Vec<PathBuf>,
     /// A set of runs instead of a single one.
@@ -179,8 +180,10 @@ fn instructions(args: &BenchArgs) -> anyhow::Result<Instructions> {
 }
 
 fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
-    let path = args.configs.first().cloned().unwrap_or_else(|| PathBuf::from(DEFAULT));
-    let config = load(&path, args)?;
+    let (name, config) = match args.configs.first() {
+        Some(path) => (path.display().to_string(), load(BuiltIn::Default, Some(path), args)?),
+        None => (BuiltIn::Default.file().to_owned(), load(BuiltIn::Default, None, args)?),
+    };
     if let Some(document) = &args.write {
         for case in cases.each() {
             document::check(document, case.name())?;
@@ -208,7 +211,7 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
         let text = format!(
             "Command: `flexdrill bench --cases {}{runs} --duration {duration}`, `{}`. {}\n\n{tables}",
             case.name(),
-            path.display(),
+            name,
             machine::describe()
         );
         say!("\n### {}\n\n{text}", case.name());
@@ -220,19 +223,17 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
     Ok(())
 }
 
-const DEFAULT: &str = "config/default.yaml";
-
 /// The configurations asked for, or both shipped meshes.
 fn named(args: &BenchArgs) -> anyhow::Result<Vec<(String, Config)>> {
-    let usual = [DEFAULT, "config/coarse.yaml"].map(PathBuf::from);
-    let paths = if args.configs.is_empty() {
-        &usual[..]
-    } else {
-        &args.configs
-    };
-    paths
-        .iter()
-        .map(|path| Ok((path.display().to_string(), load(path, args)?)))
+    if args.configs.is_empty() {
+        let usual = [BuiltIn::Default, BuiltIn::Coarse].into_iter();
+        return usual
+            .map(|usual| Ok((usual.file().to_owned(), load(usual, None, args)?)))
+            .collect();
+    }
+    let given = args.configs.iter();
+    given
+        .map(|path| Ok((path.display().to_string(), load(BuiltIn::Default, Some(path), args)?)))
         .collect()
 }
 
@@ -255,8 +256,8 @@ fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
 }
 
 /// The configuration with the changes that the command line asks for.
-fn load(path: &std::path::Path, args: &BenchArgs) -> anyhow::Result<Config> {
-    let mut config = Config::load(path)?;
+fn load(usual: BuiltIn, path: Option<&std::path::Path>, args: &BenchArgs) -> anyhow::Result<Config> {
+    let mut config = usual.or_file(path)?;
     if let Some(step) = args.time_step {
         config = config.with_value("solver.time_step", step)?;
     }

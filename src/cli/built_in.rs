@@ -1,0 +1,63 @@
+//! Configurations that the program carries, so that every command works anywhere.
+
+use std::path::Path;
+
+use flexdrill_config::{Config, ConfigError};
+
+/// A configuration of `config/` as it was when the program was built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum BuiltIn {
+    /// The paper's case.
+    Default,
+    /// The same tool in a coarse mesh.
+    Coarse,
+    /// The parameter set that agrees best with the paper's figures.
+    Paper,
+}
+
+impl BuiltIn {
+    /// Its file in the repository.
+    pub(super) const fn file(self) -> &'static str {
+        match self {
+            Self::Default => "config/default.yaml",
+            Self::Coarse => "config/coarse.yaml",
+            Self::Paper => "config/paper.yaml",
+        }
+    }
+
+    /// What errors and the node call it.
+    pub(super) fn name(self) -> String {
+        format!("{} (built in)", self.file())
+    }
+
+    const fn text(self) -> &'static str {
+        match self {
+            Self::Default => include_str!("../../config/default.yaml"),
+            Self::Coarse => include_str!("../../config/coarse.yaml"),
+            Self::Paper => include_str!("../../config/paper.yaml"),
+        }
+    }
+
+    /// The file that is given, else this one.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or the configuration is refused.
+    pub(super) fn or_file(self, path: Option<&Path>) -> Result<Config, ConfigError> {
+        match path {
+            Some(path) => Config::load(path),
+            None => Config::from_text(&self.name(), self.text()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_configuration_is_accepted() {
+        for built_in in [BuiltIn::Default, BuiltIn::Coarse, BuiltIn::Paper] {
+            built_in.or_file(None).unwrap();
+        }
+    }
+}
