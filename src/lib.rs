@@ -7,18 +7,19 @@
 //! What touches the world. Each folder may use those below it; never those above.
 //!
 //! - [`cli`]: the subcommands, a file or folder each.
-//! - [`ros`]: the only module that knows ros2-client. [`bag`]: the only one that knows MCAP. [`field_log`]: CSV rig
-//!   logs. [`health`]: what is said of the node's state.
+//! - [`dashboard`]: the page at the rig, its server, and steering from it.
+//! - [`ros`]: the node, its parameters and services, in the message types of ros2-client.
+//! - [`health`]: status and diagnostics of the node. [`alarms`]: what the motion and the node's state mean for an operator.
+//! - [`live`]: what is published, over WebSocket in Foxglove's protocol, from the node or a bag. [`report`]: a recording as
+//!   one page.
+//! - [`bag`]: recordings; the only module that knows MCAP and SQLite. [`field_log`]: CSV logs of a rig.
 //! - [`rig_inputs`]: who sends the rig's inputs, when they were measured, and what is refused.
-//! - [`dashboard`]: the page beside the rig, its server, and steering from it.
-//! - [`live`]: what is published, over WebSocket in Foxglove's protocol, from the node or a bag.
-//! - [`alarms`]: what the motion and the node's state mean for an operator.
-//! - [`report`]: a recording as one page.
+//! - [`dds`]: RustDDS and ros2-client's DDS side, in a process of their own.
 //! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
 //! - [`told`]: text of others that is shown and not run, and log lines that do not flood.
 //!
-//! Below them, as crates of their own: `flexdrill-paper`, `flexdrill-verify`, [`flexdrill_config`],
-//! [`flexdrill_realtime`] and [`flexdrill_core`], the mechanics. `docs/architecture.md` draws the house.
+//! Below them, as crates of their own: `flexdrill-paper`, `flexdrill-plot`, `flexdrill-verify`, `flexdrill-alarms`,
+//! [`flexdrill_config`], [`flexdrill_realtime`] and [`flexdrill_core`], the mechanics. `docs/architecture.md` draws the house.
 
 pub mod alarms;
 pub mod bag;

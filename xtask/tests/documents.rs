@@ -142,20 +142,43 @@ fn headings(text: &str) -> BTreeSet<String> {
         .collect()
 }
 
+/// Documents that speak of the present, and not of what was (the changelog) or of other projects' files.
+fn present_documents() -> Vec<PathBuf> {
+    let past = |path: &PathBuf| path.ends_with("CHANGELOG.md");
+    let foreign = |path: &PathBuf| path.components().any(|part| part.as_os_str() == "upstream");
+    let all = files(&[".md"]).into_iter();
+    all.filter(|path| !past(path) && !foreign(path)).collect()
+}
+
+/// Endings of the repository's own files.
+const ENDINGS: [&str; 10] = [
+    ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
+];
+/// Files that the program writes for a user.
+const WRITTEN_FILES: [&str; 3] = ["metadata.yaml", "report.md", "findings.csv"];
+
 #[test]
 fn files_that_are_named_exist() {
+    let there: Vec<String> = files(&ENDINGS).iter().map(|file| name(file)).collect();
     let mut missing = Vec::new();
-    for file in files(&[".md"]) {
-        // What was is named there as it was.
-        if file.ends_with("CHANGELOG.md") {
-            continue;
-        }
+    for file in present_documents() {
         let text = read(&file);
         for path in code(&text) {
             let named = path.split(' ').next().unwrap_or_default().trim_start_matches("./");
             let first = named.split('/').next().unwrap_or_default();
             let plain = named.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
-            if named.contains('/') && plain && ROOTS.contains(&first) && !root().join(named).exists() {
+            let from_root = named.contains('/') && plain && ROOTS.contains(&first);
+            // A file may be named without its folders, but then it is one of the repository's.
+            let ending = ENDINGS
+                .iter()
+                .any(|ending| named.len() > ending.len() && named.ends_with(ending));
+            let short = plain && ending && !named.starts_with('/') && !WRITTEN_FILES.contains(&named);
+            let known = || {
+                there
+                    .iter()
+                    .any(|path| path == named || path.ends_with(&format!("/{named}")))
+            };
+            if (from_root && !root().join(named).exists()) || (short && !from_root && !known()) {
                 missing.push(format!("{}: {path}", name(&file)));
             }
         }
@@ -163,24 +186,116 @@ fn files_that_are_named_exist() {
     assert!(missing.is_empty(), "named and not there:\n{}", missing.join("\n"));
 }
 
+/// The source without its comments: what only a comment names is not there.
+fn without_comments(source: &str) -> String {
+    source
+        .lines()
+        .map(|line| line.split_once("//").map_or(line, |(code, _)| code))
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+fn words(source: &str) -> impl Iterator<Item = &str> {
+    source
+        .split(|c: char| !c.is_alphanumeric() && c != '_')
+        .filter(|word| !word.is_empty())
+}
+
+/// Names that the sources define after one of these keywords.
+fn defined(sources: &[String], keywords: &[&str]) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for source in sources {
+        let mut before = "";
+        for word in words(source) {
+            if keywords.contains(&before) {
+                found.insert(word.to_owned());
+            }
+            before = word;
+        }
+    }
+    found
+}
+
+fn sources() -> Vec<String> {
+    files(&[".rs"])
+        .iter()
+        .map(|file| without_comments(&read(file)))
+        .collect()
+}
+
 #[test]
 fn functions_and_types_that_are_named_exist() {
-    let sources: Vec<String> = files(&[".rs"]).iter().map(|file| read(file)).collect();
-    let words: BTreeSet<&str> = sources
-        .iter()
-        .flat_map(|source| source.split(|c: char| !c.is_alphanumeric() && c != '_'))
-        .collect();
+    let sources = sources();
+    let words: BTreeSet<&str> = sources.iter().flat_map(|source| words(source)).collect();
+    let types = defined(&sources, &["struct", "enum", "trait", "type"]);
     let mut missing = Vec::new();
     for file in files(&[".md"]) {
         let text = read(&file);
         let glossary = file.ends_with("docs/glossary.md");
         for item in code(&text) {
             let path = item.contains("::") && item.chars().all(|c| c.is_alphanumeric() || "_:".contains(c));
-            let carries = glossary && item.starts_with(char::is_uppercase) && item.chars().any(char::is_lowercase);
-            if (path || carries) && !item.split("::").all(|word| words.contains(word)) {
+            let carries = glossary
+                && item.starts_with(char::is_uppercase)
+                && item.chars().any(char::is_lowercase)
+                && item.chars().all(|c| c.is_alphanumeric() || c == '_');
+            let known = !path || item.split("::").all(|word| words.contains(word));
+            if !known || (carries && !types.contains(item)) {
                 missing.push(format!("{}: {item}", name(&file)));
             }
         }
     }
     assert!(missing.is_empty(), "named and not there:\n{}", missing.join("\n"));
+}
+
+/// Beginnings of the names of test files.
+const TESTS: [&str; 9] = [
+    "analytic_",
+    "mechanics_",
+    "paper_",
+    "replay_",
+    "property_",
+    "interop_",
+    "crash_",
+    "network_",
+    "no_alloc",
+];
+/// A name of so many words is a sentence, as tests have them.
+const SENTENCE: usize = 6;
+
+#[test]
+fn tests_that_are_named_exist() {
+    let functions = defined(&sources(), &["fn"]);
+    let stems: BTreeSet<String> = files(&[".rs"])
+        .iter()
+        .flat_map(|file| [file.file_stem(), file.parent().and_then(Path::file_name)])
+        .flatten()
+        .map(|stem| stem.to_string_lossy().into_owned())
+        .collect();
+    let mut missing = Vec::new();
+    for file in present_documents() {
+        let text = read(&file);
+        for item in code(&text) {
+            let plain = item.contains('_')
+                && item
+                    .chars()
+                    .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
+            let test = TESTS.iter().any(|begin| item.starts_with(begin)) || item.split('_').count() >= SENTENCE;
+            if plain && test && !item.ends_with('_') && !functions.contains(item) && !stems.contains(item) {
+                missing.push(format!("{}: {item}", name(&file)));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "named and not there:\n{}", missing.join("\n"));
+}
+
+/// The checks find what they are for.
+#[test]
+fn names_in_comments_do_not_count() {
+    let source = "// struct Gone; fn gone() {}\nstruct Here; // enum Also\nfn a_test() {}\n";
+    let sources = [without_comments(source)];
+    assert_eq!(
+        defined(&sources, &["struct", "enum"]),
+        BTreeSet::from(["Here".to_owned()])
+    );
+    assert_eq!(defined(&sources, &["fn"]), BTreeSet::from(["a_test".to_owned()]));
 }
