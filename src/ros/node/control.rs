@@ -435,6 +435,32 @@ mod tests {
         }
     }
 
+    /// One call must not blank the twin or its recording, nor bring a silent rig to speed.
+    #[test]
+    fn no_parameter_takes_an_output_out_of_the_recording() {
+        use flexdrill_core::twin::Output;
+        let mut bench = bench();
+        for key in ["outputs.rates.status", "outputs.rates.diagnostics"] {
+            let refusal = set(&mut bench, key, 0.0).unwrap_err().to_string();
+            assert!(refusal.contains("must be 1 to 1000 Hz"), "{refusal}");
+        }
+        for (key, value) in [("inputs.rotary_speed.safe_rpm", 120.0), ("inputs.weight_on_bit.safe_kn", 60.0)] {
+            let refusal = set(&mut bench, key, value).unwrap_err().to_string();
+            assert!(refusal.contains("must be at most 0"), "{refusal}");
+        }
+        for (key, output, rate) in [
+            ("outputs.rates.contact_forces", Output::ContactForces, 50.0),
+            ("outputs.rates.whirl", Output::Whirl, 10.0),
+        ] {
+            // Switched off and slowed down it is made as before; a higher rate is followed.
+            for (live, made) in [(0.0, rate), (1.0, rate), (100.0, 100.0)] {
+                set(&mut bench, key, live).unwrap();
+                let sent = settings(&bench.control.config(), &bench.control.begun);
+                assert_eq!(sent.schedule.rate(output, 0.5e-3), made, "{key} = {live} Hz");
+            }
+        }
+    }
+
     #[test]
     fn hard_limits_hold_for_whoever_asks() {
         let mut bench = bench();
