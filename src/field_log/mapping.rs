@@ -65,7 +65,8 @@ impl Decimal {
             Self::Comma => Self::Point,
         };
         match self {
-            _ if other.parse(text).is_none() => "",
+            // What both can read, such as "inf", is wrong in another way.
+            _ if self.parse(text).is_some() || other.parse(text).is_none() => "",
             Self::Point => "; if its comma is a decimal comma, set `decimal: comma` in the mapping",
             Self::Comma => {
                 "; the mapping says `decimal: comma`, with which a point may separate thousands: remove it if this is a decimal point"

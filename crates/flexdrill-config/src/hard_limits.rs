@@ -15,7 +15,8 @@ section! {
         min_rpm: f64 = 0.0, within(-5000.0, this.max_rpm), "r/min", "not above max_rpm";
         /// `inputs.rotary_speed.max_rpm` is not set above this.
         max_rpm: f64 = 300.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
-        /// `inputs.rotary_speed.safe_rpm` is not set above this, nor above its own value in the configuration.
+        /// `inputs.rotary_speed.safe_rpm` is not set above this, or above the configuration's own value where that is
+        /// higher.
         safe_rpm: f64 = 0.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
         /// `inputs.rotary_speed.slew_rpm_per_s`, `downhole_slew_rpm_per_s` and `safe_ramp_rpm_per_s` are not set above
         /// this.
@@ -24,7 +25,8 @@ section! {
         slowest_ramp_rpm_per_s: f64 = 0.5, within(0.0, 1e6), "r/min per s", "too slow a ramp never gets there";
         /// `inputs.weight_on_bit.max_kn` is not set above this.
         max_kn: f64 = 200.0, within(0.0, 2000.0), "kN", "far above any drilling tool";
-        /// `inputs.weight_on_bit.safe_kn` is not set above this, nor above its own value in the configuration.
+        /// `inputs.weight_on_bit.safe_kn` is not set above this, or above the configuration's own value where that is
+        /// higher.
         safe_kn: f64 = 0.0, within(0.0, 2000.0), "kN", "far above any drilling tool";
         /// `inputs.weight_on_bit.tare_error_kn` is not set above this.
         tare_error_kn: f64 = 5.0, within(0.0, 100.0), "kN", "a reading further below zero is wrong, not untared";

@@ -118,10 +118,13 @@ fn inputs_out_of_bounds() {
 
 #[test]
 fn not_finite() {
-    // A torque of this size overflows within the first step.
+    // A torque that comes within the first step, and overflows.
     let mut tool = tiny();
     tool.static_start = false;
-    tool.loads = vec![load(Location::Bottom, Body::Pipe, Direction::Psi, 1e308)];
+    tool.loads = vec![PointLoad {
+        history: LoadHistory::Table(vec![(0.0, 0.0), (1e-9, 1e308)]),
+        ..load(Location::Bottom, Body::Pipe, Direction::Psi, 0.0)
+    }];
     let simulation = Simulation::new(&tool, &SimulationSettings::default()).unwrap();
     let failure = failure(simulation, &INPUTS, 1);
     assert_eq!(failure.cause, FailureCause::NotFinite, "{failure}");

@@ -444,7 +444,10 @@ mod tests {
             let refusal = set(&mut bench, key, 0.0).unwrap_err().to_string();
             assert!(refusal.contains("must be 1 to 1000 Hz"), "{refusal}");
         }
-        for (key, value) in [("inputs.rotary_speed.safe_rpm", 120.0), ("inputs.weight_on_bit.safe_kn", 60.0)] {
+        for (key, value) in [
+            ("inputs.rotary_speed.safe_rpm", 120.0),
+            ("inputs.weight_on_bit.safe_kn", 60.0),
+        ] {
             let refusal = set(&mut bench, key, value).unwrap_err().to_string();
             assert!(refusal.contains("must be at most 0"), "{refusal}");
         }
