@@ -26,8 +26,12 @@ impl BuiltIn {
     }
 
     /// What errors and the node call it.
-    pub(super) fn name(self) -> String {
-        format!("{} (built in)", self.file())
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Default => "config/default.yaml (built in)",
+            Self::Coarse => "config/coarse.yaml (built in)",
+            Self::Paper => "config/paper.yaml (built in)",
+        }
     }
 
     const fn text(self) -> &'static str {
@@ -45,7 +49,7 @@ impl BuiltIn {
     pub(super) fn or_file(self, path: Option<&Path>) -> Result<Config, ConfigError> {
         match path {
             Some(path) => Config::load(path),
-            None => Config::from_text(&self.name(), self.text()),
+            None => Config::from_text(self.name(), self.text()),
         }
     }
 }
@@ -58,6 +62,7 @@ mod tests {
     fn every_built_in_configuration_is_accepted() {
         for built_in in [BuiltIn::Default, BuiltIn::Coarse, BuiltIn::Paper] {
             built_in.or_file(None).unwrap();
+            assert_eq!(built_in.name(), format!("{} (built in)", built_in.file()));
         }
     }
 }

@@ -23,6 +23,9 @@ use crate::ros::{DEFAULT_NODE_NAME, logging};
 use flexdrill_config::Config;
 use flexdrill_core::twin::Output;
 
+/// The configuration of a node that is given none.
+const DEFAULT_CONFIG_NAME: &str = BuiltIn::Default.name();
+
 /// Run the twin as a ROS 2 node.
 #[derive(Debug, Args)]
 #[command(
@@ -162,7 +165,7 @@ fn chosen_config<'a>(option: Option<&'a Path>, named: Option<(&'a str, &str)>) -
 
 /// The configuration and the name of its source.
 pub(super) fn load_config(path: Option<&std::path::Path>) -> anyhow::Result<(Config, String)> {
-    let name = path.map_or_else(|| BuiltIn::Default.name(), |path| path.display().to_string());
+    let name = path.map_or_else(|| DEFAULT_CONFIG_NAME.to_owned(), |path| path.display().to_string());
     Ok((BuiltIn::Default.or_file(path)?, name))
 }
 

@@ -58,6 +58,7 @@ impl Rates {
             contact_forces: self.contact_forces.max(other.contact_forces),
             whirl: self.whirl.max(other.whirl),
             bit_state: self.bit_state.max(other.bit_state),
+            reactions: self.reactions.max(other.reactions),
             status: self.status.max(other.status),
             tool_shape: self.tool_shape.max(other.tool_shape),
             ageing: self.ageing.max(other.ageing),

@@ -11,7 +11,7 @@ use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, Schedule};
 
 /// Outputs with a rate, and their topics.
-const THINNED: [(Output, &TopicInfo); 7] = [
+const THINNED: [(Output, &TopicInfo); 8] = [
     (Output::JointDeflections, &topics::JOINT_DEFLECTIONS),
     (Output::JointStates, &topics::JOINT_STATES),
     (Output::ContactForces, &topics::CONTACT_FORCES),
@@ -19,6 +19,7 @@ const THINNED: [(Output, &TopicInfo); 7] = [
     (Output::Whirl, &topics::WHIRL),
     (Output::ToolShape, &topics::TOOL_SHAPE),
     (Output::Ageing, &topics::AGEING),
+    (Output::Reactions, &topics::REACTIONS),
 ];
 
 /// What of a recorded message goes to DDS.
