@@ -131,6 +131,8 @@ fn shock_and_stick_slip_carry_their_levels() {
         station: 1,
         impulse: 17.0,
         since: 1.0,
+        seen: 1.0,
+        ended: None,
     };
     snapshot.bit.stick_slip = Severity::Critical;
     snapshot.bit.lateral_impulse = 0.4;

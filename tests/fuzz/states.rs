@@ -269,6 +269,8 @@ fn frames() {
                 node: Some("/rqt".into()),
                 address: None,
             },
+            sequence: 5,
+            sent: Some(1_700_000_000_000_000_000),
             body: vec![1; 20],
         },
         FromSide::Beat(Beat {
