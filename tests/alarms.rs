@@ -211,7 +211,7 @@ fn a_drive_that_runs_up_suppresses_the_tool_by_design() {
         .alarms
         .iter()
         .filter(|alarm| alarm.state == Alarm::SUPPRESSED_BY_DESIGN);
-    assert_eq!((suppressed.count(), list.unacknowledged), (5, 0));
+    assert_eq!((suppressed.count(), list.unacknowledged), (HazardKind::ALL.len(), 0));
     show(&mut book, 15, 1, &snapshot(&[rolling()]));
     let (events, list) = publish(&mut book, 16);
     assert_eq!(

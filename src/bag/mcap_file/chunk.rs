@@ -7,10 +7,10 @@ use super::records::ChunkHead;
 /// Largest chunk that is unpacked (bytes): more than writers make, which begin a new one at some megabytes, and less than
 /// memory.
 const LARGEST: u64 = 256 << 20;
-/// Bytes that a chunk may unpack to whatever its size: small ones of equal messages compress very well.
-const FREE: u64 = 4 << 20;
-/// Times its compressed size that a larger chunk may unpack to. Recordings of sensors and of this twin reach 30; what
-/// compresses better was made to fill memory.
+/// Bytes that a chunk may unpack to whatever its size: a single large message of equal values compresses a thousand times.
+const FREE: u64 = 16 << 20;
+/// Times its compressed size that a larger chunk may unpack to: an assumption, ten times what messages of numbers that
+/// change reach. What compresses better was made to fill memory.
 const MOST_RATIO: u64 = 200;
 
 /// Bytes that so many compressed ones may unpack to.

@@ -31,11 +31,11 @@ impl Redirect {
             .open(&path)?;
         let redirect = Self(path);
         let url = escaped(url);
-        write!(
+        writeln!(
             file,
             "<!doctype html><meta charset=\"utf-8\"><title>flexdrill</title>\
              <meta name=\"referrer\" content=\"no-referrer\">\
-             <meta http-equiv=\"refresh\" content=\"0;url={url}\"><a href=\"{url}\">flexdrill</a>\n"
+             <meta http-equiv=\"refresh\" content=\"0;url={url}\"><a href=\"{url}\">flexdrill</a>"
         )?;
         Ok(redirect)
     }

@@ -110,8 +110,8 @@ impl Shared {
                  differ: synchronise them"
             ),
             Verdict::WithoutTime => {
-                "it does not say when it was sent, so it may be meant for a node before this one. Have the client send \
-                 source timestamps"
+                "it does not say when it was sent, so soon after the start it may be meant for a node before this one. Send \
+                 it again half a minute after the start"
                     .to_owned()
             }
             Verdict::Forgotten => {

@@ -13,6 +13,9 @@ use crate::dds::plan::Guid;
 
 /// Most writers of requests that are remembered.
 const MOST_CLIENTS: usize = 4096;
+/// Time after the start (ns) in which requests to a node before arrive: three announcements of a participant, at most 10 s
+/// apart.
+const SETTLED: u64 = 30_000_000_000;
 /// Numbers below a writer's highest of which it is known one by one whether they were taken.
 const WINDOW: i64 = 64;
 
@@ -25,7 +28,7 @@ pub(super) enum Verdict {
     Repeated,
     /// It was sent so long before this node was started (s).
     Older(f64),
-    /// It does not say when it was sent, so that it may be one to a node before.
+    /// It does not say when it was sent and comes soon after the start, so that it may be one to a node before.
     WithoutTime,
     /// It is from a writer that was forgotten, and may have been taken.
     Forgotten,
@@ -76,7 +79,11 @@ impl TakenRequests {
             now,
             up,
         } = arrival;
-        let Some(sent) = sent else { return Verdict::WithoutTime };
+        // The library loses the time of a request that came in fragments, as long ones do. Such a request is new if its
+        // writer has sent others to this node before, or if those to a node before must have arrived by now.
+        let Some(sent) = sent else {
+            return self.judge_without_time(arrival);
+        };
         let older = i128::from(now) - i128::from(sent) - i128::from(up);
         if older > 0 {
             return Verdict::Older(older as f64 * 1e-9);
@@ -94,6 +101,26 @@ impl TakenRequests {
         }
         self.clients.insert(client, Client::new(sequence, sent, self.turn));
         Verdict::New
+    }
+
+    /// Judges a request that does not say when it was sent.
+    fn judge_without_time(&mut self, arrival: &Arrival) -> Verdict {
+        self.turn += 1;
+        if let Some(known) = self.clients.get_mut(&arrival.client) {
+            known.heard = self.turn;
+            return known.judge(arrival.sequence, known.newest);
+        }
+        if self.clients.len() == MOST_CLIENTS {
+            self.forget_one();
+        }
+        // A refused one is known from now on, so that it is refused when it comes again.
+        let client = Client::new(arrival.sequence, arrival.now, self.turn);
+        self.clients.insert(arrival.client, client);
+        if arrival.up < SETTLED {
+            Verdict::WithoutTime
+        } else {
+            Verdict::New
+        }
     }
 
     /// Forgets the writer that has not been heard for the longest time.
@@ -192,16 +219,29 @@ mod tests {
         };
         assert!((by - 3.0).abs() < 1e-9, "{by}");
         assert_eq!(taken.judge(&at(7, 2, START + 1, START + SECOND)), Verdict::New);
-        let no_time = Arrival {
-            sent: None,
-            ..at(7, 3, 0, START + SECOND)
-        };
-        assert_eq!(taken.judge(&no_time), Verdict::WithoutTime);
         // What was refused for its age is not taken by its number later either.
         assert!(matches!(
             taken.judge(&at(7, 1, START - 3 * SECOND, START + 9 * SECOND)),
             Verdict::Older(_)
         ));
+    }
+
+    #[test]
+    fn a_request_without_its_time_is_judged_by_its_number_and_the_time_since_the_start() {
+        let mut taken = TakenRequests::default();
+        let no_time = |client: u8, sequence: i64, after: i64| Arrival {
+            sent: None,
+            ..at(client, sequence, 0, START + after * SECOND)
+        };
+        // Its writer has sent a request to this node: what follows is to this node too.
+        assert_eq!(taken.judge(&at(7, 2, START + 1, START + SECOND)), Verdict::New);
+        assert_eq!(taken.judge(&no_time(7, 3, 2)), Verdict::New);
+        assert_eq!(taken.judge(&no_time(7, 3, 3)), Verdict::Repeated);
+        // Of an unknown writer it may be to a node before, soon after the start; it is not taken later either.
+        assert_eq!(taken.judge(&no_time(8, 1, 5)), Verdict::WithoutTime);
+        assert_eq!(taken.judge(&no_time(8, 1, 50)), Verdict::Repeated);
+        assert_eq!(taken.judge(&no_time(8, 2, 51)), Verdict::New);
+        assert_eq!(taken.judge(&no_time(9, 1, 52)), Verdict::New);
     }
 
     /// Ages are by the monotonic clock: an hour that the system's clock is set by refuses nobody, and brings nothing back.

@@ -252,8 +252,10 @@ impl Kernel for Search<'_> {
             let y = V::load(&link.offset[0]).plus(pipe[0].minus(guide[0]));
             let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
             let square = |y: V, z: V| y.times(y).plus_product(z, z);
-            let inner = square(y, z).above(V::load(&link.clearance_squared));
-            let outer = square(guide[0], guide[1]).above(V::splat(outer_squared)) & ((1 << self.by.per) - 1);
+            // Lanes beyond the span's stations hold nothing, and may not touch even where a state is beyond all bounds.
+            let stations = (1 << self.by.per) - 1;
+            let inner = square(y, z).above(V::load(&link.clearance_squared)) & stations;
+            let outer = square(guide[0], guide[1]).above(V::splat(outer_squared)) & stations;
             let mut any = inner | outer;
             if any == 0 {
                 continue;
