@@ -157,7 +157,7 @@ fn a_tool_that_is_being_destroyed() {
         "{said}"
     );
     assert!(said.contains("HIGH     backward whirl"), "{said}");
-    assert!(said.contains("lower the speed below 80 r/min"), "{said}");
+    assert!(said.contains("Lower the speed below 80 r/min"), "{said}");
 }
 
 #[test]

@@ -50,7 +50,11 @@ fn walk(root: &Value, schema: &Value, place: &Place, above: &mut Vec<*const Valu
             "" => key.clone(),
             path => format!("{path}.{key}"),
         };
-        let text = described(root, value, target);
+        let mut text = described(root, value, target);
+        if text.is_empty() {
+            // The only key of a form is described by the form.
+            text = described(root, schema, schema);
+        }
         let below = Place {
             path: name.clone(),
             text: text.clone(),

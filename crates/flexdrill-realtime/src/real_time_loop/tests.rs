@@ -210,7 +210,7 @@ fn a_failed_step_freezes_the_outputs_until_the_inputs_change() {
         bench.reports(),
         [
             format!("applied {TOO_FAST} at 5 skipped 0"),
-            "NotFinite at tick 5".into()
+            "InputOutOfBounds(RotarySpeed) at tick 5".into()
         ]
     );
     assert_eq!(bench.gauges.run_state(), RunState::Failed);
@@ -227,7 +227,7 @@ fn a_failed_step_freezes_the_outputs_until_the_inputs_change() {
         bench.reports(),
         [
             format!("applied {} at 5 skipped 55", 2.0 * TOO_FAST),
-            "NotFinite at tick 60".into()
+            "InputOutOfBounds(RotarySpeed) at tick 60".into()
         ]
     );
     bench.speed(2.0);
@@ -272,7 +272,7 @@ fn a_reset_while_failed_moves_on_with_the_present_inputs() {
         [
             format!("applied {TOO_FAST} at 0 skipped 5 reset"),
             "frame 0 at 5".into(),
-            "NotFinite at tick 5".into()
+            "InputOutOfBounds(RotarySpeed) at tick 5".into()
         ],
         "the cause is still there, so it fails again and says so"
     );
