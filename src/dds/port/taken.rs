@@ -6,6 +6,10 @@
 //! the time since its client sent it, by this machine's clock, and the node's is counted by the monotonic clock, so that
 //! setting the clock does not matter. A client on another machine whose clock is behind by some seconds is refused for as
 //! long after the start.
+//!
+//! A request of several datagrams comes without its time: RustDDS keeps that of the last one, and Cyclone DDS gives it with
+//! the first. It is new where its writer has sent others to this node, or half a minute after the start, when requests to a
+//! node before have all arrived.
 
 use std::collections::BTreeMap;
 
