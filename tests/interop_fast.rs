@@ -4,7 +4,8 @@ mod common;
 
 use std::time::{Duration, Instant};
 
-use common::{Network, Peer, skipped};
+use common::program::signal_id;
+use common::{Network, Peer, Program, skipped};
 use serde_json::json;
 
 const STATUS: (&str, &str) = ("/twin/status", "flexdrill/msg/TwinStatus");
@@ -57,6 +58,41 @@ fn data_goes_both_ways_and_a_killed_peer_comes_back() {
     assert_eq!(status["dds_restarts"], 0, "{}", status["dds_restart_cause"]);
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
+}
+
+/// Calls of a client on Fast DDS are carried out once each while the DDS process is killed between them, and the next node
+/// carries out none of those to the node before.
+#[test]
+fn a_client_is_served_once_per_call_whatever_restarts() {
+    let Some(network) = Network::new() else { return };
+    let (Some(mut client), Some(mut judge)) = (network.fast_peer(), network.peer()) else {
+        return;
+    };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    judge.subscribe(STATUS.0, STATUS.1, "reliable");
+    let reset = |client: &mut Peer| {
+        let reply = client.call("/flexdrill/reset", "std_srvs/srv/Trigger", json!({}));
+        assert_eq!(reply["success"], true, "{reply}");
+    };
+    let resets = |twin: &mut Program| twin.said().matches("reset: the model goes back").count();
+    reset(&mut client);
+    for restarts in 1..=2 {
+        signal_id(twin.dds_process(), "KILL");
+        judge.status_with(STATUS.0, |status| status["dds_restarts"].as_u64().unwrap() >= restarts);
+        reset(&mut client);
+    }
+    // What a writer still holds it sends when it finds the reader; the last call was answered, so it has.
+    std::thread::sleep(Duration::from_secs(1));
+    assert_eq!(resets(&mut twin), 3, "{}", twin.said());
+    twin.signal("KILL");
+    twin.end();
+    let mut next = network.twin(&[]);
+    next.wait_for("model time runs");
+    judge.status_with(STATUS.0, |status| status["dds_restarts"] == 0);
+    reset(&mut client);
+    std::thread::sleep(Duration::from_secs(1));
+    assert_eq!(resets(&mut next), 1, "{}", next.said());
 }
 
 /// One that takes nothing, and one that is stopped: the others hear the twin on.

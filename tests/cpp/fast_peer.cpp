@@ -1,8 +1,10 @@
-// A DDS program on Fast DDS, the layer below rmw_fastrtps, told what to do by one JSON object per line on standard input.
+// A DDS program on Fast DDS, the layer below rmw_fastrtps, told what to do by one JSON object per line on standard
+// input.
 //
 // It answers as tests/python/peer.py does, to as much as the tests ask of it: subscribe, take, listen (one topic),
-// publish (Float64), matched, quit. Of a message it decodes, with Fast CDR, the header and, of TwinStatus, the fields behind
-// it. Nothing of the Rust code is used. FAST_KEYS names the folder of an enclave of SROS2 that it is to use.
+// publish (Float64), call (services without arguments that answer success and a message), matched, quit. Of a message
+// it decodes, with Fast CDR, the header and, of TwinStatus, the fields behind it. Nothing of the Rust code is used.
+// FAST_KEYS names the folder of an enclave of SROS2 that it is to use.
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
@@ -115,6 +117,7 @@ public:
         if (what == "subscribe") return subscribe(topic, text(line, "type"), text(line, "kind"));
         if (what == "publish") return publish(topic, text(line, "type"), number(line, "data", 0));
         if (what == "take") return take(topic, number(line, "seconds", 0), number(line, "count", 1));
+        if (what == "call") return call(text(line, "service"), text(line, "type"));
         if (what == "matched") {
             SubscriptionMatchedStatus status;
             reader(topic)->get_subscription_matched_status(status);
@@ -147,14 +150,68 @@ private:
         return qos;
     }
 
-    // The ROS 2 names on the wire: /a/b is rt/a/b, std_msgs/msg/Float64 is std_msgs::msg::dds_::Float64_.
-    Topic* topic_of(const std::string& name, const std::string& type) {
-        if (topics_.count(name)) return topics_[name];
+    // The ROS 2 names on the wire: std_msgs/msg/Float64 is std_msgs::msg::dds_::Float64_.
+    static std::string dds_type(const std::string& type) {
         const auto first = type.find('/'), last = type.rfind('/');
-        const auto dds = type.substr(0, first) + "::msg::dds_::" + type.substr(last + 1) + "_";
+        const auto package = type.substr(0, first), kind = type.substr(first + 1, last - first - 1);
+        return package + "::" + kind + "::dds_::" + type.substr(last + 1) + "_";
+    }
+
+    Topic* dds_topic(const std::string& dds_name, const std::string& type) {
+        if (topics_.count(dds_name)) return topics_[dds_name];
+        const auto dds = dds_type(type);
         TypeSupport(new RawType(dds)).register_type(participant_);
+        return topics_[dds_name] = participant_->create_topic(dds_name, dds, TOPIC_QOS_DEFAULT);
+    }
+
+    // /a/b is rt/a/b.
+    Topic* topic_of(const std::string& name, const std::string& type) {
         is_status_[name] = type == "flexdrill/msg/TwinStatus";
-        return topics_[name] = participant_->create_topic("rt" + name, dds, TOPIC_QOS_DEFAULT);
+        return dds_topic("rt" + name, type);
+    }
+
+    struct Client {
+        DataWriter* requests;
+        DataReader* replies;
+    };
+
+    // Asks as rmw_fastrtps does: the request's identity is that of its sample.
+    std::string call(const std::string& service, const std::string& type) {
+        auto& client = clients_[service];
+        if (client.requests == nullptr) {
+            DataWriterQos writing = DATAWRITER_QOS_DEFAULT;
+            writing.reliability().kind = RELIABLE_RELIABILITY_QOS;
+            writing.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+            client.requests =
+                publisher_->create_datawriter(dds_topic("rq" + service + "Request", type + "_Request"), writing);
+            DataReaderQos reading = DATAREADER_QOS_DEFAULT;
+            reading.reliability().kind = RELIABLE_RELIABILITY_QOS;
+            reading.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+            client.replies =
+                subscriber_->create_datareader(dds_topic("rr" + service + "Reply", type + "_Response"), reading);
+            if (client.requests == nullptr || client.replies == nullptr) throw std::runtime_error("no client");
+        }
+        const auto deadline = Clock::now() + std::chrono::seconds(15);
+        const auto pause = std::chrono::milliseconds(10);
+        PublicationMatchedStatus server;
+        SubscriptionMatchedStatus back;
+        do {
+            std::this_thread::sleep_for(pause);
+            client.requests->get_publication_matched_status(server);
+            client.replies->get_subscription_matched_status(back);
+        } while ((server.current_count == 0 || back.current_count == 0) && Clock::now() < deadline);
+        Payload request{0, 1, 0, 0, 0, 0, 0, 0};
+        if (!client.requests->write(&request)) throw std::runtime_error("the request was not written");
+        Payload reply;
+        SampleInfo info;
+        while (Clock::now() < deadline) {
+            while (client.replies->take_next_sample(&reply, &info) == ReturnCode_t::RETCODE_OK) {
+                if (!info.valid_data || reply.size() < 5) continue;
+                return std::string("{\"reply\": {\"success\": ") + (reply[4] ? "true" : "false") + "}}";
+            }
+            std::this_thread::sleep_for(pause);
+        }
+        throw std::runtime_error("no reply");
     }
 
     std::string subscribe(const std::string& name, const std::string& type, const std::string& kind) {
@@ -265,6 +322,7 @@ private:
     std::map<std::string, bool> is_status_;
     std::map<std::string, DataReader*> readers_;
     std::map<std::string, DataWriter*> writers_;
+    std::map<std::string, Client> clients_;
 };
 
 int main(int count, char** arguments) {
