@@ -114,7 +114,8 @@ mod tests {
         const UNPACKED: usize = 64 << 20;
         let body = bomb(UNPACKED, UNPACKED as u64);
         let allowed = most_unpacked(body.len() as u64);
-        assert!(allowed < UNPACKED as u64 / 8, "{allowed}");
+        // Little beyond what a chunk of any size may unpack to.
+        assert!(allowed < UNPACKED as u64 / 3, "{allowed}");
         let (records, problem) = unpack(&body, true);
         let problem = problem.unwrap();
         assert!(records.is_empty() && records.capacity() == 0);
