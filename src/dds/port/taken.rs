@@ -8,13 +8,15 @@
 //! long after the start.
 //!
 //! A request of several datagrams comes without its time: RustDDS keeps that of the last one, and Cyclone DDS gives it with
-//! the first. It is new where its writer has sent others to this node, or half a minute after the start, when requests to a
+//! the first. It is new where its program has sent others to this node, or half a minute after the start, when requests to a
 //! node before have all arrived.
 
 use std::collections::BTreeMap;
 
 use crate::dds::plan::Guid;
 
+/// Bytes of an id that name the program; the rest names a writer in it.
+const PREFIX: usize = 12;
 /// Most writers of requests that are remembered.
 const MOST_CLIENTS: usize = 4096;
 /// Time after the start (ns) in which requests to a node before arrive: three announcements of a participant, at most 10 s
@@ -62,6 +64,8 @@ struct Client {
     newest: i64,
     /// Turn of the book at which it was heard last.
     heard: u64,
+    /// Whether a request of it that was taken said when it was sent.
+    timed: bool,
 }
 
 /// The requests that were taken.
@@ -114,17 +118,29 @@ impl TakenRequests {
             known.heard = self.turn;
             return known.judge(arrival.sequence, known.newest);
         }
+        let talks = self.talks(&arrival.client);
         if self.clients.len() == MOST_CLIENTS {
             self.forget_one();
         }
         // A refused one is known from now on, so that it is refused when it comes again.
-        let client = Client::new(arrival.sequence, arrival.now, self.turn);
+        let client = Client {
+            timed: false,
+            ..Client::new(arrival.sequence, arrival.now, self.turn)
+        };
         self.clients.insert(arrival.client, client);
-        if arrival.up < SETTLED {
-            Verdict::WithoutTime
-        } else {
+        if talks || arrival.up >= SETTLED {
             Verdict::New
+        } else {
+            Verdict::WithoutTime
         }
+    }
+
+    /// Whether the program of a writer has sent a request to this node that says when it was sent.
+    fn talks(&self, client: &Guid) -> bool {
+        let (mut first, mut last) = (*client, *client);
+        first[PREFIX..].fill(0);
+        last[PREFIX..].fill(u8::MAX);
+        self.clients.range(first..=last).any(|(_, client)| client.timed)
     }
 
     /// Forgets the writer that has not been heard for the longest time.
@@ -145,6 +161,7 @@ impl Client {
             below: 0,
             newest: sent,
             heard,
+            timed: true,
         }
     }
 
@@ -246,6 +263,11 @@ mod tests {
         assert_eq!(taken.judge(&no_time(8, 1, 50)), Verdict::Repeated);
         assert_eq!(taken.judge(&no_time(8, 2, 51)), Verdict::New);
         assert_eq!(taken.judge(&no_time(9, 1, 52)), Verdict::New);
+        // Another writer of a program that talks to this node.
+        let mut other = no_time(7, 1, 6);
+        other.client[PREFIX] = 0;
+        assert_eq!(taken.judge(&other), Verdict::New);
+        assert_eq!(taken.judge(&other), Verdict::Repeated);
     }
 
     /// Ages are by the monotonic clock: an hour that the system's clock is set by refuses nobody, and brings nothing back.
