@@ -42,6 +42,8 @@ try {
   writeFileSync(whirling, text);
   start("node", "run", "--config", whirling);
   await until("the twin", 60, async () => !["TWIN SILENT", "NO DATA", "STARTING"].includes(await word()));
+  // The page reloads itself for the new run of the twin; what was typed before would be lost.
+  await page.waitForTimeout(5_000);
   await page.click("#tab-steer");
   for (const [field, value] of [
     ["operator", "ann"],
