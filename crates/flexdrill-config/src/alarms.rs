@@ -11,7 +11,7 @@ section! {
     pub struct Alarms(this) {
         /// Longest time for which an operator can shelve an alarm (s).
         longest_shelving: f64 = 3600.0, within(1.0, 86_400.0), "s", "a shift's end must not be forgotten; a day";
-        /// Time after the start of the node for which an input that has never sent a sample calls nobody (s). The
+        /// Time after the start of the node for which an input that has never sent a sample raises no alarm (s). The
         /// status shows it as not received from the first moment.
         first_sample_within: f64 = 300.0, within(0.0, 86_400.0), "s", "a rig is connected within minutes of the twin's start; a day";
         /// The pipe goes round against the rotation.

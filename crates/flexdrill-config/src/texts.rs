@@ -17,11 +17,11 @@ pub fn key_texts() -> BTreeMap<String, String> {
         *count.entry(&key.text).or_default() += 1;
     }
     // Sections that several others share: the section says which one is meant.
-    let told = keys.iter().map(|key| match count.get(key.text.as_str()) {
+    let texts = keys.iter().map(|key| match count.get(key.text.as_str()) {
         Some(2..) => (key.name.clone(), format!("{} {}", key.section, key.text)),
         _ => (key.name.clone(), key.text.clone()),
     });
-    told.collect()
+    texts.collect()
 }
 
 /// A key with its own text and that of its section.
