@@ -61,7 +61,7 @@ fn loaded() -> ToolDescription {
 
 #[test]
 fn at_rest_supports_carry_weight_load_and_weight_on_bit() {
-    for solver in [SolverKind::Joints, SolverKind::Stations] {
+    for solver in [SolverKind::Chain, SolverKind::Stations] {
         for tool in [ToolDescription::paper(), loaded()] {
             let simulation = simulation(&tool, solver);
             let reactions = simulation.new_snapshot().reactions;
@@ -82,7 +82,7 @@ fn at_rest_supports_carry_weight_load_and_weight_on_bit() {
 
 #[test]
 fn in_motion_inertia_and_damping_close_the_balance() {
-    for solver in [SolverKind::Joints, SolverKind::Stations] {
+    for solver in [SolverKind::Chain, SolverKind::Stations] {
         let mut simulation = simulation(&loaded(), solver);
         let mut snapshot = simulation.new_snapshot();
         let inputs = Inputs {

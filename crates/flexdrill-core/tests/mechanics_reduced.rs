@@ -1,5 +1,7 @@
 //! The tool over its joints moves as the tool over all stations does.
 
+mod support;
+
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::{SolverKind, StepOutcome};
 use flexdrill_core::inputs::Inputs;
@@ -7,7 +9,7 @@ use flexdrill_core::tool::{Body, ToolDescription, WobPath};
 use flexdrill_core::twin::{Simulation, SimulationSettings};
 
 /// Lateral positions of all joints every 20 ms, without bit torque, which lets small differences grow.
-fn calm(tool: &ToolDescription, solver: SolverKind, weight_on_bit: f64) -> Vec<Vec<f64>> {
+fn calm(tool: &ToolDescription, solver: SolverKind, weight_on_bit: f64, steps: usize) -> Vec<Vec<f64>> {
     let mut tool = tool.clone();
     tool.bit.friction_factor = 0.0;
     let mut settings = SimulationSettings::default();
@@ -19,9 +21,9 @@ fn calm(tool: &ToolDescription, solver: SolverKind, weight_on_bit: f64) -> Vec<V
     };
     let joints = simulation.joint_stations().to_vec();
     let mut out = vec![Vec::new(); 2 * joints.len()];
-    for step in 0..6000 {
+    for step in 0..steps {
         assert!(matches!(simulation.advance(&inputs), StepOutcome::Advanced { .. }));
-        if step % 40 == 0 {
+        if step % (steps / 150).max(1) == 0 {
             for (joint, &station) in joints.iter().enumerate() {
                 let at = simulation.lateral(station, Body::Pipe).unwrap();
                 out[2 * joint].push(at[0]);
@@ -42,14 +44,22 @@ fn calm_joints_are_where_they_are_with_all_stations() {
     // Between its joints such a guide gives way by a micrometre under its contacts.
     let mut soft = default.clone();
     soft.guide_bending_factor = 0.05;
-    for (name, tool, load) in [
-        ("default", &default, 10e3),
-        ("tied", &tied, 10e3),
-        ("soft guide", &soft, 20e3),
+    let hinged = support::hinged();
+    let fixed = ToolDescription {
+        guide_fixed: true,
+        ..default.clone()
+    };
+    for (name, tool, load, steps) in [
+        ("default", &default, 10e3, 6000),
+        ("tied", &tied, 10e3, 6000),
+        ("soft guide", &soft, 20e3, 6000),
+        ("fixed guide", &fixed, 10e3, 6000),
+        // Not calm for longer.
+        ("hinged", &hinged, 10e3, 200),
     ] {
         let (reduced, whole) = (
-            calm(tool, SolverKind::Joints, load),
-            calm(tool, SolverKind::Stations, load),
+            calm(tool, SolverKind::Chain, load, steps),
+            calm(tool, SolverKind::Stations, load, steps),
         );
         let range = |values: &[f64]| {
             let (least, most) = values

@@ -27,6 +27,8 @@ pub struct Assembler {
     pub outer: Layer,
     /// Rotational rows and stops of the joints, eight at a time from the top.
     pub(super) groups: Vec<JointGroup>,
+    /// Number of joints.
+    pub(super) joints: usize,
     /// Torque of the rock on the bit at the last residual.
     pub bit: BitTorque,
     /// Times what is done here and in the steps around it.
@@ -58,6 +60,7 @@ impl Assembler {
             inner: Layer::new(model.stations.len()),
             outer: Layer::new(model.stations.len()),
             groups: model.joints.chunks(8).map(JointGroup::of).collect(),
+            joints: model.joints.len(),
             bit: BitTorque::default(),
             stopwatch: Stopwatch::default(),
         }

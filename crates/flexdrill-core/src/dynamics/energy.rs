@@ -33,6 +33,15 @@ pub struct SpanForces {
     pub(crate) inertia: [[f64; 16]; 2],
 }
 
+/// What the joints of tools over their joints carry.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct JointForces {
+    /// Force of each span's pipe on its top end (N), along the axes of the link above.
+    pub(crate) on_top: Vec<[f64; 3]>,
+    /// Multipliers of the rotational rows of each joint (N m).
+    pub(crate) multipliers: Vec<[f64; 2]>,
+}
+
 /// Forces and energies at one end of a step that the trapezoid rule needs at the other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyPoint {
@@ -44,8 +53,8 @@ pub struct EnergyPoint {
     pub(crate) damping: Vec<f64>,
     /// Inertia force M a (N, N m).
     pub(crate) inertia: Vec<f64>,
-    /// Force of each span's pipe on its top end (N), along the axes of the link above; of tools over their joints only.
-    pub(crate) on_top: Vec<[f64; 3]>,
+    /// Of tools over their joints only.
+    pub(crate) joints: JointForces,
     /// Geometric stiffness, damping and inertia of the spans of tools over their joints; in the vectors above are then
     /// those of point masses only.
     pub(crate) spans: Vec<SpanForces>,
@@ -80,7 +89,10 @@ impl EnergyPoint {
             geometric: vec![0.0; unknowns],
             damping: vec![0.0; unknowns],
             inertia: vec![0.0; unknowns],
-            on_top: vec![[0.0; 3]; spans],
+            joints: JointForces {
+                on_top: vec![[0.0; 3]; spans],
+                multipliers: vec![[0.0; 2]; if spans > 0 { model.joints.len() } else { 0 }],
+            },
             spans: vec![SpanForces::default(); spans],
             bow: vec![[[0.0; 16]; 2]; spans],
             loads: vec![0.0; model.loads.len()],
@@ -102,7 +114,8 @@ impl EnergyPoint {
             && self.geometric.len() == other.geometric.len()
             && self.damping.len() == other.damping.len()
             && self.inertia.len() == other.inertia.len()
-            && self.on_top.len() == other.on_top.len()
+            && self.joints.on_top.len() == other.joints.on_top.len()
+            && self.joints.multipliers.len() == other.joints.multipliers.len()
             && self.spans.len() == other.spans.len()
             && self.bow.len() == other.bow.len()
             && self.loads.len() == other.loads.len()
@@ -115,7 +128,8 @@ impl EnergyPoint {
         self.geometric.copy_from_slice(&other.geometric);
         self.damping.copy_from_slice(&other.damping);
         self.inertia.copy_from_slice(&other.inertia);
-        self.on_top.copy_from_slice(&other.on_top);
+        self.joints.on_top.copy_from_slice(&other.joints.on_top);
+        self.joints.multipliers.copy_from_slice(&other.joints.multipliers);
         self.spans.copy_from_slice(&other.spans);
         self.bow.copy_from_slice(&other.bow);
         self.loads.copy_from_slice(&other.loads);
@@ -203,8 +217,8 @@ impl EnergyPoint {
         for (value, load) in self.loads.iter_mut().zip(&model.loads) {
             *value = load.load.history.at(conditions.time);
         }
-        for (reaction, &held) in self.reactions.iter_mut().zip(&places.held) {
-            *reaction = residual[held];
+        for (reaction, held) in self.reactions.iter_mut().zip(&places.held) {
+            *reaction = held.map_or(0.0, |held| residual[held]);
         }
         self.stored = stored;
         self.drive_torque = places.driven.map_or(0.0, |driven| residual[driven]);

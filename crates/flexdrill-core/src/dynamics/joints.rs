@@ -15,25 +15,33 @@ impl Assembler {
     pub(super) fn joint_forces(&mut self, model: &Model, state: &State) {
         self.translational_rows(model, state);
         let mut residual = std::mem::take(&mut self.residual);
-        self.rotational_rows(&mut residual, &model.places.joints, model, state, |_| true);
+        let lambda = |joint: usize| rotational_multipliers(model, state, joint);
+        self.joint_moments(&mut residual, &model.places.joints, state, lambda, |_| true);
+        for joint in 0..model.joints.len() {
+            let first = model.multipliers(joint) + 3;
+            for (row, value) in self.row_values(joint).enumerate() {
+                residual[first + row] = model.moment_scale * value;
+            }
+        }
         self.residual = residual;
     }
 
-    /// Rotational rows and stops, in the numbering of `places`, of joints whose unknowns are `wanted`.
-    pub(crate) fn rotational_rows(
+    /// Adds the moments of stops and rotational rows, whose multipliers (N m) `lambda` gives by joint, to the residual in
+    /// the numbering of `places`, and linearises them: of joints whose unknowns are `wanted`.
+    pub(crate) fn joint_moments(
         &mut self,
         residual: &mut [f64],
         places: &[JointPlaces],
-        model: &Model,
         state: &State,
+        lambda: impl Fn(usize) -> [f64; 2],
         wanted: impl Fn(usize) -> bool,
     ) {
-        self.instructions.run(RotationalRows {
+        self.instructions.run(JointMoments {
             residual,
             groups: &mut self.groups,
             places,
-            scale: model.moment_scale,
             state,
+            lambda,
             wanted,
         });
     }
@@ -56,17 +64,12 @@ impl Assembler {
     }
 
     /// Fills the joints' part of the tangent increment.
-    pub(crate) fn joint_tangent(
-        &mut self,
-        places: &[JointPlaces],
-        model: &Model,
-        state: &State,
-        factors: TangentFactors,
-    ) {
+    pub(crate) fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
         let mut joints = std::mem::take(&mut self.increment.joints);
+        let lambda = |joint: usize| rotational_multipliers(model, state, joint);
         self.joint_tangents(
-            (places, model, state),
             factors,
+            lambda,
             |_| true,
             |joint, tangent| {
                 let to = &mut joints[joint];
@@ -77,7 +80,7 @@ impl Assembler {
                 }
                 for (r, row) in to.rows.iter_mut().enumerate().take(tangent.group.rows().len()) {
                     for (k, x) in row.iter_mut().enumerate() {
-                        *x = tangent.row(r, k);
+                        *x = tangent.group.rows()[r].gradient[k][tangent.lane] * model.moment_scale;
                     }
                 }
             },
@@ -85,20 +88,20 @@ impl Assembler {
         self.increment.joints = joints;
     }
 
-    /// Hands the tangent of every joint that is `wanted` with its number to `take`.
+    /// Hands the tangent of every joint that is `wanted` with its number to `take`; `lambda` gives the multipliers (N m)
+    /// of its rows.
     pub(crate) fn joint_tangents(
         &self,
-        (places, model, state): (&[JointPlaces], &Model, &State),
         factors: TangentFactors,
+        lambda: impl Fn(usize) -> [f64; 2],
         wanted: impl Fn(usize) -> bool,
         take: impl FnMut(usize, &JointTangent<'_>),
     ) {
-        self.instructions.run(RotationalTangents {
+        self.instructions.run(JointTangents {
             groups: &self.groups,
-            places,
-            scale: model.moment_scale,
-            state,
+            joints: self.joints,
             factors,
+            lambda,
             wanted,
             take,
         });
@@ -106,10 +109,9 @@ impl Assembler {
 
     /// Moment (N m, >= 0), energy (J) and power of the damping (W) of the stop of each joint at the last residual.
     pub fn stops(&self) -> impl Iterator<Item = StopReport> + '_ {
-        let joints = self.increment.joints.len();
         let groups = self.groups.iter().map(JointGroup::stop);
         let stops = groups.flat_map(|stop| (0..8).map(move |lane| (stop, lane)));
-        stops.take(joints).map(|(stop, lane)| StopReport {
+        stops.take(self.joints).map(|(stop, lane)| StopReport {
             moment: stop.moment[lane],
             energy: stop.energy[lane],
             dissipation: stop.dissipation[lane],
@@ -122,6 +124,24 @@ impl Assembler {
         let gradient = &self.groups[joint / 8].rows()[row].gradient;
         std::array::from_fn(|k| gradient[k][joint % 8])
     }
+
+    /// Values of the rotational rows of a joint at the last residual.
+    pub(crate) fn row_values(&self, joint: usize) -> impl ExactSizeIterator<Item = f64> {
+        self.groups[joint / 8]
+            .rows()
+            .iter()
+            .map(move |row| row.value[joint % 8])
+    }
+}
+
+/// Multipliers (N m) of the rotational rows of a joint in the model's numbering.
+fn rotational_multipliers(model: &Model, state: &State, joint: usize) -> [f64; 2] {
+    // A joint with one row has no equation for the second, and zero there.
+    let first = model.multipliers(joint) + 3;
+    [
+        model.moment_scale * state.q[first],
+        model.moment_scale * state.q[first + 1],
+    ]
 }
 
 /// The stop of a joint at the last residual.
@@ -139,7 +159,6 @@ pub struct StopReport {
 pub(crate) struct JointTangent<'a> {
     rotations: &'a [[Lane; 6]; 6],
     group: &'a JointGroup,
-    scale: f64,
     lane: usize,
 }
 
@@ -149,38 +168,30 @@ impl JointTangent<'_> {
     pub fn rotation(&self, l: usize, k: usize) -> f64 {
         self.rotations[l][k][self.lane]
     }
-
-    /// Gradient of rotational row `r` in rotation `k`, as it stands in the equations.
-    #[inline(always)]
-    pub fn row(&self, r: usize, k: usize) -> f64 {
-        self.group.rows()[r].gradient[k][self.lane] * self.scale
-    }
 }
 
-/// Multipliers of the rotational rows of the first eight joints of `places`, times their scale (N m); lanes without a
-/// joint have none.
+/// Multipliers of the `count` joints from `first` on, by row; lanes without a joint have none.
 #[inline(always)]
-fn multipliers(places: &[JointPlaces], scale: f64, state: &State, rows: usize) -> [Lane; 2] {
-    let mut lambda = [Lane::default(); 2];
-    for (lane, joint) in places.iter().take(8).enumerate() {
-        for (row, lambda) in lambda.iter_mut().enumerate().take(rows) {
-            lambda[lane] = scale * state.q[joint.row + row];
-        }
+fn lanes_of(lambda: impl Fn(usize) -> [f64; 2], first: usize, count: usize) -> [Lane; 2] {
+    let mut lanes = [Lane::default(); 2];
+    for lane in 0..count {
+        let of = lambda(first + lane);
+        (lanes[0][lane], lanes[1][lane]) = (of[0], of[1]);
     }
-    lambda
+    lanes
 }
 
-/// Rotational rows and stops, eight joints at a time.
-struct RotationalRows<'a, W> {
+/// Moments of stops and rotational rows, eight joints at a time.
+struct JointMoments<'a, L, W> {
     residual: &'a mut [f64],
     groups: &'a mut [JointGroup],
     places: &'a [JointPlaces],
-    scale: f64,
     state: &'a State,
+    lambda: L,
     wanted: W,
 }
 
-impl<W: Fn(usize) -> bool> Kernel for RotationalRows<'_, W> {
+impl<L: Fn(usize) -> [f64; 2], W: Fn(usize) -> bool> Kernel for JointMoments<'_, L, W> {
     type Output = ();
 
     #[inline(always)]
@@ -189,8 +200,8 @@ impl<W: Fn(usize) -> bool> Kernel for RotationalRows<'_, W> {
             residual,
             groups,
             places,
-            scale,
             state,
+            lambda,
             wanted,
         } = self;
         for (g, group) in groups.iter_mut().enumerate() {
@@ -211,8 +222,7 @@ impl<W: Fn(usize) -> bool> Kernel for RotationalRows<'_, W> {
                     }
                 }
             }
-            let lambda = multipliers(places, scale, state, group.rows().len());
-            let moments = group.evaluate::<V>(&q, &rate, &lambda);
+            let moments = group.evaluate::<V>(&q, &rate, &lanes_of(&lambda, first, count));
             for (lane, joint) in places.iter().enumerate().take(8) {
                 if !wanted(joint.above) {
                     continue;
@@ -224,53 +234,52 @@ impl<W: Fn(usize) -> bool> Kernel for RotationalRows<'_, W> {
                 for (k, r) in residual[below].iter_mut().enumerate() {
                     *r += moments[3 + k][lane];
                 }
-                for (r, row) in group.rows().iter().enumerate() {
-                    residual[joint.row + r] = scale * row.value[lane];
-                }
             }
         }
     }
 }
 
 /// Derivatives of the moments of rotational rows and stops, eight joints at a time.
-struct RotationalTangents<'a, W, F> {
+struct JointTangents<'a, L, W, F> {
     groups: &'a [JointGroup],
-    places: &'a [JointPlaces],
-    scale: f64,
-    state: &'a State,
+    joints: usize,
     factors: TangentFactors,
+    lambda: L,
     wanted: W,
     take: F,
 }
 
-impl<W: Fn(usize) -> bool, F: FnMut(usize, &JointTangent<'_>)> Kernel for RotationalTangents<'_, W, F> {
+impl<L, W, F> Kernel for JointTangents<'_, L, W, F>
+where
+    L: Fn(usize) -> [f64; 2],
+    W: Fn(usize) -> bool,
+    F: FnMut(usize, &JointTangent<'_>),
+{
     type Output = ();
 
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self {
             groups,
-            places,
-            scale,
-            state,
+            joints,
             factors,
+            lambda,
             wanted,
             mut take,
         } = self;
         let mut rotations = [[Lane::default(); 6]; 6];
         for (g, group) in groups.iter().enumerate() {
             let first = 8 * g;
-            let count = (places.len() - first).min(8);
+            let count = (joints - first).min(8);
             if !(first..first + count).any(&wanted) {
                 continue;
             }
-            let lambda = multipliers(&places[first..], scale, state, group.rows().len());
+            let lambda = lanes_of(&lambda, first, count);
             group.tangent::<V>(&lambda, factors.stiffness, factors.damping, &mut rotations);
             for lane in 0..count {
                 let tangent = JointTangent {
                     rotations: &rotations,
                     group,
-                    scale,
                     lane,
                 };
                 if wanted(first + lane) {

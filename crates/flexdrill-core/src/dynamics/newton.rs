@@ -59,8 +59,8 @@ pub(crate) trait Equations {
     fn weights(&self, accuracy: Accuracy) -> &[f64];
     /// The last correction, and per unknown 1, or 0 for multipliers.
     fn correction(&self) -> (&[f64], &[f64]);
-    /// The unknown that the drive prescribes.
-    fn driven(&self, model: &Model) -> Option<usize>;
+    /// The unknowns that the drive prescribes.
+    fn driven<'a>(&'a self, model: &'a Model) -> &'a [usize];
     /// The first unknown beyond what is possible, with its value.
     fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)>;
     /// Station and pipe of an unknown.
@@ -123,7 +123,7 @@ impl<E: Equations> Kernel for Step<'_, E> {
         to.time = conditions.time;
         let drive_angle = conditions.drive_angle;
         to.drive_angle = drive_angle;
-        if let Some(driven) = equations.driven(model) {
+        for &driven in equations.driven(model) {
             to.q[driven] = drive_angle;
             (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
         }

@@ -1,4 +1,4 @@
-//! The equations of a step station by station: with links condensed between joints where that can be done, else whole.
+//! The equations of a step station by station: the static start, and the plain form that the chain is held against.
 
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
@@ -8,7 +8,7 @@ use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
 use crate::elements::joint::rotation::LARGEST_TILT;
-use crate::linear::{CondensedElimination, CondensedSystem, LinearSolver, Singular};
+use crate::linear::{LinearSolver, Singular};
 use crate::model::Model;
 use crate::simd::Instructions;
 use crate::tool::description::Body;
@@ -17,12 +17,10 @@ use crate::tool::description::Body;
 pub struct StationEquations {
     /// Residual and tangent.
     pub assembler: Assembler,
-    /// Solves with the whole tangent: static start, and tools that cannot be condensed.
+    /// Solves with the tangent.
     pub solver: Box<dyn LinearSolver>,
     /// When an iterate is accepted.
     pub tolerances: Tolerances,
-    /// Solves with the condensed tangent: steps in motion.
-    condensed: Option<CondensedTangents>,
     correction: Vec<f64>,
     limits: Limits,
     multiplier: Vec<bool>,
@@ -31,20 +29,6 @@ pub struct StationEquations {
     /// Axial forces of pipe and guide foreseen for the end of the step, and what part of them counts.
     foreseen: (Vec<f64>, Vec<f64>),
     foreseen_part: f64,
-}
-
-/// The condensed step-constant tangents, one per step size, and what solves with them. Geometric stiffness is left out,
-/// so that but for contacts and joints a tangent stays the same in motion.
-struct CondensedTangents {
-    elimination: CondensedElimination,
-    systems: Vec<(Key, CondensedSystem)>,
-}
-
-/// What the step-constant tangent depends on: factors, alpha, beta.
-type Key = (TangentFactors, f64, f64);
-
-fn key(factors: TangentFactors, conditions: &Conditions) -> Key {
-    (factors, conditions.rayleigh.alpha, conditions.rayleigh.beta)
 }
 
 impl StationEquations {
@@ -88,7 +72,6 @@ impl StationEquations {
             assembler: Assembler::new(model, instructions),
             solver,
             tolerances,
-            condensed: None,
             correction: vec![0.0; n],
             limits: Limits::new(inverse(&limits), inverse(&moving_limits)),
             moving: multiplier.iter().map(|&m| if m { 0.0 } else { 1.0 }).collect(),
@@ -96,25 +79,6 @@ impl StationEquations {
             foreseen: (vec![0.0; model.pipe.len()], vec![0.0; model.guide.len()]),
             foreseen_part: 0.0,
         }
-    }
-
-    /// Condenses the step-constant tangent for steps with these factors, if the tool's joints allow it; others are
-    /// solved by block LU.
-    pub fn prepare(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
-        let key = key(factors, conditions);
-        let known = |condensed: &CondensedTangents| condensed.systems.iter().any(|(known, _)| *known == key);
-        if self.condensed.as_ref().is_some_and(known) {
-            return;
-        }
-        let step_constant = self.assembler.step_constant(model, conditions, factors);
-        let Some(system) = CondensedSystem::of(step_constant, &model.joint_stations) else {
-            return;
-        };
-        let condensed = self.condensed.get_or_insert_with(|| CondensedTangents {
-            elimination: CondensedElimination::new(&model.layout, &model.joint_stations, self.assembler.instructions()),
-            systems: Vec::new(),
-        });
-        condensed.systems.push((key, system));
     }
 
     /// Accelerations and multipliers in balance with the forces at `state`, Eq. 17: M a + Phi_q^T lambda = F.
@@ -217,19 +181,8 @@ impl Equations for StationEquations {
         for (c, r) in self.correction.iter_mut().zip(&self.assembler.residual) {
             *c = -r;
         }
-        let key = key(factors, conditions);
-        let condensed = self.condensed.as_mut().and_then(|condensed| {
-            let (_, system) = condensed.systems.iter().find(|(known, _)| *known == key)?;
-            Some((&mut condensed.elimination, system))
-        });
-        let solved = if let Some((elimination, system)) = condensed {
-            self.assembler.stopwatch.lap(Phase::Assembly);
-            self.assembler.linearise(model, to, conditions, factors);
-            elimination.solve(system, &self.assembler.increment, &mut self.correction)
-        } else {
-            self.assembler.tangent(model, to, conditions, factors);
-            self.solver.solve(&self.assembler.system, &mut self.correction)
-        };
+        self.assembler.tangent(model, to, conditions, factors);
+        let solved = self.solver.solve(&self.assembler.system, &mut self.correction);
         self.assembler.stopwatch.lap(Phase::Solve);
         solved
     }
@@ -246,8 +199,8 @@ impl Equations for StationEquations {
         (&self.correction, &self.moving)
     }
 
-    fn driven(&self, model: &Model) -> Option<usize> {
-        model.driven
+    fn driven<'a>(&'a self, model: &'a Model) -> &'a [usize] {
+        model.driven.as_slice()
     }
 
     fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)> {

@@ -25,6 +25,7 @@ impl Assembler {
         }
     }
 
+    #[cfg(test)]
     /// The step-constant part of the tangent: elastic, damping and inertia terms and the joints' translational rows,
     /// with supports. It lasts as long as step size and damping do. Geometric stiffness is left out.
     pub fn step_constant(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) -> BlockSystem {
@@ -41,7 +42,7 @@ impl Assembler {
     pub fn linearise(&mut self, model: &Model, state: &State, conditions: &Conditions, factors: TangentFactors) {
         self.contact_tangent(model, factors);
         self.stopwatch.lap(Phase::Contact);
-        self.joint_tangent(&model.places.joints, model, state, factors);
+        self.joint_tangent(model, state, factors);
         // The bit's node is the first of the last station's block.
         let (last, spin) = (model.last(), Direction::Psi as usize);
         self.contact_block(last)[spin][spin] += factors.damping * self.bit.slope;

@@ -6,15 +6,16 @@
 
 mod block;
 mod block_lu;
-mod condensation;
 mod increment;
 #[cfg(feature = "reference")]
 mod sparse;
 mod system;
 
+#[cfg(test)]
+pub(crate) use block::solve_columns;
+pub(crate) use block::{PIVOT_RATIO, exchange};
 pub use block_lu::BlockLu;
-pub use condensation::{CondensedElimination, CondensedSystem, add_joint, sixteen, take};
-pub use increment::{ContactBlock, JointIncrement, TangentIncrement, Touching};
+pub use increment::{ContactBlock, TangentIncrement, Touching};
 #[cfg(feature = "reference")]
 pub use sparse::SparseReference;
 pub(super) use system::add_columns;

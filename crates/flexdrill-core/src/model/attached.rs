@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::Model;
 use crate::elements::point_body::PointBody;
-use crate::tool::description::{Body, Location, PointLoad, ToolDescription};
+use crate::tool::description::{Body, Direction, Location, PointLoad, ToolDescription};
 use crate::validation::ValidationError;
 
 /// A load with its unknown resolved.
@@ -49,8 +49,15 @@ impl Model {
     pub(super) fn attach(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
         for support in &d.supports {
             for node in self.nodes("supports", support.location, support.body, true)? {
-                self.held
-                    .extend(support.directions.iter().map(|&direction| node + direction as usize));
+                // A joint hands displacements and spin on: held above it, they are held. The tilts below are free of those
+                // above.
+                let station = &self.stations[self.layout.station_of(node)];
+                let below_joint = station.joint.is_some() && node == station.pipe_below;
+                let directions = support
+                    .directions
+                    .iter()
+                    .filter(|direction| !below_joint || matches!(direction, Direction::PhiY | Direction::PhiZ));
+                self.held.extend(directions.map(|&direction| node + direction as usize));
             }
         }
         if d.guide_fixed {

@@ -10,8 +10,6 @@ pub struct JointPlaces {
     pub above: usize,
     /// First rotation of the start below.
     pub below: usize,
-    /// First multiplier of its rotational rows, and first of those rows.
-    pub row: usize,
 }
 
 /// Unknowns that forces act on.
@@ -33,8 +31,8 @@ pub struct Places {
     pub loads: Vec<usize>,
     /// Of every mass, (u, v, w, psi, phi_y, phi_z).
     pub masses: Vec<[usize; 6]>,
-    /// Of every unknown that a support holds, in the order of [`Model::held`].
-    pub held: Vec<usize>,
+    /// Of every unknown that a support holds, in the order of [`Model::held`]; `None` where the numbering has none for it.
+    pub held: Vec<Option<usize>>,
 }
 
 impl Places {
@@ -53,7 +51,6 @@ impl Places {
                     JointPlaces {
                         above: station.pipe_above + 3,
                         below: station.pipe_below + 3,
-                        row: model.multipliers(joint) + 3,
                     }
                 })
                 .collect(),
@@ -63,11 +60,11 @@ impl Places {
                 .iter()
                 .map(|mass| std::array::from_fn(|k| mass.unknown + k))
                 .collect(),
-            held: model.held.clone(),
+            held: model.held.iter().copied().map(Some).collect(),
         }
     }
 
-    /// In another numbering, which gives every one of these unknowns a place; `None` if it does not.
+    /// In another numbering, which gives every one of these unknowns but held ones a place; `None` if it does not.
     pub fn renumbered(&self, place: impl Fn(usize) -> Option<usize>) -> Option<Self> {
         let optional = |unknown: Option<usize>| match unknown {
             Some(unknown) => place(unknown).map(Some),
@@ -86,7 +83,6 @@ impl Places {
                     Some(JointPlaces {
                         above: place(joint.above)?,
                         below: place(joint.below)?,
-                        row: place(joint.row)?,
                     })
                 })
                 .collect::<Option<_>>()?,
@@ -102,7 +98,7 @@ impl Places {
                     Some(to)
                 })
                 .collect::<Option<_>>()?,
-            held: self.held.iter().map(|&held| place(held)).collect::<Option<_>>()?,
+            held: self.held.iter().map(|held| held.and_then(&place)).collect(),
         })
     }
 }

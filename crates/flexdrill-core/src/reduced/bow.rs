@@ -23,8 +23,8 @@ impl Reduced {
             for (body, bow) in bow.iter_mut().enumerate() {
                 *bow = [0.0; 16];
                 let [top, bottom] = at_ends(nodes, l, body);
-                for i in 1..self.per {
-                    let station = &model.stations[l * self.per + i];
+                for i in 1..self.nodes.elements(l) {
+                    let station = &model.stations[self.nodes.first(l) + i];
                     let at = if body == 0 {
                         station.pipe_to_station * translation(&full.q, station.pipe_above)
                     } else {
@@ -81,7 +81,7 @@ impl Kernel for Bows<'_> {
         let [inner_radius, outer_radius] = model.guide_radii;
         to.iter_mut().zip(&by.links).for_each(|(to, link)| *to = *link.sag);
         for (station, touch) in assembler.inner.iter() {
-            let (l, i) = by.stations[station];
+            let (l, i) = by.nodes.stations[station];
             if let Some([by_pipe, by_guide]) = by.bow(l, i) {
                 let on_pipe = touch.force();
                 let mut on_guide = at_radius(&on_pipe, inner_radius);
@@ -92,7 +92,7 @@ impl Kernel for Bows<'_> {
             }
         }
         for (station, touch) in assembler.outer.iter() {
-            let (l, i) = by.stations[station];
+            let (l, i) = by.nodes.stations[station];
             if let Some([_, by_guide]) = by.bow(l, i) {
                 let on_guide = at_radius(&touch.force(), outer_radius);
                 let guide = &mut to[l][1];

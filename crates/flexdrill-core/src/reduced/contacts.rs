@@ -42,7 +42,7 @@ impl Reduced {
         let columns = &self.kinds[self.links[l].kind].motion[i][body];
         let [top, bottom] = at_ends(x.as_chunks().0, l, body);
         let (mut above, mut below) = (V::splat(0.0), V::splat(0.0));
-        if i < self.per {
+        if i < self.nodes.elements(l) {
             for j in 0..6 {
                 above = above.plus_product(V::load(&columns[j]), V::splat(top[j]));
             }
@@ -102,7 +102,7 @@ impl Search<'_> {
             conditions,
             arms,
         } = self;
-        let station = l * by.per + i;
+        let station = by.nodes.first(l) + i;
         let guide = by.local::<V>(&state.v, l, i, 1);
         by.any[l] = true;
         if closed[0] {
@@ -131,9 +131,9 @@ impl Search<'_> {
                 **touched = [[0.0; 16]; 2];
             }
         }
-        let moved = |station: usize| by.reach.spans[by.stations[station].0];
+        let moved = |station: usize| by.reach.spans[by.nodes.stations[station].0];
         for (station, touch) in assembler.inner.among(moved) {
-            let (l, i) = by.stations[station];
+            let (l, i) = by.nodes.stations[station];
             let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
             let force = touch.force();
             let [pipe, guide] = &mut by.touched[l].0;
@@ -147,7 +147,7 @@ impl Search<'_> {
         }
         let mut sum = OnSpan::<V>::new();
         for (station, touch) in assembler.outer.among(moved) {
-            let (l, i) = by.stations[station];
+            let (l, i) = by.nodes.stations[station];
             if l != sum.span {
                 sum.take_from(&mut by.touched, l);
             }
@@ -207,14 +207,13 @@ impl Kernel for Search<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(mut self) {
-        let per = self.by.per;
         if self.by.reach.whole {
             self.assembler.inner.clear();
             self.assembler.outer.clear();
         } else {
             for l in 0..self.by.links.len() {
                 if self.by.reach.spans[l] {
-                    let stations = per * l + usize::from(l > 0)..per * (l + 1) + 1;
+                    let stations = self.by.nodes.first(l) + usize::from(l > 0)..self.by.nodes.first(l + 1) + 1;
                     self.assembler.inner.open(stations.clone());
                     self.assembler.outer.open(stations);
                 }
@@ -253,7 +252,7 @@ impl Kernel for Search<'_> {
             let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
             let square = |y: V, z: V| y.times(y).plus_product(z, z);
             // Lanes beyond the span's stations hold nothing, and may not touch even where a state is beyond all bounds.
-            let stations = (1 << self.by.per) - 1;
+            let stations = (1 << self.by.nodes.elements(l)) - 1;
             let inner = square(y, z).above(V::load(&link.clearance_squared)) & stations;
             let outer = square(guide[0], guide[1]).above(V::splat(outer_squared)) & stations;
             let mut any = inner | outer;

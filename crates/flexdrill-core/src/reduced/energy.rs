@@ -8,7 +8,7 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{EnergyPoint, SpanForces};
 use crate::dynamics::state::State;
-use crate::model::Model;
+use crate::model::{HeldNode, Model};
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 
@@ -44,7 +44,40 @@ impl Reduced {
             assembler,
         });
         self.bow_spans(&mut point.bow, model, assembler);
+        point.joints.multipliers.copy_from_slice(&self.multipliers);
         point.finish(stored, &self.places, model, conditions, assembler, &self.residual);
+        self.reactions_inside_a_fixed_guide(point, model, assembler);
+    }
+}
+
+impl Reduced {
+    /// What supports put on the stations of a guide that is fixed as a whole, between the nodes: weight and contacts are
+    /// all that acts there.
+    fn reactions_inside_a_fixed_guide(&self, point: &mut EnergyPoint, model: &Model, assembler: &Assembler) {
+        if !model.description.guide_fixed {
+            return;
+        }
+        let inside = |at: &&HeldNode| self.places.held[at.held.start].is_none();
+        for at in model.held_nodes.iter().filter(inside) {
+            for index in at.held.clone() {
+                point.reactions[index] = -model.weight[model.held[index]];
+            }
+        }
+        let layers = [(&assembler.inner, 1.0), (&assembler.outer, -1.0)];
+        for ((layer, sign), radius) in layers.into_iter().zip(model.guide_radii) {
+            for (station, touch) in layer.iter() {
+                let guide = model.stations[station].guide;
+                let Ok(first) = model.held.binary_search(&guide) else {
+                    continue;
+                };
+                if self.places.held[first].is_none() {
+                    let reactions = &mut point.reactions[first..first + 6];
+                    for (reaction, force) in reactions.iter_mut().zip(at_radius(&touch.force(), radius)) {
+                        *reaction += sign * force;
+                    }
+                }
+            }
+        }
     }
 }
 
@@ -133,7 +166,7 @@ impl Kernel for SpanEnergies<'_> {
                 }
                 if body == 0 {
                     let (linear, stretched) = (&by.linear[l][0], &by.stretched[l][0]);
-                    for (i, top) in point.on_top[l].iter_mut().enumerate() {
+                    for (i, top) in point.joints.on_top[l].iter_mut().enumerate() {
                         let touched = if by.any[l] { by.touched[l][0][i] } else { 0.0 };
                         *top = linear[i] + in_use * stretched[i] + touched - link.weight_on_top[i];
                     }
@@ -216,7 +249,7 @@ impl Kernel for Friction<'_> {
         } = self;
         let mut stored = 0.0;
         for (station, touch) in assembler.inner.iter() {
-            let (l, i) = by.stations[station];
+            let (l, i) = by.nodes.stations[station];
             let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
             let force = touch.friction_force();
             let mut on = on_ends::<V>(on_pipe, &force);
@@ -230,7 +263,7 @@ impl Kernel for Friction<'_> {
         let mut sum = OnSpan::<V>::new();
         let mut on = [0.0; 16];
         for (station, touch) in assembler.outer.iter() {
-            let (l, i) = by.stations[station];
+            let (l, i) = by.nodes.stations[station];
             if l != sum.span {
                 let span = sum.span;
                 store(sum.next(l), &mut on);

@@ -7,19 +7,21 @@
 //!
 //! | place | unknown |
 //! |---|---|
-//! | 0..3 | rotations of the end above |
-//! | 3..6 | displacement |
-//! | 6..9 | rotations of the start below |
+//! | 0..3 | rotations above |
+//! | 3..6 | displacement of the pipe |
+//! | 6..9 | rotations below: the spin and, at a revolute joint, one tilt follow from the others, all three where there is no joint |
 //! | 9..15 | guide |
-//! | 15 | multiplier of the joint's rotational row, or of the axial tie |
+//! | 15 | multiplier of the axial tie, in the last node |
 //!
 //! All stations keep their contacts: one inside a span moves, and acts on, both ends through the slaving. It holds where
-//! inner stations vibrate faster than a step can follow, see [`Reduced::of`]; other tools are computed station by
-//! station.
+//! inner stations vibrate faster than a step can follow, so that [`nodes`] are placed by that.
 
 mod bow;
 mod contacts;
+mod dependents;
+mod double;
 mod energy;
+mod nodes;
 mod numbering;
 mod operator;
 mod precision;
@@ -41,6 +43,8 @@ use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::simd::aligned::Aligned;
 
+use dependents::{Dependents, FIRST_ROW, SECOND_ROW};
+use nodes::Nodes;
 use operator::Operator;
 use reach::Reach;
 use single::SingleSweep;
@@ -58,8 +62,8 @@ const NODE: usize = 16;
 const U: usize = 3;
 /// First of the guide.
 const GUIDE: usize = 9;
-/// Place of the multiplier.
-const MULTIPLIER: usize = 15;
+/// Place of the tie's multiplier, and after the last of the guide.
+const TIE: usize = 15;
 /// Stations per span, its lower end included, that one vector of eight holds.
 const MOST_STATIONS: usize = 8;
 
@@ -74,7 +78,7 @@ const LEAST_FREQUENCY: f64 = 8.0;
 /// Most that a span may bow, its ends held, under what its contacts push back with when all its inner stations are
 /// displaced by 1: the largest row sum of K_ii^-1 times the contacts' stiffness. As spans are bowed by the forces of the
 /// step before, an error of the bow shrinks by this from step to step, and would grow above 1.
-const MOST_GIVE: f64 = 0.25;
+const MOST_COMPLIANCE: f64 = 0.25;
 
 /// Corrections of a step that are solved in single precision; a step that needs more is solved in double from there on.
 const SINGLE_CORRECTIONS: u32 = 6;
@@ -89,24 +93,24 @@ pub(crate) struct Reduced {
     instructions: Instructions,
     /// Inner frequency of the slowest span (rad/s).
     slowest: f64,
-    /// See [`MOST_GIVE`].
-    give: f64,
-    nodes: usize,
-    /// Elements, and so stations but the first, per span.
-    per: usize,
-    /// Span and number in it of each station.
-    stations: Vec<(usize, usize)>,
+    nodes: Nodes,
     kinds: Vec<LinkMatrices>,
     links: Vec<Link>,
     pub(crate) numbering: Numbering,
     pub(crate) places: Places,
+    /// What the drive prescribes: the spin of the first node, above and below.
+    driven: Vec<usize>,
     /// Consistent forces of gravity (N, N m).
     pub(crate) weight: Vec<f64>,
-    /// Rows of each node that are equations, 1 or 0; `None` where all are.
+    /// Rows of each node whose unknowns are free, 1, or held, 0; `None` where all are free.
     rows: Vec<Option<[f64; NODE]>>,
     limits: Limits,
     moving: Vec<f64>,
     operators: Vec<Operator>,
+    /// The rotations of each node that follow from its others, as linearised by the last residual.
+    dependents: Vec<Dependents>,
+    /// Multipliers of the rotational rows of each joint at the last residual (N m).
+    multipliers: Vec<[f64; 2]>,
     /// Residual with its reactions.
     residual: Vec<f64>,
     /// Forces of the spans on their ends: linear ones, those of geometric stiffness per axial force with
@@ -132,24 +136,18 @@ pub(crate) struct Reduced {
 }
 
 impl Reduced {
-    /// The reduced form of a tool, or `None` where it has something that is computed station by station only: joints with
-    /// two rotational rows, supports or masses inside links, supports of a joint's start below, a fixed guide, more than
-    /// eight elements per link, no joint.
-    pub(crate) fn of(model: &Model, tolerances: &Tolerances, instructions: Instructions) -> Option<Self> {
-        let per = model.description.elements_per_link;
-        let one_row = Joint::rotational_rows(model.description.joint.kind) == 1;
-        if !one_row || per > MOST_STATIONS || model.joints.is_empty() {
-            return None;
-        }
-        let numbering = Numbering::of(model);
+    /// The chain of a tool for steps of size `h` (s).
+    pub(crate) fn of(model: &Model, tolerances: &Tolerances, h: f64, instructions: Instructions) -> Option<Self> {
+        let (chain, spans) = Nodes::of(model, h);
+        let numbering = Numbering::of(model, &chain);
         let places = model.places.renumbered(|unknown| numbering.place(unknown))?;
-        let nodes = model.joints.len() + 2;
-        let spans = nodes - 1;
-        let (kinds, mut links) = slaving::links(model)?;
+        let nodes = chain.list.len();
+        let (kinds, mut links) = slaving::links(model, &chain, spans);
         let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
-        let contacts = [&model.description.inner, &model.description.outer].map(|gap| gap.stiffness);
-        let give = kinds.iter().map(|kind| kind.give(contacts)).fold(0.0, f64::max);
-        let held = numbering.without_equation(model, &places)?;
+        let spans = links.len();
+        let mut driven: Vec<usize> = places.driven.into_iter().collect();
+        driven.extend(places.driven.map(|spin| spin + FIRST_ROW));
+        let held = numbering.held(model, places.driven);
         let mut rows = vec![None; nodes];
         for &unknown in &held {
             rows[unknown / NODE].get_or_insert([1.0; NODE])[unknown % NODE] = 0.0;
@@ -158,39 +156,46 @@ impl Reduced {
         let (force, moment) = (tolerances.force, tolerances.moment);
         let moving_force = tolerances.moving_force(model);
         let moving_moment = moving_force * tolerances.moving_moment;
+        let joint_rows = Joint::rotational_rows(model.description.joint.kind);
         let limits = |force: f64, moment: f64| {
             let mut limits = vec![moment; unknowns];
-            for (k, node) in limits.chunks_exact_mut(NODE).enumerate() {
+            for (node, at) in limits.chunks_exact_mut(NODE).zip(&chain.list) {
                 node[U..U + 3].fill(force);
                 node[GUIDE..GUIDE + 3].fill(force);
-                // The axial tie is the only row at an end.
-                let scale = if k + 1 == nodes {
-                    model.force_scale
+                let rows = tolerances.constraint * model.moment_scale;
+                match at.joint {
+                    Some(_) => node[FIRST_ROW] = rows,
+                    None => node[6..9].fill(f64::INFINITY),
+                }
+                node[SECOND_ROW] = if at.joint.is_some() && joint_rows > 1 {
+                    rows
                 } else {
-                    model.moment_scale
+                    f64::INFINITY
                 };
-                node[MULTIPLIER] = tolerances.constraint * scale;
+            }
+            if let Some(tie) = places.tie {
+                limits[tie] = tolerances.constraint * model.force_scale;
             }
             held.iter().for_each(|&unknown| limits[unknown] = f64::INFINITY);
             limits.iter().map(|limit| 1.0 / limit).collect::<Vec<f64>>()
         };
-        let weight = slaving::weights(model, &kinds, &mut links, unknowns);
+        let weight = slaving::weights(model, &chain, &kinds, &mut links, unknowns);
         Some(Self {
             instructions,
             slowest,
-            give,
-            nodes,
-            per,
-            stations: (0..=spans * per).map(|station| span_of(station, per)).collect(),
+            dependents: vec![Dependents::welded(); nodes],
+            multipliers: vec![[0.0; 2]; model.joints.len()],
+            driven,
+            limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
+            nodes: chain,
             kinds,
             links,
             numbering,
             places,
             weight,
             rows,
-            limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
             moving: (0..unknowns)
-                .map(|unknown| if unknown % NODE == MULTIPLIER { 0.0 } else { 1.0 })
+                .map(|unknown| if unknown % NODE == TIE { 0.0 } else { 1.0 })
                 .collect(),
             operators: Vec::new(),
             residual: vec![0.0; unknowns],
@@ -211,15 +216,18 @@ impl Reduced {
         })
     }
 
-    /// Whether inner stations are fast enough to be slaved in steps of size `h` (s), and spans stiff enough to be bowed by
-    /// the forces of the step before.
-    pub(crate) fn holds_for(&self, h: f64) -> bool {
-        self.slowest * h >= LEAST_FREQUENCY && self.give <= MOST_GIVE
+    /// Halvings of a step of size `h` (s) down to the smallest that the slaving of inner stations holds for.
+    pub(crate) fn finest_refinement(&self, h: f64) -> u32 {
+        let mut halvings = 0;
+        while halvings < 31 && self.slowest * h / f64::from(2_u32 << halvings) >= LEAST_FREQUENCY {
+            halvings += 1;
+        }
+        halvings
     }
 
     /// Number of unknowns.
     pub(crate) fn unknowns(&self) -> usize {
-        NODE * self.nodes
+        NODE * self.nodes.list.len()
     }
 
     /// Number of spans.
@@ -270,14 +278,6 @@ fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
             [above[9], above[10], above[11], above[12], above[13], above[14]],
             [below[9], below[10], below[11], below[12], below[13], below[14]],
         ]
-    }
-}
-
-/// Span and number in it of a station, of spans of so many stations.
-fn span_of(station: usize, per: usize) -> (usize, usize) {
-    match station.checked_sub(1) {
-        Some(before) => (before / per, before % per + 1),
-        None => (0, 0),
     }
 }
 

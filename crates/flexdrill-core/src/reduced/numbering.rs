@@ -2,9 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::{EndForces, GUIDE, MULTIPLIER, NODE, Reduced, U, ends};
+use super::nodes::Nodes;
+use super::{EndForces, GUIDE, NODE, Reduced, TIE, U, ends};
+use crate::dynamics::energy::JointForces;
 use crate::dynamics::state::State;
-use crate::model::{Model, Places};
+use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 
@@ -12,20 +14,18 @@ use crate::simd::vector::Vector;
 pub(crate) struct Numbering {
     /// By the model's unknowns.
     places: Vec<Option<usize>>,
-    nodes: usize,
+    /// First unknowns of the nodes at which the pipe goes through in one piece.
+    welded: Vec<usize>,
 }
 
 impl Numbering {
-    pub(super) fn of(model: &Model) -> Self {
-        let per = model.description.elements_per_link;
-        let nodes = model.joints.len() + 2;
+    pub(super) fn of(model: &Model, nodes: &Nodes) -> Self {
         let mut places = vec![None; model.unknowns()];
-        for k in 0..nodes {
-            let (station, first) = (&model.stations[k * per], NODE * k);
-            let rotations = if k == 0 { first + 6 } else { first };
+        for (k, node) in nodes.list.iter().enumerate() {
+            let (station, first) = (&model.stations[node.station], NODE * k);
             for i in 0..3 {
                 places[station.pipe_above + i] = Some(first + U + i);
-                places[station.pipe_above + 3 + i] = Some(rotations + i);
+                places[station.pipe_above + 3 + i] = Some(first + i);
                 if station.joint.is_some() {
                     places[station.pipe_below + 3 + i] = Some(first + 6 + i);
                 }
@@ -33,14 +33,13 @@ impl Numbering {
             for i in 0..6 {
                 places[station.guide + i] = Some(first + GUIDE + i);
             }
-            if let Some(joint) = station.joint {
-                places[model.multipliers(joint) + 3] = Some(first + MULTIPLIER);
-            }
         }
         if let Some(tie) = model.tie {
-            places[tie] = Some(NODE * (nodes - 1) + MULTIPLIER);
+            places[tie] = Some(NODE * nodes.spans() + TIE);
         }
-        Self { places, nodes }
+        let welded = nodes.list.iter().enumerate().filter(|(_, node)| node.joint.is_none());
+        let welded = welded.map(|(k, _)| NODE * k).collect();
+        Self { places, welded }
     }
 
     /// Place of an unknown of the model that is one of the reduced numbering too.
@@ -48,19 +47,11 @@ impl Numbering {
         self.places[unknown]
     }
 
-    /// Reduced unknowns without an equation; `None` if an unknown is held that is not in the reduced numbering.
-    pub(super) fn without_equation(&self, model: &Model, places: &Places) -> Option<Vec<usize>> {
-        let last = NODE * (self.nodes - 1);
-        let mut out: Vec<usize> = (0..3).chain(last + 6..last + 9).collect();
-        out.push(MULTIPLIER);
-        if places.tie.is_none() {
-            out.push(last + MULTIPLIER);
-        }
-        for &unknown in &model.held {
-            out.push(self.place(unknown)?);
-        }
-        out.extend(places.driven);
-        Some(out)
+    /// Unknowns that are held, by supports or, `driven`, by the drive. A support inside a guide that is fixed as a whole
+    /// holds none.
+    pub(super) fn held(&self, model: &Model, driven: Option<usize>) -> Vec<usize> {
+        let held = model.held.iter().filter_map(|&unknown| self.place(unknown));
+        held.chain(driven).collect()
     }
 
     /// Takes what `full` holds for the unknowns of `reduced`.
@@ -77,6 +68,9 @@ impl Numbering {
                 if let Some(place) = place {
                     to[*place] = *x;
                 }
+            }
+            for &first in &self.welded {
+                to.copy_within(first..first + 3, first + 6);
             }
         }
         (reduced.scheme_step, reduced.time, reduced.drive_angle) = (full.scheme_step, full.time, full.drive_angle);
@@ -103,16 +97,14 @@ impl Reduced {
 
     /// Spins of the pipe.
     pub(crate) fn spins(&self) -> impl Iterator<Item = usize> {
-        let last = self.nodes - 1;
-        let above = (1..=last).map(|k| NODE * k);
-        above.chain((0..last).map(|k| NODE * k + 6))
+        (0..self.nodes.list.len()).flat_map(|k| [NODE * k, NODE * k + 6])
     }
 
     /// Station and whether it is the guide's, of a reduced unknown.
     pub(super) fn locate(&self, unknown: usize) -> (usize, bool) {
         (
-            self.per * (unknown / NODE),
-            (GUIDE..MULTIPLIER).contains(&(unknown % NODE)),
+            self.nodes.list[unknown / NODE].station,
+            (GUIDE..TIE).contains(&(unknown % NODE)),
         )
     }
 
@@ -125,11 +117,11 @@ impl Reduced {
     ) -> Vector3<f64> {
         let of = |values: &[f64], first: usize| Vector3::new(values[first], values[first + 1], values[first + 2]);
         let on_node = |k: usize, pipe: Vector3<f64>, guide: Vector3<f64>| {
-            let station = &model.stations[k * self.per];
+            let station = &model.stations[self.nodes.first(k)];
             station.frame * (station.pipe_to_station * pipe + guide)
         };
         let mut sum = Vector3::zeros();
-        for k in 0..self.nodes {
+        for k in 0..self.nodes.list.len() {
             sum += on_node(k, of(values, NODE * k + U), of(values, NODE * k + GUIDE));
         }
         for (l, [pipe, guide]) in spans.enumerate() {
@@ -140,14 +132,14 @@ impl Reduced {
         sum
     }
 
-    /// Shows the reduced state in the model's numbering: inner stations as they are slaved, and the force of each joint,
-    /// from those `on_top` of the spans, as its translational multipliers. Lagged accelerations stay as they are.
-    pub(crate) fn show(&self, model: &Model, (reduced, on_top): (&State, &[[f64; 3]]), full: &mut State) {
+    /// Shows the reduced state in the model's numbering: inner stations as they are slaved, and the force
+    /// and moment of each joint as its multipliers. Lagged accelerations stay as they are.
+    pub(crate) fn show(&self, model: &Model, reduced: &State, forces: &JointForces, full: &mut State) {
         self.instructions.run(Show {
             by: self,
             model,
             reduced,
-            on_top,
+            forces,
             full,
         });
     }
@@ -157,12 +149,12 @@ impl Reduced {
     /// What `values` in the reduced numbering mean for the translation of the pipe at `station`, in the pipe's own axes;
     /// at a joint of the end above.
     pub(crate) fn pipe_translation(&self, values: &[f64], station: usize) -> Vector3<f64> {
-        let (l, i) = self.stations[station];
+        let (l, i) = self.nodes.stations[station];
         let node = |k: usize| Vector3::new(values[NODE * k + U], values[NODE * k + U + 1], values[NODE * k + U + 2]);
         if station == 0 {
             return node(0);
         }
-        if i == self.per {
+        if i == self.nodes.elements(l) {
             return node(l + 1);
         }
         let columns = &self.kinds[self.links[l].kind].inner[i - 1][0];
@@ -181,7 +173,7 @@ struct Show<'a> {
     by: &'a Reduced,
     model: &'a Model,
     reduced: &'a State,
-    on_top: &'a [[f64; 3]],
+    forces: &'a JointForces,
     full: &'a mut State,
 }
 
@@ -194,23 +186,21 @@ impl Kernel for Show<'_> {
             by,
             model,
             reduced,
-            on_top,
+            forces,
             full,
         } = self;
         (full.scheme_step, full.time, full.drive_angle) = (reduced.scheme_step, reduced.time, reduced.drive_angle);
-        let per = by.per;
         for (from, to) in [
             (&reduced.q, &mut full.q),
             (&reduced.v, &mut full.v),
             (&reduced.a, &mut full.a),
         ] {
             for (k, node) in from.as_chunks::<NODE>().0.iter().enumerate() {
-                let station = &model.stations[k * per];
-                let rotations = if k == 0 { 6 } else { 0 };
+                let station = &model.stations[by.nodes.list[k].station];
                 let u = Vector3::new(node[U], node[U + 1], node[U + 2]);
                 for i in 0..3 {
                     to[station.pipe_above + i] = u[i];
-                    to[station.pipe_above + 3 + i] = node[rotations + i];
+                    to[station.pipe_above + 3 + i] = node[i];
                 }
                 to[station.guide..station.guide + 6].copy_from_slice(&node[GUIDE..GUIDE + 6]);
                 if let Some(joint) = station.joint {
@@ -240,28 +230,31 @@ impl Kernel for Show<'_> {
                         }
                         let mut lanes = [0.0; 8];
                         even.plus(odd).store(&mut lanes);
-                        let station = &model.stations[l * per + i + 1];
+                        let station = &model.stations[by.nodes.first(l) + i + 1];
                         let first = if body == 0 { station.pipe_above } else { station.guide };
                         to[first..first + 6].copy_from_slice(&lanes[..6]);
                     }
                 }
             }
         }
-        for (joint, at) in model.joints.iter().enumerate() {
-            let (span, first) = (joint + 1, model.multipliers(joint));
-            let place = NODE * span + U;
+        for (span, node) in by.nodes.list.iter().enumerate() {
+            let Some(joint) = node.joint else { continue };
+            let (at, first) = (&model.joints[joint], model.multipliers(joint));
             // What the span below asks for at its top, in the frame of the link above.
-            let force = Vector3::from(on_top[span]);
+            let force = Vector3::from(forces.on_top[span]);
             let force = at.upper * force / model.force_scale;
             (0..3).for_each(|i| full.q[first + i] = force[i]);
-            full.q[first + 3] = reduced.q[place - U + MULTIPLIER];
+            for (row, lambda) in forces.multipliers[joint].iter().enumerate() {
+                full.q[first + 3 + row] = lambda / model.moment_scale;
+            }
         }
         if let (Some(tie), Some(place)) = (model.tie, by.places.tie) {
             full.q[tie] = reduced.q[place];
         }
         for l in 0..by.links.len() {
-            full.pipe_axial[l * per..(l + 1) * per].fill(reduced.pipe_axial[l]);
-            full.guide_axial[l * per..(l + 1) * per].fill(reduced.guide_axial[l]);
+            let elements = by.nodes.first(l)..by.nodes.first(l + 1);
+            full.pipe_axial[elements.clone()].fill(reduced.pipe_axial[l]);
+            full.guide_axial[elements].fill(reduced.guide_axial[l]);
         }
     }
 }

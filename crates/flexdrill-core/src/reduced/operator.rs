@@ -2,7 +2,7 @@
 
 use super::single::SingleOperator;
 use super::slaving::row;
-use super::{BOTTOM, EndColumn, MULTIPLIER, NODE, Reduced, TOP, U};
+use super::{BOTTOM, EndColumn, NODE, Reduced, TIE, TOP, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::model::Model;
@@ -52,7 +52,7 @@ impl Operator {
                 }))
             })
             .collect();
-        let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; reduced.nodes];
+        let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; reduced.nodes.list.len()];
         for (l, link) in reduced.links.iter().enumerate() {
             for (body, columns) in spans[link.kind].iter().enumerate() {
                 let (top, bottom) = (&TOP[6 * body..], &BOTTOM[6 * body..]);
@@ -70,11 +70,13 @@ impl Operator {
                 nodes[node][at][at] += inertial * mass;
             }
         }
+        nodes.iter_mut().for_each(|node| node[TIE][TIE] = 1.0);
         if reduced.places.tie.is_some() {
-            let (last, scale) = (reduced.nodes - 1, model.force_scale);
+            nodes[reduced.spans()][TIE][TIE] = 0.0;
+            let (last, scale) = (reduced.spans(), model.force_scale);
             for (place, sign) in [(U, scale), (super::GUIDE, -scale)] {
-                nodes[last][MULTIPLIER][place] += sign;
-                nodes[last][place][MULTIPLIER] += sign;
+                nodes[last][TIE][place] += sign;
+                nodes[last][place][TIE] += sign;
             }
         }
         let couplings = spans

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3};
 
+use super::nodes::Nodes;
 use super::precision::OnNodes;
 use super::{EndColumn, ends};
 use crate::dynamics::state::Bow;
@@ -58,12 +59,11 @@ pub(super) struct Link {
     pub sag: Aligned<Bow>,
 }
 
-/// All spans, like ones with the same matrices. `None` if a span's inner stiffness or mass is singular.
-pub(super) fn links(model: &Model) -> Option<(Vec<LinkMatrices>, Vec<Link>)> {
-    let per = model.description.elements_per_link;
+/// The spans between `nodes`, whose matrices were `made` with them: like ones share theirs.
+pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (Vec<LinkMatrices>, Vec<Link>) {
     let (mut kinds, mut links) = (Vec::<LinkMatrices>::new(), Vec::new());
-    for l in 0..model.description.links {
-        let made = LinkMatrices::of(model, l)?;
+    for (l, made) in made.into_iter().enumerate() {
+        let (first, per) = (nodes.first(l), nodes.elements(l));
         let kind = match kinds.iter().position(|kind| kind.is_close(&made)) {
             Some(kind) => kind,
             None => {
@@ -79,27 +79,33 @@ pub(super) fn links(model: &Model) -> Option<(Vec<LinkMatrices>, Vec<Link>)> {
             sag: Aligned([[0.0; 16]; 2]),
         };
         for i in 0..per {
-            let station = &model.stations[l * per + i + 1];
+            let station = &model.stations[first + i + 1];
             (link.offset[0][i], link.offset[1][i]) = (station.offset.x, station.offset.y);
             link.clearance_squared[i] = station.inner_clearance * station.inner_clearance;
         }
         links.push(link);
     }
-    Some((kinds, links))
+    (kinds, links)
 }
 
 /// Consistent forces of gravity in the reduced numbering.
-pub(super) fn weights(model: &Model, kinds: &[LinkMatrices], links: &mut [Link], unknowns: usize) -> Vec<f64> {
-    let per = model.description.elements_per_link;
+pub(super) fn weights(
+    model: &Model,
+    nodes: &Nodes,
+    kinds: &[LinkMatrices],
+    links: &mut [Link],
+    unknowns: usize,
+) -> Vec<f64> {
     let mut out = vec![0.0; unknowns];
     for (l, link) in links.iter_mut().enumerate() {
+        let (first, per) = (nodes.first(l), nodes.elements(l));
         for body in 0..2 {
             let mut weight = DVector::<f64>::zeros(6 * (per + 1));
             for e in 0..per {
                 let element = if body == 0 {
-                    &model.pipe[l * per + e].weight
+                    &model.pipe[first + e].weight
                 } else {
-                    &model.guide[l * per + e].weight
+                    &model.guide[first + e].weight
                 };
                 let mut part = weight.rows_mut(6 * e, 12);
                 part += element;
@@ -108,7 +114,7 @@ pub(super) fn weights(model: &Model, kinds: &[LinkMatrices], links: &mut [Link],
             let on_ends = kind.slaved[body].tr_mul(&weight);
             let sag = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
             for i in 1..per {
-                let at = local_lateral(model, l * per + i, body) * sag.rows(6 * (i - 1), 6);
+                let at = local_lateral(model, first + i, body) * sag.rows(6 * (i - 1), 6);
                 (link.sag[body][i - 1], link.sag[body][8 + i - 1]) = (at[0], at[1]);
             }
             if body == 0 {
@@ -125,9 +131,8 @@ pub(super) fn weights(model: &Model, kinds: &[LinkMatrices], links: &mut [Link],
 }
 
 impl LinkMatrices {
-    fn of(model: &Model, l: usize) -> Option<Self> {
-        let per = model.description.elements_per_link;
-        let first = l * per;
+    /// Of the span of `per` elements below station `first`.
+    pub fn of(model: &Model, first: usize, per: usize) -> Self {
         let size = 6 * (per + 1);
         let mut matrices: [[DMatrix<f64>; 3]; 2] =
             std::array::from_fn(|_| std::array::from_fn(|_| DMatrix::zeros(size, size)));
@@ -146,15 +151,21 @@ impl LinkMatrices {
         let empty = || [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)];
         let (mut slaved, mut compliance): ([DMatrix<f64>; 2], [DMatrix<f64>; 2]) = (empty(), empty());
         for (body, [stiffness, mass, _]) in matrices.iter().enumerate() {
-            let made = Guyan::of(stiffness, mass)?;
+            let held = Guyan::held(per);
+            let made = if body == 1 && model.description.guide_fixed {
+                held
+            } else {
+                // What cannot be slaved is as slow as can be, so that the span is split.
+                Guyan::of(stiffness, mass).unwrap_or(Guyan { slowest: 0.0, ..held })
+            };
             (slaved[body], compliance[body]) = (made.slaved, made.compliance);
             slowest = slowest.min(made.slowest);
         }
         // The pipe's top end: the displacement is that of the end above the joint, in its frame. Its bottom end: rotations
         // before displacements.
         let mut turned = DMatrix::<f64>::identity(12, 12);
-        if l > 0 {
-            let joint = &model.joints[l - 1];
+        if let Some(joint) = model.stations[first].joint {
+            let joint = &model.joints[joint];
             let turn: Matrix3<f64> = joint.lower.transpose() * joint.upper;
             turned.view_mut((0, 0), (3, 3)).copy_from(&turn);
         }
@@ -231,7 +242,7 @@ impl LinkMatrices {
                 columns
             }))
         });
-        Some(Self {
+        Self {
             stiffness: both(0),
             mass: both(1),
             geometric: geometric(&both(2), &tension),
@@ -246,13 +257,13 @@ impl LinkMatrices {
             slowest,
             slaved,
             compliance,
-        })
+        }
     }
 
     /// Largest deflection that contacts of these stiffnesses (N/m; pipe-guide, guide-wall) make between the ends for a
     /// deflection of 1 in either direction at all inner stations: a bound on what is left of it from step to step.
-    pub fn give(&self, [inner, outer]: [f64; 2]) -> f64 {
-        let mut give = 0.0_f64;
+    pub fn compliance(&self, [inner, outer]: [f64; 2]) -> f64 {
+        let mut largest = 0.0_f64;
         for lane in 0..16 {
             let sum = |body: usize| {
                 self.bow
@@ -260,9 +271,9 @@ impl LinkMatrices {
                     .map(|at| at[body][1][lane].abs() + at[body][2][lane].abs())
                     .sum::<f64>()
             };
-            give = give.max(inner * (sum(0) + sum(1)) + outer * sum(1));
+            largest = largest.max(inner * (sum(0) + sum(1)) + outer * sum(1));
         }
-        give
+        largest
     }
 
     /// Whether `other` is the same but for rounding.
@@ -349,20 +360,28 @@ struct Guyan {
 }
 
 impl Guyan {
-    fn of(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Self> {
-        let n = stiffness.nrows();
+    /// Of a span all of whose inner nodes are held too.
+    fn held(per: usize) -> Self {
+        let n = 6 * (per + 1);
         let mut slaved = DMatrix::zeros(n, 12);
         for i in 0..6 {
             (slaved[(i, i)], slaved[(n - 6 + i, 6 + i)]) = (1.0, 1.0);
         }
+        Self {
+            slaved,
+            compliance: DMatrix::zeros(n - 12, n - 12),
+            slowest: f64::INFINITY,
+        }
+    }
+
+    fn of(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Self> {
+        let n = stiffness.nrows();
+        let held = Self::held(n / 6 - 1);
         let inner = n - 12;
         if inner == 0 {
-            return Some(Self {
-                slaved,
-                compliance: DMatrix::zeros(0, 0),
-                slowest: f64::INFINITY,
-            });
+            return Some(held);
         }
+        let mut slaved = held.slaved;
         let part = |matrix: &DMatrix<f64>| matrix.view((6, 6), (inner, inner)).clone_owned();
         let factor = part(mass).cholesky()?.l();
         let mut to_ends = DMatrix::zeros(inner, 12);

@@ -1,11 +1,15 @@
 //! Newton's equations over the joints, and their solution: blocks of 16 eliminated from the top down.
 
+use super::dependents::{Dependents, FIRST_ROW, ROTATIONS, SECOND_ROW};
+use super::double::sixteen;
+use super::nodes::{Node, pass};
 use super::operator::{Block, Operator};
+use super::precision::Double;
 use super::reach::WHOLE_CORRECTIONS;
 use super::residual::{load, plus_column, store};
 use super::single::SingleElimination;
 use super::tangent::Additions;
-use super::{BOTTOM, GUIDE, Link, MULTIPLIER, NODE, Reduced, SINGLE_CORRECTIONS, TOP, U};
+use super::{BOTTOM, GUIDE, Link, NODE, Reduced, SINGLE_CORRECTIONS, TIE, TOP};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
@@ -14,7 +18,7 @@ use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
 use crate::elements::joint::rotation::LARGEST_TILT;
-use crate::linear::{JointIncrement, Singular, Touching, add_joint, sixteen, take};
+use crate::linear::{Singular, Touching};
 use crate::model::Model;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
@@ -23,16 +27,23 @@ use crate::tool::description::Body;
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
 
+/// Most corrections of a state at rest, and the part of the limits at rest at which they end.
+const MOST_STATIC_CORRECTIONS: u32 = 20;
+const SETTLED: f64 = 0.1;
+
 /// Room for an elimination.
 pub(super) struct Sweep {
     /// S^-1 (U, r) per node.
     columns: Vec<[[f64; NODE]; COLUMNS]>,
+    /// What the joint of each node adds, over the rotations above and below, by columns.
+    joints: Vec<[[f64; 6]; 6]>,
 }
 
 impl Sweep {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
             columns: vec![[[0.0; NODE]; COLUMNS]; nodes],
+            joints: vec![[[0.0; 6]; 6]; nodes],
         }
     }
 }
@@ -42,7 +53,8 @@ struct Elimination<'a> {
     sweep: &'a mut Sweep,
     operator: &'a Operator,
     additions: &'a Additions<f64>,
-    joints: &'a [JointIncrement],
+    nodes: &'a [Node],
+    dependents: &'a [Dependents],
     links: &'a [Link],
     rows: &'a [Option<[f64; NODE]>],
     /// The right-hand side, which becomes the solution.
@@ -56,7 +68,7 @@ impl Elimination<'_> {
         let mut block = self.operator.blocks[self.operator.block_of[k]];
         let columns = match self.additions.nodes[k] {
             Touching::Nothing => 0..0,
-            Touching::Guide => GUIDE..MULTIPLIER,
+            Touching::Guide => GUIDE..TIE,
             Touching::Both => 0..NODE,
         };
         for (to, from) in block[columns.clone()]
@@ -66,8 +78,12 @@ impl Elimination<'_> {
             let (a, b): ([V; 2], [V; 2]) = (load(to), load(from));
             store([a[0].plus(b[0]), a[1].plus(b[1])], to);
         }
-        if let Some(joint) = k.checked_sub(1).and_then(|joint| self.joints.get(joint)) {
-            add_joint(&mut block, joint);
+        if self.nodes[k].joint.is_some() {
+            for (l, column) in self.sweep.joints[k].iter().enumerate() {
+                for (x, place) in column.iter().zip(ROTATIONS) {
+                    block[ROTATIONS[l]][place] += x;
+                }
+            }
         }
         block
     }
@@ -90,14 +106,24 @@ impl Elimination<'_> {
             }
         }
         // What is held takes no part.
-        if let Some(rows) = &self.rows[l] {
-            upper[..12].iter_mut().for_each(|column| keep(column, rows));
-        }
         if let Some(rows) = &self.rows[l + 1] {
             lower.iter_mut().for_each(|column| keep(column, rows));
         }
         touching
     }
+}
+
+/// Takes what comes from above off a block and its right-hand side.
+#[inline(always)]
+fn take_carry<V: Vector>(block: &mut Block, right: &mut [f64; NODE], carry: &[[f64; NODE]; COLUMNS]) {
+    let minus = |to: &mut [f64; NODE], from: &[f64; NODE]| {
+        let (x, c): ([V; 2], [V; 2]) = (load(to), load(from));
+        store([x[0].minus(c[0]), x[1].minus(c[1])], to);
+    };
+    for (column, place) in carry.iter().zip(BOTTOM) {
+        minus(&mut block[place], column);
+    }
+    minus(right, &carry[12]);
 }
 
 /// Keeps the rows that are equations.
@@ -120,9 +146,23 @@ impl Kernel for Elimination<'_> {
             let mut block = self.block::<V>(k);
             let mut right = [0.0; NODE];
             right.copy_from_slice(&self.values[NODE * k..NODE * (k + 1)]);
-            if k > 0 {
-                take(&mut block, &mut right, &carry);
+            let rows = [right[FIRST_ROW], right[SECOND_ROW]];
+            if self.nodes[k].joint.is_some() {
+                // What stands there is no moment.
+                (right[FIRST_ROW], right[SECOND_ROW]) = (0.0, 0.0);
             }
+            if k > 0 {
+                take_carry::<V>(&mut block, &mut right, &carry);
+            }
+            let last = k + 1 == nodes;
+            let mut columns = [[0.0; NODE]; COLUMNS];
+            let touching = if last {
+                Touching::Nothing
+            } else {
+                self.coupling::<V>(k, &mut columns, &mut lower)
+            };
+            let coupling = &mut columns[..12];
+            self.dependents[k].eliminate::<f64, Double<V>>(&mut block, coupling, &mut right, rows, true);
             if let Some(rows) = &self.rows[k] {
                 for (i, column) in block.iter_mut().enumerate() {
                     keep(column, rows);
@@ -131,24 +171,19 @@ impl Kernel for Elimination<'_> {
                         column[i] = 1.0;
                     }
                 }
+                coupling.iter_mut().for_each(|column| keep(column, rows));
                 keep(&mut right, rows);
             }
-            if k + 1 == nodes {
+            if last {
                 let mut column = [right];
                 sixteen::<V, 1>(&mut block, &mut column, |_| 0).map_err(|pivot| (k, pivot))?;
                 self.values[NODE * k..].copy_from_slice(&column[0]);
                 break;
             }
-            let mut columns = [[0.0; NODE]; COLUMNS];
-            let touching = self.coupling::<V>(k, &mut columns, &mut lower);
             columns[12] = right;
-            // The pipe's columns begin at the displacement, the guide's at the guide but where they cross.
+            // The pipe's columns begin at the rotations, the guide's at the guide but where they cross.
             let crossed = touching == Touching::Both;
-            let active = |row: usize| match row {
-                0..U => 0,
-                U..GUIDE if !crossed => 6,
-                _ => 12,
-            };
+            let active = |row: usize| if row < GUIDE && !crossed { 6 } else { 12 };
             sixteen::<V, COLUMNS>(&mut block, &mut columns, active).map_err(|pivot| (k, pivot))?;
             for (carry, column) in carry.iter_mut().zip(&columns) {
                 let (mut pipe, mut guide) = ([V::splat(0.0); 2], [V::splat(0.0); 2]);
@@ -169,17 +204,19 @@ impl Kernel for Elimination<'_> {
             }
             self.sweep.columns[k] = columns;
         }
+        let (values, _) = self.values.as_chunks_mut::<NODE>();
         for k in (0..nodes - 1).rev() {
             let columns = &self.sweep.columns[k];
-            let (above, below) = self.values.split_at_mut(NODE * (k + 1));
+            let below = values[k + 1];
             let (mut even, mut odd) = (load::<V>(&columns[12]), [V::splat(0.0); 2]);
             for c in 0..6 {
                 even = plus_column(even, &columns[2 * c], V::splat(-below[BOTTOM[2 * c]]));
                 odd = plus_column(odd, &columns[2 * c + 1], V::splat(-below[BOTTOM[2 * c + 1]]));
             }
-            let mut x = [0.0; NODE];
-            store([even[0].plus(odd[0]), even[1].plus(odd[1])], &mut x);
-            above[NODE * k..].copy_from_slice(&x);
+            store([even[0].plus(odd[0]), even[1].plus(odd[1])], &mut values[k]);
+        }
+        for (values, node) in values.iter_mut().zip(self.nodes) {
+            pass(values, *node);
         }
         Ok(())
     }
@@ -201,6 +238,8 @@ impl Reduced {
             sweep: &mut self.single_sweep,
             operator: &self.operators[operator],
             additions: &self.single_additions,
+            nodes: &self.nodes.list,
+            dependents: &self.dependents,
             links: &self.links,
             rows: &self.rows,
             windows: &mut self.reach.windows,
@@ -215,24 +254,24 @@ impl Reduced {
     ///
     /// # Errors
     /// When a block cannot be factorised.
-    fn correct(&mut self, operator: usize, joints: &[JointIncrement]) -> Result<(), Singular> {
+    fn correct(&mut self, operator: usize) -> Result<(), Singular> {
         self.correction
             .iter_mut()
             .zip(&self.residual)
             .for_each(|(c, r)| *c = -r);
-        let per = self.per;
         self.instructions
             .run(Elimination {
                 sweep: &mut self.sweep,
                 operator: &self.operators[operator],
                 additions: &self.additions,
-                joints,
+                nodes: &self.nodes.list,
+                dependents: &self.dependents,
                 links: &self.links,
                 rows: &self.rows,
                 values: &mut self.correction,
             })
             .map_err(|(node, pivot)| Singular {
-                station: per * node,
+                station: self.nodes.list[node].station,
                 pivot,
             })
     }
@@ -255,9 +294,22 @@ impl Reduced {
         let mut additions = std::mem::take(&mut self.additions);
         additions.linearise(self, assembler, model, state, (conditions, factors));
         self.additions = additions;
-        assembler.joint_tangent(&self.places.joints, model, state, factors);
+        let (sweep, of_joints) = (&mut self.sweep, &self.nodes.of_joints);
+        let lambda = |joint: usize| self.multipliers[joint];
+        assembler.joint_tangents(
+            factors,
+            lambda,
+            |_| true,
+            |joint, tangent| {
+                for (l, column) in sweep.joints[of_joints[joint]].iter_mut().enumerate() {
+                    for (k, x) in column.iter_mut().enumerate() {
+                        *x = tangent.rotation(l, k);
+                    }
+                }
+            },
+        );
         assembler.stopwatch.lap(Phase::Assembly);
-        self.correct(operator, &assembler.increment.joints)
+        self.correct(operator)
     }
 
     /// The same in single precision; `false` where its pivots do not do.
@@ -274,11 +326,12 @@ impl Reduced {
         let mut additions = std::mem::take(&mut self.single_additions);
         additions.linearise(self, assembler, model, state, (conditions, factors));
         self.single_additions = additions;
-        let (places, sweep) = (&self.places.joints, &mut self.single_sweep);
-        let nodes = &self.reach.nodes;
-        let wanted = |joint: usize| nodes[joint + 1];
-        assembler.joint_tangents((places, model, state), factors, wanted, |joint, tangent| {
-            sweep.join(joint, tangent);
+        let sweep = &mut self.single_sweep;
+        let lambda = |joint: usize| self.multipliers[joint];
+        let (reached, of_joints) = (&self.reach.nodes, &self.nodes.of_joints);
+        let wanted = |joint: usize| reached[of_joints[joint]];
+        assembler.joint_tangents(factors, lambda, wanted, |joint, tangent| {
+            sweep.join(of_joints[joint], tangent);
         });
         assembler.stopwatch.lap(Phase::Assembly);
         self.correct_in_single(operator)
@@ -309,23 +362,28 @@ impl ReducedEquations<'_> {
         scratch: &mut State,
         conditions: &Conditions,
     ) {
-        let factors = TangentFactors {
+        let still = TangentFactors {
             stiffness: 1.0,
             damping: 0.0,
             mass: 0.0,
         };
+        // The tangent has no geometric stiffness, and without it neither a joint that touches nothing nor the guide's turn
+        // about its own axis has any: they move by no more than their inertia lets them in 5 ms.
+        let factors = TangentFactors { mass: 4e4, ..still };
         self.reduced.prepare(model, conditions, factors);
         self.reduced.iterations = SINGLE_CORRECTIONS;
         self.assembler.begin();
         self.evaluate(model, state, conditions, false);
         let mut best = worst(&self.reduced.residual, self.reduced.limits.weights(Accuracy::Rest));
-        // Geometric stiffness is not in the tangent, so that this converges linearly.
-        for _ in 0..20 {
+        for _ in 0..MOST_STATIC_CORRECTIONS {
+            if best <= SETTLED {
+                return;
+            }
             scratch.copy_from(state);
             if self.solve(model, scratch, conditions, factors).is_err() {
                 return;
             }
-            correct(self, scratch, factors);
+            correct(self, scratch, still);
             self.evaluate(model, scratch, conditions, false);
             let ratio = worst(&self.reduced.residual, self.reduced.limits.weights(Accuracy::Rest));
             if ratio.is_nan() || ratio >= best {
@@ -357,12 +415,13 @@ impl ReducedEquations<'_> {
         self.reduced.iterations = SINGLE_CORRECTIONS;
         self.assembler.begin();
         self.evaluate(model, state, conditions, false);
-        for residual in self.reduced.residual.iter_mut().skip(MULTIPLIER).step_by(NODE) {
-            *residual = 0.0;
+        // The rows hold already; what is asked for is how their second derivatives can be zero.
+        for residual in self.reduced.residual.chunks_exact_mut(NODE) {
+            (residual[FIRST_ROW], residual[SECOND_ROW]) = (0.0, 0.0);
         }
         self.solve(model, state, conditions, factors)?;
         for (i, &x) in self.reduced.correction.iter().enumerate() {
-            if i % NODE == MULTIPLIER {
+            if i % NODE == TIE {
                 state.q[i] += x;
             } else {
                 state.a[i] = x;
@@ -431,8 +490,8 @@ impl Equations for ReducedEquations<'_> {
         (&self.reduced.correction, &self.reduced.moving)
     }
 
-    fn driven(&self, _: &Model) -> Option<usize> {
-        self.reduced.places.driven
+    fn driven<'b>(&'b self, _: &'b Model) -> &'b [usize] {
+        &self.reduced.driven
     }
 
     fn out_of_range(&self, _: &Model, state: &State) -> Option<(usize, f64)> {

@@ -2,7 +2,7 @@
 //! the blocks of both its ends and to what couples them.
 
 use super::precision::{Lanes, Precision};
-use super::{BOTTOM, GUIDE, MULTIPLIER, NODE, Reduced, TOP};
+use super::{BOTTOM, GUIDE, NODE, Reduced, TIE, TOP};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
@@ -53,11 +53,11 @@ impl<S: Precision> Additions<S> {
         let (block, before) = (&mut self.blocks[node], self.nodes[node]);
         if touching > before {
             if before == Touching::Nothing {
-                block[GUIDE..MULTIPLIER].fill([S::ZERO; NODE]);
+                block[GUIDE..TIE].fill([S::ZERO; NODE]);
             }
             if touching == Touching::Both {
                 block[..GUIDE].fill([S::ZERO; NODE]);
-                block[MULTIPLIER] = [S::ZERO; NODE];
+                block[TIE] = [S::ZERO; NODE];
             }
             self.nodes[node] = touching;
         }
@@ -137,13 +137,14 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
         let mut on_guide = OnGuide::<S>::new();
         let layers = [(&self.assembler.inner, true), (&self.assembler.outer, false)];
         for (layer, inner) in layers {
-            let (stations, spans) = (&self.reduced.stations, &self.reduced.reach.spans);
+            let (nodes, spans) = (&self.reduced.nodes, &self.reduced.reach.spans);
+            let stations = &nodes.stations;
             for (station, touch) in layer.among(|station| spans[stations[station].0]) {
                 let (l, i) = stations[station];
                 let on_nodes = &S::on_nodes(&self.reduced.kinds[self.reduced.links[l].kind])[i];
                 let place = Place {
                     l,
-                    at: [i == 0, i == self.reduced.per],
+                    at: [i == 0, i == nodes.elements(l)],
                     rows: if inner { &on_nodes.inner } else { &on_nodes.outer },
                 };
                 let tangent = touch.tangent(self.factors.stiffness, self.factors.damping);

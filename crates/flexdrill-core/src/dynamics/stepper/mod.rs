@@ -43,12 +43,12 @@ pub struct Forcing {
 /// Which linear solver to use.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum SolverKind {
-    /// Over the joints where the tool can be reduced to them, else along the stations.
+    /// Over the chain of nodes.
     #[default]
-    Joints,
-    /// Block elimination along the stations.
+    Chain,
+    /// Over all stations by block LU: slower and plain, to hold the chain against.
     Stations,
-    /// faer's sparse LU, to hold the other against.
+    /// faer's sparse LU, to hold block LU against.
     #[cfg(feature = "reference")]
     Reference,
 }
@@ -87,7 +87,9 @@ pub struct Stepper {
     refinement: u32,
     live: LiveParameters,
     track: Track,
-    /// The tool over its joints, if it has that form, and the state as the model numbers it.
+    /// Whether steps are to be taken over a chain of nodes.
+    chain: bool,
+    /// The tool over its nodes, made for the first step size, and the state as the model numbers it.
     reduced: Option<(Reduced, RefCell<Shown>)>,
     /// Whether steps are taken over the joints.
     over_joints: bool,
@@ -96,10 +98,8 @@ pub struct Stepper {
     /// Whole turns taken off the spins so far.
     turns: f64,
     weight_on_bit: f64,
-    /// Whether steps in motion may condense links.
-    condense: bool,
-    /// Step size for which they are condensed (s).
-    condensed_for: f64,
+    /// Step size that the chain is prepared for (s); 0 before the first one.
+    prepared_for: f64,
 }
 
 impl Stepper {
@@ -118,29 +118,26 @@ impl Stepper {
     ) -> Result<Self, ValidationError> {
         let model = Model::new(description)?;
         let solver: Box<dyn LinearSolver> = match kind {
-            SolverKind::Joints | SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
+            SolverKind::Chain | SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
             #[cfg(feature = "reference")]
             SolverKind::Reference => Box::new(SparseReference::default()),
         };
         let state = State::at_rest(&model);
-        let reduced = (kind == SolverKind::Joints)
-            .then(|| Reduced::of(&model, &tolerances, instructions))
-            .flatten();
         Ok(Self {
             newton: StationEquations::new(&model, solver, tolerances, instructions),
             scheme,
             max_halvings,
             refinement: 0,
             live: LiveParameters::of(description),
-            reduced: reduced.map(|reduced| (reduced, RefCell::new(Shown::of(&state)))),
+            chain: kind == SolverKind::Chain,
+            reduced: None,
             over_joints: false,
             track: Track::new(&model, state, 0),
             audit: EnergyAudit::default(),
             counters: Counters::default(),
             turns: 0.0,
             weight_on_bit: 0.0,
-            condense: matches!(kind, SolverKind::Joints | SolverKind::Stations),
-            condensed_for: 0.0,
+            prepared_for: 0.0,
             model,
         })
     }
@@ -155,11 +152,11 @@ impl Stepper {
         let Some((reduced, shown)) = self.reduced.as_ref().filter(|_| self.over_joints) else {
             return StateView::Stations(&self.track.state);
         };
-        let (now, on_top) = (&self.track.state, &self.track.energy.on_top);
+        let (now, forces) = (&self.track.state, &self.track.energy.joints);
         let outdated = shown.borrow().outdated();
         if outdated {
             let mut shown = shown.borrow_mut();
-            shown.bring_up(|full| reduced.show(&self.model, (now, on_top), full));
+            shown.bring_up(|full| reduced.show(&self.model, now, forces, full));
         }
         StateView::Joints(Ref::map(shown.borrow(), Shown::state))
     }
@@ -218,9 +215,17 @@ impl Stepper {
         self.refinement
     }
 
-    /// Takes steps in 2^`refinement` parts from the next one on, [`MOST_REFINEMENT`] at most.
+    /// Takes steps in 2^`refinement` parts from the next one on: [`Stepper::finest_refinement`] at most.
     pub fn set_refinement(&mut self, refinement: u32) {
-        self.refinement = refinement.min(MOST_REFINEMENT);
+        self.refinement = refinement.min(self.finest_refinement());
+    }
+
+    /// Most halvings of the step that may be asked for: down to the smallest step for which the inner stations of a span
+    /// follow its ends, [`MOST_REFINEMENT`] at most.
+    pub fn finest_refinement(&self) -> u32 {
+        let chain = self.reduced.as_ref();
+        let finest = chain.map_or(MOST_REFINEMENT, |(chain, _)| chain.finest_refinement(self.prepared_for));
+        finest.min(MOST_REFINEMENT)
     }
 
     /// Times the phases of [`Stepper::advance`] while it runs.
@@ -247,7 +252,7 @@ impl Stepper {
     pub(crate) fn leave_joints(&mut self) {
         if self.over_joints {
             self.over_joints = false;
-            self.condensed_for = 0.0;
+            self.prepared_for = 0.0;
             self.track = Track::new(&self.model, State::at_rest(&self.model), 0);
         }
     }
@@ -282,7 +287,7 @@ impl Stepper {
             if at_rest {
                 equations.polish_rest(&self.model, to, scratch, &conditions);
             }
-            let h = if at_rest { 0.0 } else { self.condensed_for };
+            let h = if at_rest { 0.0 } else { self.prepared_for };
             scratch.copy_from(to);
             if equations
                 .balance_accelerations(&self.model, scratch, &conditions, h)
@@ -354,21 +359,23 @@ impl Stepper {
 
     /// Makes what steps of size `h` (s) and their halves need, so that [`Stepper::advance`] does not.
     pub fn prepare(&mut self, h: f64) {
-        if !self.condense || self.condensed_for == h {
+        if !self.chain || self.prepared_for == h {
             return;
         }
         let conditions = self.conditions(0.0, 0.0);
-        let first = self.condensed_for == 0.0;
-        self.condensed_for = h;
-        let over_joints = self.over_joints || first && self.reduced.as_ref().is_some_and(|(tool, _)| tool.holds_for(h));
-        for level in 0..=self.finest_level() {
-            let factors = self.scheme.factors(h / f64::from(1_u32 << level));
-            match &mut self.reduced {
-                Some((reduced, _)) if over_joints => reduced.prepare(&self.model, &conditions, factors),
-                _ => self.newton.prepare(&self.model, &conditions, factors),
-            }
+        self.prepared_for = h;
+        if self.reduced.is_none() {
+            let instructions = self.newton.assembler.instructions();
+            let reduced = Reduced::of(&self.model, &self.newton.tolerances, h, instructions);
+            self.reduced = reduced.map(|reduced| (reduced, RefCell::new(Shown::of(&self.track.state))));
         }
-        if let (true, false, Some((reduced, _))) = (over_joints, self.over_joints, &self.reduced) {
+        let finest = self.finest_level();
+        let Some((reduced, _)) = &mut self.reduced else { return };
+        for level in 0..=finest {
+            let factors = self.scheme.factors(h / f64::from(1_u32 << level));
+            reduced.prepare(&self.model, &conditions, factors);
+        }
+        if !self.over_joints {
             let track = Track::new(&self.model, reduced.state(), reduced.spans());
             let before = std::mem::replace(&mut self.track, track).state;
             self.over_joints = true;

@@ -1,5 +1,4 @@
 //! Tests of the mechanics that look at its insides: residual, tangent, state.
 
 mod balance;
-mod motion_tangent;
 mod tangent;

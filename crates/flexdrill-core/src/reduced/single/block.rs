@@ -4,11 +4,11 @@ use super::{COLUMNS, Column, NODE};
 use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 
-/// Pairs of pivots. The span above a node reaches neither the rotations below nor the multiplier, so that these may go
-/// before what comes from above is known; the rest follows in order.
+/// Pairs of pivots. The spin below and the tie's multiplier are pivots in the last node only: elsewhere the one follows
+/// from other rotations and the other does not exist. The span above a node does not reach the tilts below, so that these
+/// may go before what comes from above is known; the rest follows in order.
 const PAIRS: [[usize; 2]; 8] = [[6, 15], [7, 8], [0, 1], [2, 3], [4, 5], [9, 10], [11, 12], [13, 14]];
-/// Place at which the pair of the multiplier goes in the last node, where its row has no pivot before the others are
-/// out.
+/// Place at which the pair of the tie's multiplier goes in the last node: its row has no pivot before the others are out.
 const LAST: usize = 8;
 
 /// The other one of a row's pair.
@@ -65,6 +65,17 @@ pub(super) struct Inverse<S> {
     pub mate: S,
 }
 
+impl<S: Single> Inverse<S> {
+    /// Before any pivot: the spin below follows from the others, and is its own pivot.
+    #[inline(always)]
+    pub fn start() -> Self {
+        Self {
+            own: S::load(&ONLY[6]),
+            mate: S::splat(0.0),
+        }
+    }
+}
+
 /// Takes pair `N`, `K` and `NEXT`, out of the columns of the pairs from `after` on and out of `columns`. Gives the squares
 /// of the multipliers of rows still to come.
 #[inline(always)]
@@ -96,13 +107,7 @@ fn pair<S: Single, const N: usize, const K: usize, const NEXT: usize>(
     inverse.mate = inverse.mate.minus_product(row, q.times(reciprocal));
     inverse.mate = inverse.mate.minus_product(next, r.times(reciprocal));
     let beyond = S::load(&BEYOND[N]);
-    let (x, mut y) = (by_first.times(beyond), by_second.times(beyond));
-    if N == 0 {
-        // The multiplier's unit is any; in that which makes its row as large as its mate's the factor is this.
-        let zero = S::splat(0.0);
-        let size = p.largest(zero.minus(p)).largest(r.largest(zero.minus(r)));
-        y = y.times(r.over(size));
-    }
+    let (x, y) = (by_first.times(beyond), by_second.times(beyond));
     x.times(x).largest(y.times(y))
 }
 
@@ -116,7 +121,7 @@ fn take<S: Single, const K: usize, const NEXT: usize>(column: &mut Column, by_fi
         .store(column);
 }
 
-/// Takes the early pairs out of a block and of its coupling, whose first six columns, or `CROSSED` all, have something in
+/// Takes the early pair out of a block and of its coupling, whose first six columns, or `CROSSED` all, have something in
 /// their rows.
 #[inline(always)]
 pub(super) fn begin<S: Single, const CROSSED: bool>(
@@ -126,8 +131,7 @@ pub(super) fn begin<S: Single, const CROSSED: bool>(
 ) -> S {
     let (coupling, right) = b.split_at_mut(12);
     let coupling = &mut coupling[..if CROSSED { 12 } else { 6 }];
-    let squares = pair::<S, 0, 6, 15>(a, &PAIRS[1..], [coupling, right], inverse);
-    pair::<S, 1, 7, 8>(a, &PAIRS[2..], [coupling, right], inverse).largest(squares)
+    pair::<S, 1, 7, 8>(a, &PAIRS[2..], [coupling, right], inverse)
 }
 
 /// Solves `a x = b`, of which the early pairs are out; the last six columns of the coupling begin at row 9 or, `CROSSED`,

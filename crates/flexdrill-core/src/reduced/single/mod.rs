@@ -6,10 +6,13 @@
 
 mod block;
 
+use super::dependents::{Dependents, FIRST_ROW, SECOND_ROW};
+use super::nodes::{Node, pass};
 use super::operator::Operator;
+use super::precision::Rounded;
 use super::reach::Window;
 use super::tangent::Additions;
-use super::{GUIDE, Link, MULTIPLIER, NODE};
+use super::{GUIDE, Link, NODE, TIE};
 use crate::dynamics::joints::JointTangent;
 use crate::linear::Touching;
 use crate::simd::Kernel;
@@ -66,8 +69,8 @@ impl SingleOperator {
 /// Room for an elimination.
 pub(super) struct SingleSweep {
     columns: Vec<Aligned<[Column; COLUMNS]>>,
-    /// What each joint adds: columns of the rotations above, of those below, of the multiplier.
-    joints: Vec<Aligned<[Column; 7]>>,
+    /// What the joint of each node adds: columns of the rotations above, of those below.
+    joints: Vec<Aligned<[Column; 6]>>,
     /// Blocks of the present node and the next one.
     blocks: [Aligned<[Column; NODE]>; 2],
 }
@@ -76,15 +79,15 @@ impl SingleSweep {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
             columns: vec![Aligned([[0.0; NODE]; COLUMNS]); nodes],
-            joints: vec![Aligned([[0.0; NODE]; 7]); nodes - 2],
+            joints: vec![Aligned([[0.0; NODE]; 6]); nodes],
             blocks: [Aligned([[0.0; NODE]; NODE]); 2],
         }
     }
 
-    /// Sets what a joint adds.
+    /// Sets what the joint of a node adds.
     #[inline(always)]
-    pub(super) fn join(&mut self, joint: usize, tangent: &JointTangent<'_>) {
-        let to = &mut self.joints[joint];
+    pub(super) fn join(&mut self, node: usize, tangent: &JointTangent<'_>) {
+        let to = &mut self.joints[node];
         for k in 0..3 {
             for i in 0..3 {
                 to[k][i] = tangent.rotation(k, i) as f32;
@@ -92,11 +95,6 @@ impl SingleSweep {
                 to[3 + k][i] = tangent.rotation(3 + k, i) as f32;
                 to[3 + k][6 + i] = tangent.rotation(3 + k, 3 + i) as f32;
             }
-            let (above, below) = (tangent.row(0, k) as f32, tangent.row(0, 3 + k) as f32);
-            to[k][MULTIPLIER] = above;
-            to[3 + k][MULTIPLIER] = below;
-            to[6][k] = above;
-            to[6][6 + k] = below;
         }
     }
 }
@@ -106,6 +104,8 @@ pub(super) struct SingleElimination<'a> {
     pub sweep: &'a mut SingleSweep,
     pub operator: &'a Operator,
     pub additions: &'a Additions<f32>,
+    pub nodes: &'a [Node],
+    pub dependents: &'a [Dependents],
     pub links: &'a [Link],
     pub rows: &'a [Option<[f64; NODE]>],
     /// What is solved for. How far up each moves the tool is put down there; the rest does not move.
@@ -162,7 +162,7 @@ impl SingleElimination<'_> {
     fn begin<S: Single>(&mut self, k: usize, last: bool, a: &mut [Column; NODE]) -> (Inverse<S>, S) {
         let single = &self.operator.single;
         let zero = S::splat(0.0);
-        let mut inverse = Inverse { own: zero, mate: zero };
+        let mut inverse = Inverse::start();
         let constant = &single.blocks[self.operator.block_of[k]];
         let touching = self.additions.nodes[k];
         let added = &self.additions.blocks[k];
@@ -175,30 +175,37 @@ impl SingleElimination<'_> {
                 S::load(from).store(to);
             }
             if touching == Touching::Guide {
-                for (to, added) in a[GUIDE..MULTIPLIER].iter_mut().zip(&added[GUIDE..]) {
+                for (to, added) in a[GUIDE..TIE].iter_mut().zip(&added[GUIDE..]) {
                     S::load(to).plus(S::load(added)).store(to);
                 }
             }
         }
-        if let Some(joint) = k.checked_sub(1).and_then(|joint| self.sweep.joints.get(joint)) {
+        let joint = self.nodes[k].joint;
+        if joint.is_some() {
+            let joint = &self.sweep.joints[k];
             for i in 0..3 {
                 S::load(&a[i]).plus(S::load(&joint[i])).store(&mut a[i]);
                 S::load(&a[6 + i]).plus(S::load(&joint[3 + i])).store(&mut a[6 + i]);
             }
-            S::load(&a[MULTIPLIER])
-                .plus(S::load(&joint[6]))
-                .store(&mut a[MULTIPLIER]);
         }
         let (values, _) = self.values.as_chunks::<NODE>();
-        let mut right = S::round(&values[k]);
+        let (node, dependents) = (&values[k], &self.dependents[k]);
         let held = &self.rows[k];
-        if let Some(rows) = held {
-            right = right.times(S::round(rows));
-            hold::<S>(a, rows);
-        }
         let b = &mut self.sweep.columns[k];
-        right.store(&mut b[12]);
+        S::round(node).store(&mut b[12]);
+        let rows = [node[FIRST_ROW], node[SECOND_ROW]];
+        if joint.is_some() {
+            // What stands there is no moment.
+            (b[12][FIRST_ROW], b[12][SECOND_ROW]) = (0.0, 0.0);
+        }
+        let crosses = touching == Touching::Both;
         if last {
+            let [right] = &mut b[12..] else { return (inverse, zero) };
+            dependents.eliminate::<f32, Rounded<S>>(a, &mut [], right, rows, crosses);
+            if let Some(rows) = held {
+                hold::<S>(a, rows);
+                S::load(right).times(S::round(rows)).store(right);
+            }
             return (inverse, zero);
         }
         let (touching, upper) = (self.additions.spans[k], &single.upper[self.links[k].kind]);
@@ -212,9 +219,14 @@ impl SingleElimination<'_> {
                 S::load(to).plus(S::load(from)).store(to);
             }
         }
+        let crossed = touching == Touching::Both;
+        let (coupling, right) = b.split_at_mut(12);
+        let with_pipe = &mut coupling[..if crossed { 12 } else { 6 }];
+        dependents.eliminate::<f32, Rounded<S>>(a, with_pipe, &mut right[0], rows, crosses);
         if let Some(rows) = held {
+            hold::<S>(a, rows);
             let keep = S::round(rows);
-            for column in &mut b[..12] {
+            for column in b.iter_mut() {
                 S::load(column).times(keep).store(column);
             }
         }
@@ -357,11 +369,11 @@ impl SingleElimination<'_> {
             return None;
         }
         let mut next = S::load(last);
-        put(next, &mut values[window.last]);
+        put(next, &mut values[window.last], self.nodes[window.last]);
         for k in (window.first..window.last).rev() {
             let columns = &self.sweep.columns[k];
             next = above(S::load(&columns[12]), &columns[..12], next);
-            put(next, &mut values[k]);
+            put(next, &mut values[k], self.nodes[k]);
         }
         Some(next)
     }
@@ -386,6 +398,7 @@ impl SingleElimination<'_> {
             for (to, from) in values[next].iter_mut().zip(*lanes) {
                 *to += f64::from(from);
             }
+            pass(&mut values[next], self.nodes[next]);
             k = next;
         }
         k
@@ -411,12 +424,13 @@ fn above<S: Single>(from: S, b: &[Column], x: S) -> S {
     even.plus(odd)
 }
 
-/// Writes a solution in double.
+/// Writes the solution of a node in double.
 #[inline(always)]
-fn put<S: Single>(x: S, to: &mut [f64; NODE]) {
+fn put<S: Single>(x: S, to: &mut [f64; NODE], node: Node) {
     let mut lanes = Aligned([0.0; NODE]);
     x.store(&mut lanes);
     for (to, from) in to.iter_mut().zip(*lanes) {
         *to = f64::from(from);
     }
+    pass(to, node);
 }

@@ -1,8 +1,9 @@
-//! Gauss-Jordan elimination of the small blocks, over [`Vector`]: see [`crate::linear::block`] for the method and its
-//! pivoting.
+//! One block of sixteen in double precision: Gauss-Jordan elimination with rows exchanged where that is better, as in
+//! [`crate::linear`].
 
-use super::{PaddedColumns, SIZE};
-use crate::linear::block::{PIVOT_RATIO, exchange};
+use super::NODE as SIZE;
+use super::residual::load;
+use crate::linear::{PIVOT_RATIO, exchange};
 use crate::simd::vector::Vector;
 
 /// Rows after k: 1 where a pivot may be looked for.
@@ -44,29 +45,15 @@ const fn table(rows: Rows) -> [[f64; SIZE]; SIZE] {
     out
 }
 
-/// Both halves of a column of sixteen.
+/// Both halves of a column, to be changed.
 #[inline(always)]
-pub fn halves(column: &[f64; SIZE]) -> [&[f64; 8]; 2] {
-    let (halves, _) = column.as_chunks::<8>();
-    [&halves[0], &halves[1]]
-}
-
-/// The same, to be changed.
-#[inline(always)]
-pub fn halves_mut(column: &mut [f64; SIZE]) -> &mut [[f64; 8]] {
+fn halves_mut(column: &mut [f64; SIZE]) -> &mut [[f64; 8]] {
     column.as_chunks_mut::<8>().0
-}
-
-/// A column of sixteen.
-#[inline(always)]
-pub fn load<V: Vector>(column: &[f64; SIZE]) -> [V; 2] {
-    let [first, second] = halves(column);
-    [V::load(first), V::load(second)]
 }
 
 /// column -= other scale.
 #[inline(always)]
-pub fn subtract<V: Vector>(column: &mut [f64; SIZE], other: [V; 2], scale: f64) {
+fn subtract<V: Vector>(column: &mut [f64; SIZE], other: [V; 2], scale: f64) {
     let scale = V::splat(scale);
     for (half, other) in halves_mut(column).iter_mut().zip(other) {
         V::load(half).minus_product(other, scale).store(half);
@@ -189,7 +176,7 @@ fn one_by_one<V: Vector, const C: usize>(
 /// # Errors
 /// The size of the largest available pivot when it is zero or not a number.
 #[inline(always)]
-pub fn sixteen<V: Vector, const C: usize>(
+pub(super) fn sixteen<V: Vector, const C: usize>(
     a: &mut [[f64; SIZE]; SIZE],
     b: &mut [[f64; SIZE]; C],
     active: impl Fn(usize) -> usize,
@@ -228,40 +215,10 @@ pub fn sixteen<V: Vector, const C: usize>(
     Ok(())
 }
 
-/// The same for six unknowns in columns filled up to eight with zeros, all columns of `b` full.
-///
-/// # Errors
-/// As [`sixteen`].
-#[inline(always)]
-pub fn six<V: Vector, const C: usize>(a: &mut PaddedColumns, b: &mut [[f64; 8]; C]) -> Result<(), f64> {
-    let mut reciprocals = [0.0; 8];
-    for k in 0..6 {
-        let size = a[k][k].abs();
-        let bound = V::splat(size * (1.0 / PIVOT_RATIO));
-        let larger = V::load(&a[k]).times(V::load(halves(&AFTER[k])[0])).any_beyond(bound);
-        if larger | (size == 0.0) | size.is_nan() {
-            exchange(k, a, b)?;
-        }
-        let reciprocal = 1.0 / a[k][k];
-        reciprocals[k] = reciprocal;
-        let others = V::load(halves(&OTHERS[k])[0]);
-        let multipliers = V::load(&a[k]).times(others.times(V::splat(reciprocal)));
-        for column in a[k + 1..].iter_mut().chain(b.iter_mut()) {
-            let scale = V::splat(column[k]);
-            V::load(column).minus_product(multipliers, scale).store(column);
-        }
-    }
-    let scale = V::load(&reciprocals);
-    for column in b.iter_mut() {
-        V::load(column).times(scale).store(column);
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::block::solve_columns;
+    use crate::linear::solve_columns;
     use crate::simd::vector::Portable;
 
     fn random(seed: &mut u64) -> f64 {
@@ -296,26 +253,6 @@ mod tests {
                     (x - expected).abs() < granted * expected.abs().max(1.0),
                     "{round}: {x} {expected}"
                 );
-            }
-        }
-    }
-
-    #[test]
-    fn six_unknowns_in_eight_rows() {
-        let mut seed = 3;
-        let mut a = [[0.0; 8]; 6];
-        let mut b = [[0.0; 8]; 3];
-        for column in a.iter_mut().chain(b.iter_mut()) {
-            column[..6].iter_mut().for_each(|x| *x = random(&mut seed));
-        }
-        let (matrix, right) = (a, b);
-        six::<Portable, 3>(&mut a, &mut b).unwrap();
-        for (x, right) in b.iter().zip(right) {
-            assert_eq!(x[6..], [0.0; 2]);
-            for i in 0..6 {
-                let sum: f64 = (0..6).map(|j| matrix[j][i] * x[j]).sum();
-                // Condition numbers of random matrices of six are some hundred.
-                assert!((sum - right[i]).abs() < 1e-11, "{sum} {}", right[i]);
             }
         }
     }
