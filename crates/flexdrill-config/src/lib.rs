@@ -307,6 +307,7 @@ impl Config {
             step: self.solver.rule(),
             scheme: self.solver.describe(),
             max_iterations: self.solver.max_iterations,
+            residual_factor: 1.0,
             max_halvings: self.solver.max_halvings,
             initial_inputs: Inputs {
                 rotary_speed: rpm_to_rad_per_s(speed.initial_rpm),

@@ -5,7 +5,7 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{Body, Direction};
-use flexdrill_core::twin::Simulation;
+use flexdrill_core::twin::{Simulation, SimulationSettings};
 
 /// Texts of `config/verify/`, so that the installed program needs no files.
 const FILES: &[(&str, &str)] = &[
@@ -82,6 +82,18 @@ impl Bench {
         case: &'static str,
         change: impl FnOnce(Config) -> Result<Config, flexdrill_config::ConfigError>,
     ) -> Result<Self, VerifyError> {
+        Self::within(case, 1.0, change)
+    }
+
+    /// The same with a factor on the forces that Newton's iteration may leave unbalanced.
+    ///
+    /// # Errors
+    /// As [`Bench::new`].
+    pub fn within(
+        case: &'static str,
+        residual_factor: f64,
+        change: impl FnOnce(Config) -> Result<Config, flexdrill_config::ConfigError>,
+    ) -> Result<Self, VerifyError> {
         let text = FILES
             .iter()
             .find(|(name, _)| *name == case)
@@ -91,7 +103,10 @@ impl Bench {
                 what: "its configuration",
             })?;
         let config = change(Config::from_text(&format!("config/verify/{case}.yaml"), text)?)?;
-        let settings = config.simulation();
+        let settings = SimulationSettings {
+            residual_factor,
+            ..config.simulation()
+        };
         let simulation =
             Simulation::new(&config.tool(), &settings).map_err(|source| VerifyError::Build { case, source })?;
         Ok(Self {

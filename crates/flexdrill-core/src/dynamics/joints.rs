@@ -16,33 +16,38 @@ impl Assembler {
         self.translational_rows(model, state);
         let mut residual = std::mem::take(&mut self.residual);
         let lambda = |joint: usize| rotational_multipliers(model, state, joint);
-        self.joint_moments(&mut residual, &model.places.joints, state, lambda, |_| true);
-        for joint in 0..model.joints.len() {
-            let first = model.multipliers(joint) + 3;
-            for (row, value) in self.row_values(joint).enumerate() {
-                residual[first + row] = model.moment_scale * value;
+        self.linearise_joints(&model.places.joints, state, |_| true, |joint, at| {
+            let lambda = lambda(joint);
+            let places = &model.places.joints[joint];
+            let stop = at.stop_moments().unwrap_or_default();
+            for k in 0..6 {
+                let place = if k < 3 { places.above + k } else { places.below + k - 3 };
+                let of_rows = (0..at.rows()).map(|row| lambda[row] * at.gradient(row)[k]);
+                residual[place] += stop[k] + of_rows.sum::<f64>();
             }
-        }
+            let first = model.multipliers(joint) + 3;
+            for row in 0..at.rows() {
+                residual[first + row] = model.moment_scale * at.value(row);
+            }
+        });
         self.residual = residual;
     }
 
-    /// Adds the moments of stops and rotational rows, whose multipliers (N m) `lambda` gives by joint, to the residual in
-    /// the numbering of `places`, and linearises them: of joints whose unknowns are `wanted`.
-    pub(crate) fn joint_moments(
+    /// Linearises rotational rows and stops at `state`, in the numbering of `places`, and hands every joint that is
+    /// `wanted` with its number to `take`.
+    pub(crate) fn linearise_joints(
         &mut self,
-        residual: &mut [f64],
         places: &[JointPlaces],
         state: &State,
-        lambda: impl Fn(usize) -> [f64; 2],
         wanted: impl Fn(usize) -> bool,
+        take: impl FnMut(usize, &JointLinearisation<'_>),
     ) {
-        self.instructions.run(JointMoments {
-            residual,
+        self.instructions.run(LineariseJoints {
             groups: &mut self.groups,
             places,
             state,
-            lambda,
             wanted,
+            take,
         });
     }
 
@@ -107,6 +112,11 @@ impl Assembler {
         });
     }
 
+    /// The joints, eight at a time from the top, to be linearised by the caller.
+    pub(crate) fn groups_mut(&mut self) -> &mut [JointGroup] {
+        &mut self.groups
+    }
+
     /// Moment (N m, >= 0), energy (J) and power of the damping (W) of the stop of each joint at the last residual.
     pub fn stops(&self) -> impl Iterator<Item = StopReport> + '_ {
         let groups = self.groups.iter().map(JointGroup::stop);
@@ -123,14 +133,6 @@ impl Assembler {
     pub fn row_gradient(&self, joint: usize, row: usize) -> [f64; 6] {
         let gradient = &self.groups[joint / 8].rows()[row].gradient;
         std::array::from_fn(|k| gradient[k][joint % 8])
-    }
-
-    /// Values of the rotational rows of a joint at the last residual.
-    pub(crate) fn row_values(&self, joint: usize) -> impl ExactSizeIterator<Item = f64> {
-        self.groups[joint / 8]
-            .rows()
-            .iter()
-            .map(move |row| row.value[joint % 8])
     }
 }
 
@@ -181,58 +183,90 @@ fn lanes_of(lambda: impl Fn(usize) -> [f64; 2], first: usize, count: usize) -> [
     lanes
 }
 
-/// Moments of stops and rotational rows, eight joints at a time.
-struct JointMoments<'a, L, W> {
-    residual: &'a mut [f64],
+/// A joint as linearised by the last residual.
+pub(crate) struct JointLinearisation<'a> {
+    group: &'a JointGroup,
+    lane: usize,
+}
+
+impl JointLinearisation<'_> {
+    /// Number of its rotational rows.
+    #[inline(always)]
+    pub fn rows(&self) -> usize {
+        self.group.rows().len()
+    }
+
+    /// Value of rotational row `r` (-).
+    #[inline(always)]
+    pub fn value(&self, r: usize) -> f64 {
+        self.group.rows()[r].value[self.lane]
+    }
+
+    /// Its gradient in the six rotations.
+    #[inline(always)]
+    pub fn gradient(&self, r: usize) -> [f64; 6] {
+        let gradient = &self.group.rows()[r].gradient;
+        [0, 1, 2, 3, 4, 5].map(|k| gradient[k][self.lane])
+    }
+
+    /// Moments of the stop on the six rotations (N m); `None` where no stop of the joints beside it is shut either.
+    #[inline(always)]
+    pub fn stop_moments(&self) -> Option<[f64; 6]> {
+        let (stop, lane) = (self.group.shut_stop()?, self.lane);
+        Some([0, 1, 2, 3, 4, 5].map(|k| stop.gradient[k][lane] * stop.moment[lane]))
+    }
+}
+
+/// Rotations of up to eight joints and their rates, a joint per lane; lanes without a joint repeat the last one.
+#[inline(always)]
+pub(crate) fn rotations(places: &[JointPlaces], state: &State) -> ([Lane; 6], [Lane; 6]) {
+    let (mut q, mut rate) = ([Lane::default(); 6], [Lane::default(); 6]);
+    for lane in 0..8 {
+        let joint = &places[lane.min(places.len() - 1)];
+        for (from, to) in [(&state.q, &mut q), (&state.v, &mut rate)] {
+            let above: &[f64] = &from[joint.above..joint.above + 3];
+            let below: &[f64] = &from[joint.below..joint.below + 3];
+            for k in 0..3 {
+                (to[k][lane], to[3 + k][lane]) = (above[k], below[k]);
+            }
+        }
+    }
+    (q, rate)
+}
+
+/// Rotational rows and stops, eight joints at a time.
+struct LineariseJoints<'a, W, F> {
     groups: &'a mut [JointGroup],
     places: &'a [JointPlaces],
     state: &'a State,
-    lambda: L,
     wanted: W,
+    take: F,
 }
 
-impl<L: Fn(usize) -> [f64; 2], W: Fn(usize) -> bool> Kernel for JointMoments<'_, L, W> {
+impl<W: Fn(usize) -> bool, F: FnMut(usize, &JointLinearisation<'_>)> Kernel for LineariseJoints<'_, W, F> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self {
-            residual,
             groups,
             places,
             state,
-            lambda,
             wanted,
+            mut take,
         } = self;
         for (g, group) in groups.iter_mut().enumerate() {
             let first = 8 * g;
             let places = &places[first..];
             let count = places.len().min(8);
-            if !places[..count].iter().any(|joint| wanted(joint.above)) {
+            if !(first..first + count).any(&wanted) {
                 continue;
             }
-            let (mut q, mut rate) = ([Lane::default(); 6], [Lane::default(); 6]);
-            for lane in 0..8 {
-                let joint = &places[lane.min(count - 1)];
-                for (from, to) in [(&state.q, &mut q), (&state.v, &mut rate)] {
-                    let above: &[f64] = &from[joint.above..joint.above + 3];
-                    let below: &[f64] = &from[joint.below..joint.below + 3];
-                    for k in 0..3 {
-                        (to[k][lane], to[3 + k][lane]) = (above[k], below[k]);
-                    }
-                }
-            }
-            let moments = group.evaluate::<V>(&q, &rate, &lanes_of(&lambda, first, count));
-            for (lane, joint) in places.iter().enumerate().take(8) {
-                if !wanted(joint.above) {
-                    continue;
-                }
-                let (above, below) = (joint.above..joint.above + 3, joint.below..joint.below + 3);
-                for (k, r) in residual[above].iter_mut().enumerate() {
-                    *r += moments[k][lane];
-                }
-                for (k, r) in residual[below].iter_mut().enumerate() {
-                    *r += moments[3 + k][lane];
+            let (q, rate) = rotations(&places[..count], state);
+            group.linearise::<V>(&q, &rate);
+            for lane in 0..count {
+                if wanted(first + lane) {
+                    take(first + lane, &JointLinearisation { group, lane });
                 }
             }
         }

@@ -39,6 +39,17 @@ impl Default for Tolerances {
 }
 
 impl Tolerances {
+    /// The same with `factor` times the forces and moments.
+    pub fn times(self, factor: f64) -> Self {
+        let (part, most) = self.moving_force;
+        Self {
+            force: factor * self.force,
+            moment: factor * self.moment,
+            moving_force: (factor * part, factor * most),
+            ..self
+        }
+    }
+
     /// Largest unbalanced force on a node of `model` in motion (N).
     pub(crate) fn moving_force(&self, model: &Model) -> f64 {
         let (part, most) = self.moving_force;

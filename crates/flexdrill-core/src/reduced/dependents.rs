@@ -6,9 +6,16 @@
 //! follow from the balance of the moments on the dependent rotations, R_s + G_s^T lambda = 0, so that they are no unknowns
 //! either: what they put on the other rotations is the same coefficients times R_s.
 
+use super::nodes::Node;
 use super::precision::{Lanes, Precision};
-use super::{GUIDE, NODE, Reduced};
+use super::{GUIDE, NODE, Reduced, U};
 use crate::dynamics::assembly::Assembler;
+use crate::dynamics::joints::rotations;
+use crate::dynamics::state::State;
+use crate::elements::joint::group::JointGroup;
+use crate::simd::Kernel;
+use crate::simd::number::{Eight, Lane, Number};
+use crate::simd::vector::Vector;
 
 /// Place in a node of the residual of a joint's first row: that of the spin below, which has no residual of its own.
 pub(super) const FIRST_ROW: usize = 6;
@@ -16,6 +23,16 @@ pub(super) const FIRST_ROW: usize = 6;
 pub(super) const SECOND_ROW: usize = 15;
 /// Places in a node of the rotations of a joint's rows: of the end above, of the start below.
 pub(super) const ROTATIONS: [usize; 6] = [0, 1, 2, 6, 7, 8];
+
+/// The same without the spin below.
+const OTHERS: [usize; 5] = [0, 1, 2, 7, 8];
+
+/// One in the places of a joint's node whose residual is a force or moment, zero in those of the rows.
+pub(super) static MOMENTS: [f64; NODE] = {
+    let mut places = [1.0; NODE];
+    (places[FIRST_ROW], places[SECOND_ROW]) = (0.0, 0.0);
+    places
+};
 
 /// A rotation that follows from the others of its node.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +54,7 @@ pub(super) struct Dependents {
 
 impl Dependents {
     /// Those of a node that the pipe passes in one piece.
-    pub(super) fn welded() -> Self {
+    fn welded() -> Self {
         let list = std::array::from_fn(|k| {
             let mut by = [0.0; NODE];
             (by[k], by[6 + k]) = (1.0, -1.0);
@@ -50,66 +67,78 @@ impl Dependents {
         Self { list, count: 3 }
     }
 
+    /// Those of a node; of a joint they are linearised with each residual.
+    pub(super) fn of(node: &Node) -> Self {
+        if node.joint.is_none() {
+            return Self::welded();
+        }
+        let mut dependents = Self::welded();
+        dependents.list[0].by = [0.0; NODE];
+        dependents.list[0].by[FIRST_ROW] = -1.0;
+        dependents.count = 1;
+        dependents
+    }
+
     pub(super) fn iter(&self) -> impl Iterator<Item = &Dependent> {
         self.list[..self.count].iter()
     }
 
-    /// Of a joint by the gradients of its rows, which stand in the equations times `scale`. `held` says which places of
-    /// the node are held.
-    fn of_joint(&mut self, rows: &[[f64; 6]], scale: f64, held: Option<&[f64; NODE]>) {
-        let mut by = [[0.0; NODE]; 2];
-        let mut by_rows = [[0.0; 2]; 2];
-        let [first, second] = match rows {
-            [first, second] => [first, second],
-            [first] => [first, first],
-            _ => return,
-        };
-        // The tilt below that the second row depends on most.
+    /// Of a joint with one row: the spin below follows the other five rotations by these coefficients, and what stands on
+    /// the right of the row by `by_row`.
+    #[inline(always)]
+    pub(super) fn set_spin(&mut self, by: [f64; 5], by_row: f64) {
+        let spin = &mut self.list[0];
+        for (place, by) in OTHERS.into_iter().zip(by) {
+            spin.by[place] = by;
+        }
+        spin.by_rows[0] = by_row;
+    }
+
+    /// By the gradients of a joint's two rows: the spin below follows, and the tilt below that the rows give most surely;
+    /// `held` says which places of the node are held.
+    fn linearise_two(&mut self, [first, second]: [[f64; 6]; 2], scale: f64, held: Option<&[f64; NODE]>) {
         let minor = |k: usize| first[3] * second[k] - first[k] * second[3];
         let is_free = |slot: usize| held.is_none_or(|rows| rows[slot] != 0.0);
         let tilts = [4, 5].into_iter().filter(|&k| is_free(ROTATIONS[k]));
-        let tilt = tilts.max_by(|&i, &j| minor(i).abs().total_cmp(&minor(j).abs()));
-        match tilt.filter(|_| rows.len() == 2) {
-            None => {
-                let inverse = 1.0 / first[3];
-                for (k, &place) in ROTATIONS.iter().enumerate() {
-                    by[0][place] = -inverse * first[k];
-                }
-                by_rows[0][0] = inverse / scale;
-                self.count = 1;
+        let Some(tilt) = tilts.max_by(|&i, &j| minor(i).abs().total_cmp(&minor(j).abs())) else {
+            // Both are held: the second row can only be watched.
+            let inverse = 1.0 / first[3];
+            self.set_spin([0, 1, 2, 4, 5].map(|k| -first[k] * inverse), inverse / scale);
+            self.count = 1;
+            return;
+        };
+        let inverse = 1.0 / minor(tilt);
+        // [first[3], first[tilt]; second[3], second[tilt]]^-1.
+        let solved = [
+            [second[tilt] * inverse, -first[tilt] * inverse],
+            [-second[3] * inverse, first[3] * inverse],
+        ];
+        let slots = [ROTATIONS[3], ROTATIONS[tilt]];
+        for (r, of_rows) in solved.into_iter().enumerate() {
+            let mut by = [0.0; NODE];
+            for (k, &place) in ROTATIONS.iter().enumerate() {
+                by[place] = -(of_rows[0] * first[k] + of_rows[1] * second[k]);
             }
-            Some(tilt) => {
-                let inverse = 1.0 / minor(tilt);
-                // The rows solved for the spin and the tilt: [first[3], first[tilt]; second[3], second[tilt]]^-1.
-                let solved = [
-                    [second[tilt] * inverse, -first[tilt] * inverse],
-                    [-second[3] * inverse, first[3] * inverse],
-                ];
-                for (r, of_rows) in solved.iter().enumerate() {
-                    for (k, &place) in ROTATIONS.iter().enumerate() {
-                        by[r][place] = -(of_rows[0] * first[k] + of_rows[1] * second[k]);
-                    }
-                    by_rows[r] = of_rows.map(|x| x / scale);
-                }
-                let slots = [ROTATIONS[3], ROTATIONS[tilt]];
-                for (r, slot) in slots.into_iter().enumerate() {
-                    by[r][slots[1 - r]] = 0.0;
-                    by[r][slot] = -1.0;
-                }
-                self.list[1] = Dependent {
-                    slot: slots[1],
-                    by: by[1],
-                    by_rows: by_rows[1],
-                };
-                self.count = 2;
+            (by[slots[r]], by[slots[1 - r]]) = (-1.0, 0.0);
+            self.list[r] = Dependent {
+                slot: slots[r],
+                by,
+                by_rows: of_rows.map(|x| x / scale),
+            };
+        }
+        self.count = 2;
+    }
+
+    /// Multipliers of the joint's rows, which stand in the equations times `scale`, that balance the moments on the
+    /// dependent rotations (N m).
+    fn multipliers(&self, residual: &[f64; NODE], scale: f64) -> [f64; 2] {
+        let mut lambda = [0.0; 2];
+        for dependent in self.iter() {
+            for (lambda, by) in lambda.iter_mut().zip(dependent.by_rows) {
+                *lambda -= scale * by * residual[dependent.slot];
             }
         }
-        by[0][ROTATIONS[3]] = -1.0;
-        self.list[0] = Dependent {
-            slot: ROTATIONS[3],
-            by: by[0],
-            by_rows: by_rows[0],
-        };
+        lambda
     }
 
     /// Adds what the moments on the dependent rotations put on the others, and takes them away.
@@ -118,90 +147,194 @@ impl Dependents {
         for dependent in self.iter() {
             let moment = residual[dependent.slot];
             // -1 at its own place leaves nothing there.
-            for (r, by) in residual.iter_mut().zip(&dependent.by) {
-                *r += by * moment;
+            for place in ROTATIONS {
+                residual[place] += dependent.by[place] * moment;
             }
         }
     }
-}
 
-impl Dependents {
-    /// Writes the dependent rotations by the others in a node's block `a` and in the columns that couple it to the node
-    /// below. Their own rows then say how they follow, so that the solution holds them. `rows` is what stands on the right
-    /// of the joint's rows; `crossed` whether the guide's columns have entries in the pipe's rows.
+    /// Writes the dependent rotations by the others in a node's block `a`, in the columns that couple it to the node below
+    /// and in the right-hand side, which it gives back. Their own rows then say how they follow, so that the solution
+    /// holds them. `rows` is what stands on the right of the joint's rows; `crossed` whether the guide's columns have
+    /// entries in the pipe's rows.
     #[inline(always)]
     pub(super) fn eliminate<S: Precision, L: Lanes<S>>(
         &self,
         a: &mut [[S; NODE]; NODE],
         coupling: &mut [[S; NODE]],
-        right: &mut [S; NODE],
+        mut right: L,
         rows: [f64; 2],
         crossed: bool,
-    ) {
+    ) -> L {
         for dependent in self.iter() {
-            let slot = dependent.slot;
-            let offset = dependent.by_rows[0] * rows[0] + dependent.by_rows[1] * rows[1];
-            // Its column goes to the columns of what it follows.
-            let column = L::load(&a[slot]);
-            let others = ROTATIONS.into_iter().filter(|&k| k != slot && dependent.by[k] != 0.0);
-            for k in others.clone() {
-                let by = L::splat(S::of(dependent.by[k]));
-                L::load(&a[k]).plus_product(column, by).store(&mut a[k]);
-            }
-            L::load(right)
-                .plus_product(column, L::splat(S::of(-offset)))
-                .store(right);
-            // Its row goes to their rows; -1 at its own place leaves nothing there.
-            let mut by = [S::ZERO; NODE];
-            by.iter_mut()
-                .zip(&dependent.by)
-                .for_each(|(to, from)| *to = S::of(*from));
-            let by = L::load(&by);
-            let move_row = |column: &mut [S; NODE]| {
-                let moment = L::splat(column[slot]);
-                L::load(column).plus_product(by, moment).store(column);
+            right = match dependent.slot {
+                6 => dependent.eliminate::<S, L, 6>(a, coupling, right, rows, crossed),
+                7 => dependent.eliminate::<S, L, 7>(a, coupling, right, rows, crossed),
+                _ => dependent.eliminate::<S, L, 8>(a, coupling, right, rows, crossed),
             };
-            a[..if crossed { NODE } else { GUIDE }].iter_mut().for_each(move_row);
-            coupling.iter_mut().for_each(move_row);
-            move_row(right);
-            // x_slot - by x = offset.
-            a[slot] = [S::ZERO; NODE];
-            a[slot][slot] = S::of(1.0);
-            for k in others {
-                a[k][slot] = S::of(-dependent.by[k]);
-            }
-            right[slot] = S::of(offset);
         }
+        right
+    }
+}
+
+impl Dependent {
+    #[inline(always)]
+    fn eliminate<S: Precision, L: Lanes<S>, const SLOT: usize>(
+        &self,
+        a: &mut [[S; NODE]; NODE],
+        coupling: &mut [[S; NODE]],
+        right: L,
+        rows: [f64; 2],
+        crossed: bool,
+    ) -> L {
+        let offset = self.by_rows[0] * rows[0] + self.by_rows[1] * rows[1];
+        let (by, only) = (L::round(&self.by), L::load(S::only(SLOT)));
+        let column = L::load(&a[SLOT]);
+        // The right-hand side gives what its change by itself puts on all rows, and keeps that change.
+        let minus_offset = S::of(-offset);
+        let own = L::splat(minus_offset).times(L::splat(a[SLOT][SLOT]));
+        let right = right
+            .plus_product(column, L::splat(minus_offset))
+            .plus_product(by, own)
+            .plus_product(only, L::splat(S::of(offset)));
+        // Its row goes to the rows of what it follows; -1 at its own place leaves nothing there.
+        let without_row = |column: L, moment: S| column.plus_product(by, L::splat(moment));
+        for k in ROTATIONS {
+            if k != SLOT {
+                // Its column goes to their columns, and its row says x_slot - by x = offset.
+                let of_it = self.by[k];
+                L::load(&a[k]).plus_product(column, L::splat(S::of(of_it))).store(&mut a[k]);
+                without_row(L::load(&a[k]), a[k][SLOT])
+                    .plus_product(only, L::splat(S::of(-of_it)))
+                    .store(&mut a[k]);
+            }
+        }
+        for k in (U..FIRST_ROW).chain(GUIDE..if crossed { NODE } else { GUIDE }) {
+            without_row(L::load(&a[k]), a[k][SLOT]).store(&mut a[k]);
+        }
+        for column in coupling {
+            without_row(L::load(column), column[SLOT]).store(column);
+        }
+        only.store(&mut a[SLOT]);
+        right
+    }
+}
+
+/// How the spins below eight joints with one row follow from their other rotations, a joint per lane.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Spins {
+    /// By the other five rotations.
+    by: [Lane; 5],
+    /// By the value of the row.
+    by_row: Lane,
+}
+
+impl Spins {
+    /// Of one joint, whose row stands in the equations times `scale`.
+    #[inline(always)]
+    pub(super) fn put(&self, lane: usize, scale: f64, to: &mut Dependents) {
+        to.set_spin(self.by.map(|by| by[lane]), self.by_row[lane] / scale);
     }
 }
 
 impl Reduced {
-    /// Linearises the rotations that follow from others, and takes the moments on them over to those: with the
-    /// multipliers of the joints' rows they are in balance. Their places are taken by the rows themselves, times `scale`.
-    pub(super) fn balance_dependents(&mut self, assembler: &Assembler, scale: f64) {
+    /// Adds the moments of the joints' stops, linearises the rotations that follow from others, and takes the moments on
+    /// them over to those: with the multipliers of the joints' rows they are in balance. Their places are taken by the
+    /// rows themselves, times `scale`.
+    pub(super) fn balance_dependents(&mut self, assembler: &mut Assembler, state: &State, scale: f64) {
         let (residual, _) = self.residual.as_chunks_mut::<NODE>();
         for (k, (node, residual)) in self.nodes.list.iter().zip(residual).enumerate() {
-            if !self.reach.felt[k] {
+            if node.joint.is_none() && self.reach.felt[k] {
+                self.dependents[k].project(residual);
+            }
+        }
+        let instructions = self.instructions;
+        instructions.run(Joints {
+            by: self,
+            groups: assembler.groups_mut(),
+            state,
+            scale,
+        });
+    }
+}
+
+/// The joints' part of [`Reduced::balance_dependents`], eight at a time.
+struct Joints<'a> {
+    by: &'a mut Reduced,
+    groups: &'a mut [JointGroup],
+    state: &'a State,
+    scale: f64,
+}
+
+impl Kernel for Joints<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self {
+            by,
+            groups,
+            state,
+            scale,
+        } = self;
+        let (residual, _) = by.residual.as_chunks_mut::<NODE>();
+        let places = by.places.joints.chunks(8).zip(by.nodes.of_joints.chunks(8));
+        let of_groups = by.spins.iter_mut().zip(by.multipliers.chunks_mut(8));
+        for ((group, (places, nodes)), (spins, multipliers)) in groups.iter_mut().zip(places).zip(of_groups) {
+            if !nodes.iter().any(|&k| by.reach.felt[k]) {
                 continue;
             }
-            let dependents = &mut self.dependents[k];
-            let Some(joint) = node.joint else {
-                dependents.project(residual);
+            let (q, rate) = rotations(places, state);
+            group.linearise::<V>(&q, &rate);
+            let stop = group.shut_stop();
+            let [row] = group.rows() else {
+                for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {
+                    if by.reach.felt[k] {
+                        let (residual, dependents) = (&mut residual[k], &mut by.dependents[k]);
+                        let gradients = [0, 1].map(|r| group.rows()[r].gradient.map(|lanes| lanes[lane]));
+                        dependents.linearise_two(gradients, scale, by.rows[k].as_ref());
+                        *lambda = dependents.multipliers(residual, scale);
+                        dependents.project(residual);
+                        residual[FIRST_ROW] = scale * group.rows()[0].value[lane];
+                        residual[SECOND_ROW] = scale * group.rows()[1].value[lane];
+                    }
+                }
                 continue;
             };
-            let count = assembler.row_values(joint).len();
-            let gradients = [0, count - 1].map(|row| assembler.row_gradient(joint, row));
-            dependents.of_joint(&gradients[..count], scale, self.rows[k].as_ref());
-            let lambda = &mut self.multipliers[joint];
-            *lambda = [0.0; 2];
-            for dependent in dependents.iter() {
-                for (lambda, by) in lambda.iter_mut().zip(dependent.by_rows) {
-                    *lambda -= scale * by * residual[dependent.slot];
+            // R_s + G_s lambda = 0 for the spin below, the stop's moment in R_s.
+            let zero = Eight::<V>::of(0.0);
+            let mut stops = [zero; 6];
+            if let Some(stop) = stop {
+                let moment = Eight::load(&stop.moment);
+                for (out, gradient) in stops.iter_mut().zip(&stop.gradient) {
+                    *out = Eight::load(gradient) * moment;
                 }
             }
-            dependents.project(residual);
-            for (place, value) in [FIRST_ROW, SECOND_ROW].into_iter().zip(assembler.row_values(joint)) {
-                residual[place] = scale * value;
+            let mut on_spin = Lane::default();
+            for (on_spin, &k) in on_spin.iter_mut().zip(nodes) {
+                *on_spin = residual[k][FIRST_ROW];
+            }
+            let inverse = Eight::of(1.0).over(Eight::load(&row.gradient[3]));
+            let lambda = zero - (Eight::load(&on_spin) + stops[3]) * inverse;
+            let (mut moments, mut of_rows) = ([Lane::default(); 5], Lane::default());
+            for (out, (by, k)) in moments.iter_mut().zip(spins.by.iter_mut().zip([0, 1, 2, 4, 5])) {
+                let gradient = Eight::load(&row.gradient[k]);
+                stops[k].plus_product(gradient, lambda).store(out);
+                (zero - gradient * inverse).store(by);
+            }
+            inverse.store(&mut spins.by_row);
+            (Eight::<V>::load(&row.value) * Eight::of(scale)).store(&mut of_rows);
+            let mut lambdas = Lane::default();
+            lambda.store(&mut lambdas);
+            for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {
+                if by.reach.felt[k] {
+                    let residual = &mut residual[k];
+                    for (place, moment) in OTHERS.into_iter().zip(&moments) {
+                        residual[place] += moment[lane];
+                    }
+                    residual[FIRST_ROW] = of_rows[lane];
+                    *lambda = [lambdas[lane], 0.0];
+                }
             }
         }
     }

@@ -43,7 +43,7 @@ use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::simd::aligned::Aligned;
 
-use dependents::{Dependents, FIRST_ROW, SECOND_ROW};
+use dependents::{Dependents, FIRST_ROW, SECOND_ROW, Spins};
 use nodes::Nodes;
 use operator::Operator;
 use reach::Reach;
@@ -109,6 +109,10 @@ pub(crate) struct Reduced {
     operators: Vec<Operator>,
     /// The rotations of each node that follow from its others, as linearised by the last residual.
     dependents: Vec<Dependents>,
+    /// The same of joints with one row, eight at a time.
+    spins: Vec<Spins>,
+    /// Whether joints have one row.
+    one_row: bool,
     /// Multipliers of the rotational rows of each joint at the last residual (N m).
     multipliers: Vec<[f64; 2]>,
     /// Residual with its reactions.
@@ -183,7 +187,9 @@ impl Reduced {
         Some(Self {
             instructions,
             slowest,
-            dependents: vec![Dependents::welded(); nodes],
+            dependents: chain.list.iter().map(Dependents::of).collect(),
+            spins: vec![Spins::default(); model.joints.len().div_ceil(8)],
+            one_row: joint_rows == 1,
             multipliers: vec![[0.0; 2]; model.joints.len()],
             driven,
             limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),

@@ -3,6 +3,7 @@
 use std::ops::AddAssign;
 
 use super::residual::{load, store};
+use super::single::ONLY;
 use super::slaving::LinkMatrices;
 use super::{GUIDE, NODE, U};
 use crate::simd::aligned::Aligned;
@@ -18,6 +19,8 @@ pub(super) trait Precision: Copy + AddAssign + 'static {
     fn of(x: f64) -> Self;
     /// One in the places of the guide, zero elsewhere.
     fn guide() -> &'static [Self; NODE];
+    /// One in place `k`, zero elsewhere.
+    fn only(k: usize) -> &'static [Self; NODE];
     /// What local forces at the stations of a span put on its nodes.
     fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>];
 }
@@ -26,6 +29,8 @@ pub(super) trait Precision: Copy + AddAssign + 'static {
 pub(super) trait Lanes<S>: Copy {
     fn load(from: &[S; NODE]) -> Self;
     fn store(self, to: &mut [S; NODE]);
+    /// Of numbers of double precision.
+    fn round(from: &[f64; NODE]) -> Self;
     fn splat(x: S) -> Self;
     fn plus(self, other: Self) -> Self;
     fn times(self, other: Self) -> Self;
@@ -95,6 +100,19 @@ impl Precision for f64 {
     }
 
     #[inline(always)]
+    fn only(k: usize) -> &'static [Self; NODE] {
+        static ROWS: Aligned<[[f64; NODE]; NODE]> = Aligned({
+            let (mut rows, mut k) = ([[0.0; NODE]; NODE], 0);
+            while k < NODE {
+                rows[k][k] = 1.0;
+                k += 1;
+            }
+            rows
+        });
+        &ROWS[k]
+    }
+
+    #[inline(always)]
     fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>] {
         &kind.on_nodes
     }
@@ -123,6 +141,11 @@ impl Precision for f32 {
     }
 
     #[inline(always)]
+    fn only(k: usize) -> &'static [Self; NODE] {
+        &ONLY[k]
+    }
+
+    #[inline(always)]
     fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>] {
         &kind.on_nodes_single
     }
@@ -130,7 +153,7 @@ impl Precision for f32 {
 
 /// Sixteen numbers of double precision.
 #[derive(Clone, Copy)]
-pub(super) struct Double<V>([V; 2]);
+pub(super) struct Double<V>(pub [V; 2]);
 
 impl<V: Vector> Lanes<f64> for Double<V> {
     #[inline(always)]
@@ -141,6 +164,11 @@ impl<V: Vector> Lanes<f64> for Double<V> {
     #[inline(always)]
     fn store(self, to: &mut [f64; NODE]) {
         store(self.0, to);
+    }
+
+    #[inline(always)]
+    fn round(from: &[f64; NODE]) -> Self {
+        Self(load(from))
     }
 
     #[inline(always)]
@@ -174,7 +202,7 @@ impl<V: Vector> Lanes<f64> for Double<V> {
 
 /// Sixteen numbers of single precision.
 #[derive(Clone, Copy)]
-pub(super) struct Rounded<S>(S);
+pub(super) struct Rounded<S>(pub S);
 
 impl<S: Single> Lanes<f32> for Rounded<S> {
     #[inline(always)]
@@ -185,6 +213,11 @@ impl<S: Single> Lanes<f32> for Rounded<S> {
     #[inline(always)]
     fn store(self, to: &mut [f32; NODE]) {
         self.0.store(to);
+    }
+
+    #[inline(always)]
+    fn round(from: &[f64; NODE]) -> Self {
+        Self(S::round(from))
     }
 
     #[inline(always)]

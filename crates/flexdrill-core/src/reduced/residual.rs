@@ -73,10 +73,9 @@ impl Reduced {
         let mut residual = std::mem::take(&mut self.residual);
         let felt = |unknown: usize| self.reach.felt[unknown / NODE];
         mass_forces(&mut residual, &self.places, model, (to, conditions), felt);
-        assembler.joint_moments(&mut residual, &self.places.joints, to, |_| [0.0; 2], felt);
         assembler.end_forces(&mut residual, &self.places, model, (to, conditions), felt);
         self.residual = residual;
-        self.balance_dependents(assembler, model.moment_scale);
+        self.balance_dependents(assembler, to, model.moment_scale);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Newton's equations over the joints, and their solution: blocks of 16 eliminated from the top down.
 
-use super::dependents::{Dependents, FIRST_ROW, ROTATIONS, SECOND_ROW};
+use super::dependents::{Dependents, FIRST_ROW, MOMENTS, ROTATIONS, SECOND_ROW};
 use super::double::sixteen;
 use super::nodes::{Node, pass};
 use super::operator::{Block, Operator};
@@ -148,8 +148,8 @@ impl Kernel for Elimination<'_> {
             right.copy_from_slice(&self.values[NODE * k..NODE * (k + 1)]);
             let rows = [right[FIRST_ROW], right[SECOND_ROW]];
             if self.nodes[k].joint.is_some() {
-                // What stands there is no moment.
-                (right[FIRST_ROW], right[SECOND_ROW]) = (0.0, 0.0);
+                // What stands at the rows' places is no moment.
+                keep(&mut right, &MOMENTS);
             }
             if k > 0 {
                 take_carry::<V>(&mut block, &mut right, &carry);
@@ -162,7 +162,8 @@ impl Kernel for Elimination<'_> {
                 self.coupling::<V>(k, &mut columns, &mut lower)
             };
             let coupling = &mut columns[..12];
-            self.dependents[k].eliminate::<f64, Double<V>>(&mut block, coupling, &mut right, rows, true);
+            let reduced = self.dependents[k].eliminate(&mut block, coupling, Double::<V>(load(&right)), rows, true);
+            store(reduced.0, &mut right);
             if let Some(rows) = &self.rows[k] {
                 for (i, column) in block.iter_mut().enumerate() {
                     keep(column, rows);
@@ -330,7 +331,11 @@ impl Reduced {
         let lambda = |joint: usize| self.multipliers[joint];
         let (reached, of_joints) = (&self.reach.nodes, &self.nodes.of_joints);
         let wanted = |joint: usize| reached[of_joints[joint]];
+        let (dependents, spins) = (&mut self.dependents, self.one_row.then_some(&self.spins));
         assembler.joint_tangents(factors, lambda, wanted, |joint, tangent| {
+            if let Some(spins) = spins {
+                spins[joint / 8].put(joint % 8, model.moment_scale, &mut dependents[of_joints[joint]]);
+            }
             sweep.join(of_joints[joint], tangent);
         });
         assembler.stopwatch.lap(Phase::Assembly);

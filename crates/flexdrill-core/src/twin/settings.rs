@@ -22,6 +22,9 @@ pub struct SimulationSettings {
     pub scheme: Scheme,
     /// Most Newton iterations per sub-step.
     pub max_iterations: u32,
+    /// Factor on the forces and moments that Newton's iteration may leave unbalanced: below 1 where their sum over very
+    /// many steps is to be small.
+    pub residual_factor: f64,
     /// Most halvings of a step.
     pub max_halvings: u32,
     /// Inputs at the start.
@@ -57,6 +60,7 @@ impl Default for SimulationSettings {
             step: StepRule::Auto,
             scheme: Scheme::generalised_alpha(0.45),
             max_iterations: 15,
+            residual_factor: 1.0,
             max_halvings: 6,
             initial_inputs: Inputs::default(),
             rotary_speed_slew: rpm_to_rad_per_s(20.0),

@@ -81,7 +81,7 @@ impl Simulation {
     ) -> Result<Self, BuildError> {
         let tolerances = Tolerances {
             max_iterations: settings.max_iterations,
-            ..Tolerances::default()
+            ..Tolerances::default().times(settings.residual_factor)
         };
         tool.validate().map_err(BuildError::Tool)?;
         settings

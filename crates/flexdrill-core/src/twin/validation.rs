@@ -11,7 +11,7 @@ use crate::validation::{Bound, ValidationError, count, require};
 
 /// Shortest and longest step (s): below, the mass over its square drowns the stiffness; contacts last milliseconds.
 const STEP: Bound = Bound::Within(1e-9, 1.0);
-/// Most halvings: each level keeps its own condensed system.
+/// Most halvings: each level keeps its own step-constant tangent.
 const MOST_HALVINGS: usize = 20;
 /// Most samples of a whirl window: an hour at the default rate, some 30 MB per watched station.
 const MOST_SAMPLES: f64 = 1e6;
@@ -29,6 +29,7 @@ impl SimulationSettings {
         STEP.check("time_step", self.time_step, "s")?;
         self.scheme.validate()?;
         count("max_iterations", self.max_iterations as usize, 1, 1000)?;
+        Bound::Within(1e-9, 1.0).check("residual_factor", self.residual_factor, "")?;
         count("max_halvings", self.max_halvings as usize, 0, MOST_HALVINGS)?;
         for kind in InputKind::ALL {
             let [low, high] = Inputs::bounds(kind);

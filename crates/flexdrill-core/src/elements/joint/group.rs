@@ -1,7 +1,7 @@
 //! Joints eight at a time: [`super::law`] over eight lanes, with what was linearised last kept in memory.
 
 use super::Joint;
-use super::law::{JointLaw, RotationFunction, moments, tangent};
+use super::law::{JointLaw, RotationFunction, tangent};
 use super::stop::Stop;
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
@@ -56,22 +56,22 @@ impl JointGroup {
         &self.stop
     }
 
-    /// Linearises rows and stops at rotations `q` and rates `rate`; returns the moments that the joints must balance (N
-    /// m) for `lambda`, the multipliers of the rows times their scale (N m).
+    /// Linearises rows and stops at rotations `q` and rates `rate`.
     #[inline(always)]
-    pub fn evaluate<V: Vector>(&mut self, q: &[Lane; 6], rate: &[Lane; 6], lambda: &[Lane; 2]) -> [Lane; 6] {
+    pub fn linearise<V: Vector>(&mut self, q: &[Lane; 6], rate: &[Lane; 6]) {
         self.rate = *rate;
-        let (q, rate, lambda): ([Eight<V>; 6], [Eight<V>; 6], _) = (load(q), load(rate), load::<V, 2>(lambda));
+        let (q, rate): ([Eight<V>; 6], [Eight<V>; 6]) = (load(q), load(rate));
         self.law.rows(&q, &mut self.rows);
         let was_shut = self.shut;
         self.shut = self.law.has_stop() && self.law.stop(&q, &rate, &mut self.stop);
         if was_shut && !self.shut {
             (self.stop.moment, self.stop.energy, self.stop.dissipation) = Default::default();
         }
-        let mut out = [Lane::default(); 6];
-        let stop = self.shut.then_some(&self.stop);
-        moments(&self.rows[..self.count], &lambda[..self.count], stop, &mut out);
-        out
+    }
+
+    /// The stops as linearised last, if some of them are shut.
+    pub fn shut_stop(&self) -> Option<&Stop<Lane>> {
+        self.shut.then_some(&self.stop)
     }
 
     /// Derivative of the moments in rotations and rates, by columns; see [`tangent`].
@@ -99,6 +99,7 @@ mod tests {
 
     use nalgebra::{Matrix3, Rotation3, Vector3};
 
+    use super::super::law::moments;
     use super::*;
     use crate::simd::vector::Portable;
     use crate::tool::description::{JointDescription, JointKind};
@@ -136,7 +137,15 @@ mod tests {
                 Aligned(std::array::from_fn(|lane| 50.0 - 10.0 * lane as f64 + 7.0 * row as f64))
             });
             let mut group = JointGroup::of(&joints);
-            let got = group.evaluate::<Portable>(&q, &rate, &lambda);
+            group.linearise::<Portable>(&q, &rate);
+            let got: [Lane; 6] = std::array::from_fn(|k| {
+                let of_rows = |lane: usize| -> f64 {
+                    let rows = group.rows().iter().zip(&lambda);
+                    rows.map(|(row, lambda)| row.gradient[k][lane] * lambda[lane]).sum()
+                };
+                let of_stop = |lane: usize| group.shut_stop().map_or(0.0, |stop| stop.gradient[k][lane] * stop.moment[lane]);
+                Aligned(std::array::from_fn(|lane| of_rows(lane) + of_stop(lane)))
+            });
             let mut derivative = [[Lane::default(); 6]; 6];
             group.tangent::<Portable>(&lambda, 1.0, 700.0, &mut derivative);
             let count = group.rows().len();

@@ -183,9 +183,9 @@ impl<M> JointLaw<M> {
     }
 }
 
+#[cfg(test)]
 /// Moments on the six rotations that a joint must balance: rows times their multipliers `lambda` (N m), and the stop's
 /// where it is shut.
-#[inline(always)]
 pub fn moments<T: Number>(
     rows: &[RotationFunction<T::Memory>],
     lambda: &[T],

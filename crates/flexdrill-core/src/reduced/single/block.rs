@@ -26,7 +26,7 @@ static MATES: Aligned<[i32; NODE]> = {
 static BESIDE: Aligned<[Column; LAST + 1]> = Aligned(table(false));
 static BEYOND: Aligned<[Column; LAST + 1]> = Aligned(table(true));
 /// One row.
-pub(super) static ONLY: Aligned<[Column; NODE]> = {
+pub(in crate::reduced) static ONLY: Aligned<[Column; NODE]> = {
     let mut out = [[0.0; NODE]; NODE];
     let mut k = 0;
     while k < NODE {

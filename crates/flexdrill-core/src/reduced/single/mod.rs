@@ -6,7 +6,7 @@
 
 mod block;
 
-use super::dependents::{Dependents, FIRST_ROW, SECOND_ROW};
+use super::dependents::{Dependents, FIRST_ROW, MOMENTS, SECOND_ROW};
 use super::nodes::{Node, pass};
 use super::operator::Operator;
 use super::precision::Rounded;
@@ -20,7 +20,9 @@ use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 use crate::simd::vector::Vector;
 
-use block::{Inverse, ONLY, begin, eliminate, eliminate_last};
+use block::{Inverse, begin, eliminate, eliminate_last};
+
+pub(in crate::reduced) use block::ONLY;
 
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
@@ -190,22 +192,22 @@ impl SingleElimination<'_> {
         }
         let (values, _) = self.values.as_chunks::<NODE>();
         let (node, dependents) = (&values[k], &self.dependents[k]);
-        let held = &self.rows[k];
+        let held = self.rows[k].as_ref().map(|rows| S::round(rows));
         let b = &mut self.sweep.columns[k];
-        S::round(node).store(&mut b[12]);
+        let mut right = S::round(node);
         let rows = [node[FIRST_ROW], node[SECOND_ROW]];
         if joint.is_some() {
-            // What stands there is no moment.
-            (b[12][FIRST_ROW], b[12][SECOND_ROW]) = (0.0, 0.0);
+            // What stands at the rows' places is no moment.
+            right = right.times(S::round(&MOMENTS));
         }
         let crosses = touching == Touching::Both;
         if last {
-            let [right] = &mut b[12..] else { return (inverse, zero) };
-            dependents.eliminate::<f32, Rounded<S>>(a, &mut [], right, rows, crosses);
-            if let Some(rows) = held {
+            let mut right = dependents.eliminate(a, &mut [], Rounded(right), rows, crosses).0;
+            if let (Some(rows), Some(held)) = (&self.rows[k], held) {
                 hold::<S>(a, rows);
-                S::load(right).times(S::round(rows)).store(right);
+                right = right.times(held);
             }
+            right.store(&mut b[12]);
             return (inverse, zero);
         }
         let (touching, upper) = (self.additions.spans[k], &single.upper[self.links[k].kind]);
@@ -220,16 +222,16 @@ impl SingleElimination<'_> {
             }
         }
         let crossed = touching == Touching::Both;
-        let (coupling, right) = b.split_at_mut(12);
-        let with_pipe = &mut coupling[..if crossed { 12 } else { 6 }];
-        dependents.eliminate::<f32, Rounded<S>>(a, with_pipe, &mut right[0], rows, crosses);
-        if let Some(rows) = held {
+        let with_pipe = &mut b[..if crossed { 12 } else { 6 }];
+        right = dependents.eliminate(a, with_pipe, Rounded(right), rows, crosses).0;
+        if let (Some(rows), Some(held)) = (&self.rows[k], held) {
             hold::<S>(a, rows);
-            let keep = S::round(rows);
-            for column in b.iter_mut() {
-                S::load(column).times(keep).store(column);
+            for column in &mut b[..12] {
+                S::load(column).times(held).store(column);
             }
+            right = right.times(held);
         }
+        right.store(&mut b[12]);
         let squares = if touching == Touching::Both {
             begin::<S, true>(a, b, &mut inverse)
         } else {
