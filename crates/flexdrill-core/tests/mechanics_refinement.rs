@@ -171,3 +171,19 @@ fn a_motion_whose_steps_err_asks_for_more_parts() {
     assert_eq!(run(StepRule::Auto, 0.5e-3, 13.0).0, [1]);
     assert_eq!(run(StepRule::Fixed, 1e-3, 13.0).0, [0]);
 }
+
+/// Inner stations follow the ends of their span where their slowest frequency times the step is at least 8: 19 for a guide
+/// of a twentieth of its stiffness in whole steps, and 4.8 in quarters, which are not taken.
+#[test]
+fn a_soft_guide_has_no_quarter_steps() {
+    let mut tool = calm();
+    let step = SimulationSettings::default().time_step;
+    let finest = |tool: &ToolDescription| {
+        let mut simulation = simulation(tool, step);
+        simulation.set_refinement(MOST_REFINEMENT);
+        simulation.quality().choice.in_force
+    };
+    assert_eq!(finest(&tool), MOST_REFINEMENT);
+    tool.guide_bending_factor = 0.05;
+    assert_eq!(finest(&tool), 1);
+}

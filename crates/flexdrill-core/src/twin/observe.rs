@@ -42,7 +42,8 @@ pub(super) struct Observer {
 }
 
 impl Observer {
-    pub(super) fn new(model: &Model, settings: &SimulationSettings) -> Self {
+    pub(super) fn new(stepper: &Stepper, settings: &SimulationSettings) -> Self {
+        let model = stepper.model();
         let watched: Vec<(usize, Body)> = if settings.watched.is_empty() {
             model
                 .joint_stations
@@ -74,7 +75,7 @@ impl Observer {
             ),
             ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),
-            quality: QualityWatch::new(settings.step),
+            quality: QualityWatch::new(settings.step, stepper.finest_refinement()),
             input_trust: 1.0,
             samples: vec![StationSample::default(); watched.len()],
             watched,

@@ -257,9 +257,9 @@ impl QualityWatch {
     }
 
     /// At the start of a run whose step is chosen so.
-    pub(super) fn new(rule: StepRule) -> Self {
+    pub(super) fn new(rule: StepRule, finest: u32) -> Self {
         let mut watch = Self::default();
-        watch.quality.choice = StepChoice::new(rule);
+        watch.quality.choice = StepChoice::new(rule, finest);
         watch
     }
 
@@ -275,8 +275,9 @@ impl QualityWatch {
 
     /// Forgets everything but how the step is chosen; the audit starts at zero too.
     pub(super) fn reset(&mut self) {
-        let mut choice = StepChoice::new(self.quality.choice.rule);
-        choice.in_force = self.quality.choice.in_force;
+        let before = self.quality.choice;
+        let mut choice = StepChoice::new(before.rule, before.finest);
+        choice.in_force = before.in_force;
         *self = Self::default();
         self.quality.choice = choice;
     }

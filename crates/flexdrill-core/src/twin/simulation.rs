@@ -105,7 +105,7 @@ impl Simulation {
         // Station by station, as it was found: over the joints inner stations are shown as they are slaved only.
         let start = stepper.state().clone();
         stepper.prepare(settings.time_step);
-        let observer = Observer::new(stepper.model(), settings);
+        let observer = Observer::new(&stepper, settings);
         let mut simulation = Self {
             settings: settings.clone(),
             applied: Applied::default(),

@@ -6,8 +6,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::stepper::MOST_REFINEMENT;
-
 /// `solver.step`: how a model step is taken.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -41,18 +39,21 @@ pub struct StepChoice {
     pub in_force: u32,
     /// Asked for by the motion; 0 with [`StepRule::Fixed`].
     pub wanted: u32,
+    /// Finest that can be asked for: in shorter steps the stations inside a span would not follow its ends.
+    pub finest: u32,
     calm: u32,
 }
 
 impl StepChoice {
     /// At the start of a run.
-    pub(super) fn new(rule: StepRule) -> Self {
+    pub(super) fn new(rule: StepRule, finest: u32) -> Self {
         Self {
             rule,
             wanted: match rule {
                 StepRule::Fixed => 0,
-                StepRule::Auto => USUAL,
+                StepRule::Auto => USUAL.min(finest),
             },
+            finest,
             ..Self::default()
         }
     }
@@ -64,7 +65,7 @@ impl StepChoice {
         }
         if error_share >= FINER_FROM {
             self.calm = 0;
-            self.wanted = self.wanted.max((self.in_force + 1).min(MOST_REFINEMENT));
+            self.wanted = self.wanted.max((self.in_force + 1).min(self.finest));
         } else if self.wanted > USUAL && self.in_force == self.wanted && error_share < COARSER_BELOW {
             self.calm += 1;
             if self.calm == CALM {
@@ -90,6 +91,7 @@ impl StepChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::stepper::MOST_REFINEMENT;
 
     /// Judged so many times.
     fn judged(mut choice: StepChoice, times: u32, share: f64) -> StepChoice {
@@ -100,7 +102,7 @@ mod tests {
     fn auto(in_force: u32) -> StepChoice {
         StepChoice {
             in_force,
-            ..StepChoice::new(StepRule::Auto)
+            ..StepChoice::new(StepRule::Auto, MOST_REFINEMENT)
         }
     }
 
@@ -125,6 +127,12 @@ mod tests {
     fn it_never_asks_for_less_than_the_usual_or_more_than_the_finest() {
         assert_eq!(judged(auto(1), 100, 0.0).wanted, USUAL);
         assert_eq!(judged(auto(2), 100, 2.0).wanted, MOST_REFINEMENT);
+        let soft = StepChoice {
+            in_force: 1,
+            ..StepChoice::new(StepRule::Auto, 1)
+        };
+        assert_eq!(judged(soft, 100, 2.0).wanted, 1);
+        assert_eq!(StepChoice::new(StepRule::Auto, 0).wanted, 0);
     }
 
     #[test]
@@ -133,7 +141,7 @@ mod tests {
         assert_eq!(choice.wanted, 1);
         assert!(choice.remedy().contains("too slow"));
         assert!(!judged(auto(2), 1, 0.5).remedy().contains("too slow"));
-        let fixed = judged(StepChoice::new(StepRule::Fixed), 3, 0.5);
+        let fixed = judged(StepChoice::new(StepRule::Fixed, MOST_REFINEMENT), 3, 0.5);
         assert_eq!(
             (fixed.wanted, fixed.remedy()),
             (0, "a smaller solver.time_step is needed")
