@@ -61,13 +61,13 @@
 
 #![deny(missing_docs)]
 
+mod chain;
 pub mod dynamics;
 mod elements;
 pub mod inputs;
 mod linear;
 mod model;
 pub mod motion;
-mod reduced;
 mod simd;
 pub mod tool;
 pub mod twin;

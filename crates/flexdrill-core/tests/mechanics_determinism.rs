@@ -35,7 +35,7 @@ fn run(simulation: &mut Simulation, steps: u64) -> Snapshot {
 fn two_runs_are_equal_to_the_bit() {
     let (mut a, mut b) = (simulation(), simulation());
     assert!(same_bits(&run(&mut a, 2000), &run(&mut b, 2000)));
-    assert_eq!(*a.state(), *b.state());
+    assert_eq!(a.state(), b.state());
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn measuring_time_changes_nothing() {
     let (mut timed, mut plain) = (simulation(), simulation());
     timed.set_clock(support::clock);
     assert!(same_bits(&run(&mut timed, 500), &run(&mut plain, 500)));
-    assert_eq!(*timed.state(), *plain.state());
+    assert_eq!(timed.state(), plain.state());
     assert_eq!(timed.checkpoint().unwrap(), plain.checkpoint().unwrap());
     // And time was measured, in every phase.
     for phase in Phase::ALL {
@@ -78,12 +78,12 @@ fn a_checkpoint_of_another_mesh_is_refused_and_changes_nothing() {
     let mut simulation = simulation();
     run(&mut simulation, 10);
     let foreign = support::simulation(&coarse().with_mesh(20, 2)).checkpoint().unwrap();
-    let before = simulation.state().clone();
+    let before = simulation.state();
     assert!(matches!(
         simulation.restore(&foreign),
         Err(CheckpointError::OtherTool { .. })
     ));
-    assert_eq!(*simulation.state(), before);
+    assert_eq!(simulation.state(), before);
 }
 
 #[test]
@@ -96,11 +96,11 @@ fn a_step_that_cannot_converge_is_reported_and_changes_nothing_but_counters() {
     };
     let mut simulation = Simulation::new(&coarse(), &settings).unwrap();
     for _ in 0..4000 {
-        let before = simulation.state().clone();
+        let before = simulation.state();
         let audit = *simulation.energy();
         let step = simulation.step();
         if let StepOutcome::Failed(failure) = simulation.advance(&inputs(0)) {
-            assert_eq!(*simulation.state(), before);
+            assert_eq!(simulation.state(), before);
             assert_eq!(simulation.energy(), &audit);
             assert_eq!(simulation.step(), step);
             assert_eq!(simulation.solver_counters().failed_steps, 1);

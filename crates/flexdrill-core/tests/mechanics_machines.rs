@@ -24,7 +24,7 @@ fn run(tool: &ToolDescription, instructions: Instructions, steps: u64) -> (Vec<f
     }
     let mut snapshot = simulation.new_snapshot();
     simulation.snapshot(&mut snapshot, false);
-    (simulation.state().q.clone(), snapshot)
+    (simulation.state().q, snapshot)
 }
 
 #[test]

@@ -7,16 +7,16 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::chain::span_works;
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::contacts::{inner_forces, outer_force};
 use crate::dynamics::outcome::EnergyAudit;
 #[cfg(test)]
 use crate::dynamics::state::joint_rotations;
-use crate::dynamics::state::{Bow, State, motion};
+use crate::dynamics::state::{Deflection, State, motion};
 use crate::elements::element_form::{add, load};
 use crate::model::{Model, Places};
-use crate::reduced::span_works;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 use crate::tool::description::Direction;
@@ -33,7 +33,7 @@ pub struct SpanForces {
     pub(crate) inertia: [[f64; 16]; 2],
 }
 
-/// What the joints of tools over their joints carry.
+/// What the joints of a chain carry.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JointForces {
     /// Force of each span's pipe on its top end (N), along the axes of the link above.
@@ -53,13 +53,13 @@ pub struct EnergyPoint {
     pub(crate) damping: Vec<f64>,
     /// Inertia force M a (N, N m).
     pub(crate) inertia: Vec<f64>,
-    /// Of tools over their joints only.
+    /// Of a chain only.
     pub(crate) joints: JointForces,
-    /// Geometric stiffness, damping and inertia of the spans of tools over their joints; in the vectors above are then
+    /// Geometric stiffness, damping and inertia of the spans of a chain; in the vectors above are then
     /// those of point masses only.
     pub(crate) spans: Vec<SpanForces>,
-    /// How the contacts and the weight bow each span of tools over their joints: what the next step counts with.
-    pub(crate) bow: Vec<Bow>,
+    /// How the contacts and the weight deflect each span of a chain: what the next step counts with.
+    pub(crate) deflection: Vec<Deflection>,
     /// Value of each point load (N, N m).
     pub(crate) loads: Vec<f64>,
     /// What the support of each held unknown puts on the tool (N, N m), in the order of [`Model::held`].
@@ -82,7 +82,7 @@ pub struct EnergyPoint {
 }
 
 impl EnergyPoint {
-    /// Room for `model` in a numbering of so many unknowns; over its joints it has so many `spans`, else none.
+    /// Room for `model` in a numbering of so many unknowns; a chain has so many `spans`, all stations have none.
     pub fn new(model: &Model, unknowns: usize, spans: usize) -> Self {
         Self {
             friction: vec![0.0; unknowns],
@@ -94,7 +94,7 @@ impl EnergyPoint {
                 multipliers: vec![[0.0; 2]; if spans > 0 { model.joints.len() } else { 0 }],
             },
             spans: vec![SpanForces::default(); spans],
-            bow: vec![[[0.0; 16]; 2]; spans],
+            deflection: vec![[[0.0; 16]; 2]; spans],
             loads: vec![0.0; model.loads.len()],
             reactions: vec![0.0; model.held.len()],
             stored: 0.0,
@@ -117,7 +117,7 @@ impl EnergyPoint {
             && self.joints.on_top.len() == other.joints.on_top.len()
             && self.joints.multipliers.len() == other.joints.multipliers.len()
             && self.spans.len() == other.spans.len()
-            && self.bow.len() == other.bow.len()
+            && self.deflection.len() == other.deflection.len()
             && self.loads.len() == other.loads.len()
             && self.reactions.len() == other.reactions.len()
     }
@@ -131,7 +131,7 @@ impl EnergyPoint {
         self.joints.on_top.copy_from_slice(&other.joints.on_top);
         self.joints.multipliers.copy_from_slice(&other.joints.multipliers);
         self.spans.copy_from_slice(&other.spans);
-        self.bow.copy_from_slice(&other.bow);
+        self.deflection.copy_from_slice(&other.deflection);
         self.loads.copy_from_slice(&other.loads);
         self.reactions.copy_from_slice(&other.reactions);
         let Self {

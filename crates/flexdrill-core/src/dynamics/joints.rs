@@ -16,20 +16,25 @@ impl Assembler {
         self.translational_rows(model, state);
         let mut residual = std::mem::take(&mut self.residual);
         let lambda = |joint: usize| rotational_multipliers(model, state, joint);
-        self.linearise_joints(&model.places.joints, state, |_| true, |joint, at| {
-            let lambda = lambda(joint);
-            let places = &model.places.joints[joint];
-            let stop = at.stop_moments().unwrap_or_default();
-            for k in 0..6 {
-                let place = if k < 3 { places.above + k } else { places.below + k - 3 };
-                let of_rows = (0..at.rows()).map(|row| lambda[row] * at.gradient(row)[k]);
-                residual[place] += stop[k] + of_rows.sum::<f64>();
-            }
-            let first = model.multipliers(joint) + 3;
-            for row in 0..at.rows() {
-                residual[first + row] = model.moment_scale * at.value(row);
-            }
-        });
+        self.linearise_joints(
+            &model.places.joints,
+            state,
+            |_| true,
+            |joint, at| {
+                let lambda = lambda(joint);
+                let places = &model.places.joints[joint];
+                let stop = at.stop_moments().unwrap_or_default();
+                for k in 0..6 {
+                    let place = if k < 3 { places.above + k } else { places.below + k - 3 };
+                    let of_rows = (0..at.rows()).map(|row| lambda[row] * at.gradient(row)[k]);
+                    residual[place] += stop[k] + of_rows.sum::<f64>();
+                }
+                let first = model.multipliers(joint) + 3;
+                for row in 0..at.rows() {
+                    residual[first + row] = model.moment_scale * at.value(row);
+                }
+            },
+        );
         self.residual = residual;
     }
 

@@ -26,7 +26,6 @@ pub use scheme::Scheme;
 pub use state::State;
 pub use statics::StartError;
 pub use stepper::{MOST_REFINEMENT, SolverKind};
-pub use view::StateView;
 
 #[cfg(test)]
 mod tests;

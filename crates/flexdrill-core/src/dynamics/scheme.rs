@@ -206,7 +206,7 @@ mod tests {
                 scheme_step: 0.0,
                 pipe_axial: vec![],
                 guide_axial: vec![],
-                bow: vec![],
+                deflection: vec![],
                 time: 0.0,
                 drive_angle: 0.0,
             };

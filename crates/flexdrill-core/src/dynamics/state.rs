@@ -1,4 +1,4 @@
-//! What increment while the tool moves: displacements, velocities, accelerations, multipliers.
+//! What a step changes: displacements, velocities, accelerations, multipliers.
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
@@ -10,8 +10,8 @@ use crate::model::Model;
 /// A node's six values.
 pub type NodeVector = SVector<f64, 6>;
 
-/// How far a span bows, see [`State::bow`].
-pub type Bow = [[f64; 16]; 2];
+/// How far a span deflects, see [`State::deflection`].
+pub type Deflection = [[f64; 16]; 2];
 
 /// State at one instant, in the model's numbering: q_rd of Eq. 19 station by station, with the multipliers. Multiplier
 /// slots of `q` hold scaled multipliers; their velocity and acceleration are zero.
@@ -32,9 +32,9 @@ pub struct State {
     pub pipe_axial: Vec<f64>,
     /// The same for the guide.
     pub guide_axial: Vec<f64>,
-    /// How far each span of tools over their joints bows between its ends under what acts inside it: lateral deflection
+    /// How far each span of a chain deflects between its ends under what acts inside it: lateral deflection
     /// (m) of each station but the first in its station's frame, y in 0..8 and z in 8..16, of pipe and guide.
-    pub bow: Vec<Bow>,
+    pub deflection: Vec<Deflection>,
     /// Model time (s).
     pub time: f64,
     /// Angle of the drive (rad) as prescribed at this time.
@@ -53,7 +53,7 @@ impl State {
             scheme_step: 0.0,
             pipe_axial: vec![0.0; model.pipe.len()],
             guide_axial: vec![0.0; model.guide.len()],
-            bow: Vec::new(),
+            deflection: Vec::new(),
             time: 0.0,
             drive_angle: 0.0,
         }
@@ -68,7 +68,7 @@ impl State {
         self.scheme_step = other.scheme_step;
         self.pipe_axial.copy_from_slice(&other.pipe_axial);
         self.guide_axial.copy_from_slice(&other.guide_axial);
-        self.bow.copy_from_slice(&other.bow);
+        self.deflection.copy_from_slice(&other.deflection);
         self.time = other.time;
         self.drive_angle = other.drive_angle;
     }

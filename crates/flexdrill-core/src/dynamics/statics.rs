@@ -4,6 +4,7 @@ use crate::dynamics::conditions::Conditions;
 use crate::dynamics::newton::{self, Stride};
 use crate::dynamics::outcome::StepFailure;
 use crate::dynamics::scheme::Scheme;
+use crate::dynamics::state::State;
 use crate::dynamics::stepper::Stepper;
 use crate::dynamics::tolerances::Accuracy;
 use crate::linear::Singular;
@@ -49,13 +50,21 @@ impl Stepper {
     ///
     /// A bit that turns under weight with nothing twisted behind it is braked by its torque at half a million rad/s2, for
     /// the few microseconds until the wave is on its way. The scheme would carry that on through the whole first step.
+    /// Gives the state over all stations.
     ///
     /// # Errors
     /// [`StartError::Singular`].
-    pub fn start_as_given(&mut self, weight_on_bit: f64, h: f64) -> Result<(), StartError> {
-        self.leave_joints();
+    pub fn start_as_given(&mut self, weight_on_bit: f64, h: f64) -> Result<State, StartError> {
+        let state = self.as_given(weight_on_bit, h)?;
+        self.start_from(&state, weight_on_bit);
+        Ok(state)
+    }
+
+    /// The state as given over all stations, its accelerations as far as steps of size `h` (s) can follow them.
+    fn as_given(&mut self, weight_on_bit: f64, h: f64) -> Result<State, StartError> {
         let conditions = self.conditions(0.0, weight_on_bit);
-        let (model, newton, state, _) = self.parts();
+        let (model, newton) = self.parts();
+        let mut state = State::at_rest(model);
         let d = &model.description;
         for station in &model.stations {
             for first in [station.pipe_above, station.pipe_below] {
@@ -76,12 +85,10 @@ impl Stepper {
         state.update_axial(model);
         // Where the stiffness has no numbers, the mass may; the first step then says what is wrong.
         newton
-            .balance_accelerations(model, state, &conditions, h)
-            .or_else(|_| newton.balance_accelerations(model, state, &conditions, 0.0))
+            .balance_accelerations(model, &mut state, &conditions, h)
+            .or_else(|_| newton.balance_accelerations(model, &mut state, &conditions, 0.0))
             .map_err(StartError::Singular)?;
-        let state = self.state().clone();
-        self.start_from(&state, weight_on_bit);
-        Ok(())
+        Ok(state)
     }
 
     /// Brings the tool to rest under gravity and `weight_on_bit` by damped steps of growing size. Friction and bit
@@ -89,10 +96,11 @@ impl Stepper {
     ///
     /// # Errors
     /// When steps fail at the smallest size or the tool keeps moving.
-    pub fn settle(&mut self, weight_on_bit: f64) -> Result<(), StartError> {
-        self.start_as_given(weight_on_bit, 0.0)?;
+    pub fn settle(&mut self, weight_on_bit: f64) -> Result<State, StartError> {
+        let mut state = self.as_given(weight_on_bit, 0.0)?;
         let conditions = settling(self.conditions(0.0, weight_on_bit));
-        let (model, newton, state, trial) = self.parts();
+        let (model, newton) = self.parts();
+        let mut trial = state.clone();
         let mut h = STEPS[0];
         let mut speed = f64::INFINITY;
         let mut at_largest = 0;
@@ -108,9 +116,9 @@ impl Stepper {
                 accuracy: Accuracy::Rest,
             };
             let most = newton.tolerances.max_iterations;
-            match newton::step(newton, model, (stride, most), &conditions, state, trial) {
+            match newton::step(newton, model, (stride, most), &conditions, &state, &mut trial) {
                 Ok(iterations) => {
-                    std::mem::swap(state, trial);
+                    std::mem::swap(&mut state, &mut trial);
                     speed = state.v.iter().fold(0.0, |worst: f64, v| worst.max(v.abs()));
                     if iterations <= 4 {
                         h = (h * 1.5).min(STEPS[1]);
@@ -137,19 +145,19 @@ impl Stepper {
                 limit: REST,
             });
         }
-        let mut rest = self.state().clone();
+        let mut rest = state;
         rest.v.fill(0.0);
         rest.a.fill(0.0);
         rest.time = 0.0;
         let conditions = self.conditions(0.0, weight_on_bit);
-        let (model, newton, _, trial) = self.parts();
-        newton.polish_rest(model, &mut rest, trial, &conditions);
+        let (model, newton) = self.parts();
+        newton.polish_rest(model, &mut rest, &mut trial, &conditions);
         // What is still unbalanced becomes an acceleration, so that the first step begins in balance.
         newton
             .balance_accelerations(model, &mut rest, &conditions, 0.0)
             .map_err(StartError::Singular)?;
         self.start_from(&rest, weight_on_bit);
-        Ok(())
+        Ok(rest)
     }
 }
 

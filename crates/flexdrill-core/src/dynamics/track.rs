@@ -17,7 +17,7 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    /// At `state`, over so many `spans` where steps are taken over the joints, else none.
+    /// At `state`, over so many `spans` of a chain; over all stations there are none.
     pub fn new(model: &Model, state: State, spans: usize) -> Self {
         let energy = EnergyPoint::new(model, state.q.len(), spans);
         Self {

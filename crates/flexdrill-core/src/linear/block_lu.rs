@@ -1,5 +1,4 @@
-//! Block LU along the stations: the plain method, which the condensed one is held against. It also solves what cannot
-//! be condensed (a static start, joints with two rotational rows).
+//! Block LU along the stations: the plain method, which finds the static start and which the chain is held against.
 //!
 //! A station couples to the next one through its twelve outgoing unknowns only, so that with D the diagonal blocks, U
 //! and L the couplings to the next station and back

@@ -64,41 +64,25 @@ impl Places {
         }
     }
 
-    /// In another numbering, which gives every one of these unknowns but held ones a place; `None` if it does not.
-    pub fn renumbered(&self, place: impl Fn(usize) -> Option<usize>) -> Option<Self> {
-        let optional = |unknown: Option<usize>| match unknown {
-            Some(unknown) => place(unknown).map(Some),
-            None => Some(None),
-        };
-        Some(Self {
-            driven: optional(self.driven)?,
-            bit_spin: place(self.bit_spin)?,
-            pipe_end: place(self.pipe_end)?,
-            guide_end: place(self.guide_end)?,
-            tie: optional(self.tie)?,
+    /// In another numbering, by the `place` of every unknown; of a `held` one it may have none.
+    pub fn renumbered(&self, place: impl Fn(usize) -> usize, held: impl Fn(usize) -> Option<usize>) -> Self {
+        Self {
+            driven: self.driven.map(&place),
+            bit_spin: place(self.bit_spin),
+            pipe_end: place(self.pipe_end),
+            guide_end: place(self.guide_end),
+            tie: self.tie.map(&place),
             joints: self
                 .joints
                 .iter()
-                .map(|joint| {
-                    Some(JointPlaces {
-                        above: place(joint.above)?,
-                        below: place(joint.below)?,
-                    })
+                .map(|joint| JointPlaces {
+                    above: place(joint.above),
+                    below: place(joint.below),
                 })
-                .collect::<Option<_>>()?,
-            loads: self.loads.iter().map(|&load| place(load)).collect::<Option<_>>()?,
-            masses: self
-                .masses
-                .iter()
-                .map(|mass| {
-                    let mut to = [0; 6];
-                    for (to, &from) in to.iter_mut().zip(mass) {
-                        *to = place(from)?;
-                    }
-                    Some(to)
-                })
-                .collect::<Option<_>>()?,
-            held: self.held.iter().map(|held| held.and_then(&place)).collect(),
-        })
+                .collect(),
+            loads: self.loads.iter().map(|&load| place(load)).collect(),
+            masses: self.masses.iter().map(|mass| mass.map(&place)).collect(),
+            held: self.held.iter().map(|at| at.and_then(&held)).collect(),
+        }
     }
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::quality::{ModelQuality, QualityWatch};
 use super::settings::SimulationSettings;
 use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Reactions, Shape, Snapshot};
+use crate::dynamics::assembly::Assembler;
 use crate::dynamics::contacts::inner_lateral;
 use crate::dynamics::state::{State, joint_rotations, translation};
 use crate::dynamics::stepper::Stepper;
@@ -147,7 +148,7 @@ impl Observer {
         self.shock.restart();
     }
 
-    pub(super) fn after_step(&mut self, stepper: &Stepper, applied: &Applied, step: u64, dt: f64, iterations: u32) {
+    pub(super) fn after_step(&mut self, stepper: &mut Stepper, applied: &Applied, step: u64, dt: f64, iterations: u32) {
         self.last_iterations = iterations;
         if self.quality.push(dt, stepper.audit()) {
             self.pass_on_trust();
@@ -199,7 +200,8 @@ impl Observer {
             }
         }
         if step.is_multiple_of(self.decimation) {
-            let state = &*stepper.state();
+            stepper.refresh_view();
+            let (model, state) = (stepper.model(), stepper.view());
             for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
                 let lateral = gap_lateral(model, state, station, body);
                 (sample.y, sample.z) = (lateral.x, lateral.y);
@@ -270,10 +272,9 @@ impl Observer {
     }
 
     /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
-    pub(super) fn fill(&self, stepper: &Stepper, applied: &Applied, out: &mut Snapshot) {
-        let (model, state) = (stepper.model(), &*stepper.state());
-        let forces = &stepper.newton().assembler;
-        fill_joints(stepper, &mut out.joints);
+    pub(super) fn fill(&self, stepper: &Stepper, state: &State, applied: &Applied, out: &mut Snapshot) {
+        let (model, forces) = (stepper.model(), &stepper.newton().assembler);
+        fill_joints((model, state), forces, &mut out.joints);
         let contacts = &mut out.contacts;
         fill_layer(&mut contacts.pipe_guide, &forces.inner, &self.inner, |s| {
             let station = &model.stations[s];
@@ -469,9 +470,7 @@ fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
     out.unbalance = forces.unbalance().into();
 }
 
-fn fill_joints(stepper: &Stepper, out: &mut Joints) {
-    let (model, state) = (stepper.model(), &*stepper.state());
-    let forces = &stepper.newton().assembler;
+fn fill_joints((model, state): (&Model, &State), forces: &Assembler, out: &mut Joints) {
     for (to, stop) in out.stop_moment.iter_mut().zip(forces.stops()) {
         *to = stop.moment;
     }

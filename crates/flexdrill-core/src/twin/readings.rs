@@ -11,9 +11,8 @@ use nalgebra::Vector3;
 use super::quality::ModelQuality;
 use super::simulation::Simulation;
 use super::snapshot::{Applied, Bit, Contacts, Joints, SolverCounters};
-use crate::dynamics::StateView;
 use crate::dynamics::outcome::EnergyAudit;
-use crate::dynamics::state::translation;
+use crate::dynamics::state::State;
 use crate::elements::gap::Touch;
 use crate::model::Station;
 use crate::tool::description::{Body, Direction};
@@ -120,7 +119,7 @@ impl Simulation {
     /// Distance of a pipe's axis from the bore's, horizontally and towards the low side (m).
     pub fn lateral(&self, station: usize, body: Body) -> Option<[f64; 2]> {
         let at = self.stepper().model().stations.get(station)?;
-        let moved = in_bore(at, body, &self.stepper().state().q);
+        let moved = self.in_bore(at, body, |state| &state.q);
         Some(match body {
             Body::Pipe => [moved.y + at.offset.x, moved.z + at.offset.y],
             Body::Guide => [moved.y, moved.z],
@@ -130,23 +129,26 @@ impl Simulation {
     /// Acceleration of a node in the station's frame: down the hole, horizontally, towards the low side (m/s2).
     pub fn acceleration_in_bore(&self, station: usize, body: Body) -> Option<[f64; 3]> {
         let at = self.stepper().model().stations.get(station)?;
-        Some(in_bore(at, body, &self.stepper().state().a).into())
+        Some(self.in_bore(at, body, |state| &state.a).into())
     }
 
     /// Displacement of a node (m or rad) in its own frame: that of its link for the pipe (at a joint: of the link
     /// above), that of the station for the guide.
     pub fn displacement(&self, station: usize, body: Body, direction: Direction) -> Option<f64> {
-        Some(self.stepper().state().q[self.unknown(station, body, direction)?])
+        let unknown = self.unknown(station, body, direction)?;
+        Some(self.stepper().value(|state| &state.q, unknown))
     }
 
     /// Velocity of a node (m/s or rad/s), as [`Simulation::displacement`].
     pub fn velocity(&self, station: usize, body: Body, direction: Direction) -> Option<f64> {
-        Some(self.stepper().state().v[self.unknown(station, body, direction)?])
+        let unknown = self.unknown(station, body, direction)?;
+        Some(self.stepper().value(|state| &state.v, unknown))
     }
 
     /// Acceleration of a node (m/s2 or rad/s2), as [`Simulation::displacement`].
     pub fn acceleration(&self, station: usize, body: Body, direction: Direction) -> Option<f64> {
-        Some(self.stepper().state().a[self.unknown(station, body, direction)?])
+        let unknown = self.unknown(station, body, direction)?;
+        Some(self.stepper().value(|state| &state.a, unknown))
     }
 
     /// Angles, stops and forces of every joint now.
@@ -182,7 +184,7 @@ impl Simulation {
 
     /// Displacements, multipliers, velocities and accelerations of all unknowns, in the numbering of the model: to
     /// compare states with.
-    pub fn state(&self) -> StateView<'_> {
+    pub fn state(&self) -> State {
         self.stepper().state()
     }
 
@@ -216,9 +218,12 @@ impl Simulation {
 }
 
 /// What `values` hold for a node's translation, in the station's frame.
-fn in_bore(at: &Station, body: Body, values: &[f64]) -> Vector3<f64> {
-    match body {
-        Body::Pipe => at.pipe_to_station * translation(values, at.pipe_above),
-        Body::Guide => translation(values, at.guide),
+impl Simulation {
+    fn in_bore(&self, at: &Station, body: Body, of: fn(&State) -> &[f64]) -> Vector3<f64> {
+        let at_node = |first: usize| Vector3::from_fn(|k, _| self.stepper().value(of, first + k));
+        match body {
+            Body::Pipe => at.pipe_to_station * at_node(at.pipe_above),
+            Body::Guide => at_node(at.guide),
+        }
     }
 }

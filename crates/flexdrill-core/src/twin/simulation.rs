@@ -12,7 +12,7 @@ use crate::dynamics::outcome::StepOutcome;
 use crate::dynamics::phases::{Clock, Phase, PhaseTimes};
 use crate::dynamics::state::State;
 use crate::dynamics::statics::StartError;
-use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperCheckpoint};
+use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperCheckpoint, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
 use crate::inputs::Inputs;
 use crate::motion::WhirlSettings;
@@ -89,22 +89,22 @@ impl Simulation {
             .map_err(BuildError::Settings)?;
         let mut stepper = Stepper::new(
             tool,
-            settings.scheme,
-            tolerances,
-            settings.max_halvings,
-            solver,
-            instructions,
+            &StepperSettings {
+                time_step: settings.time_step,
+                scheme: settings.scheme,
+                tolerances,
+                max_halvings: settings.max_halvings,
+                solver,
+                instructions,
+            },
         )
         .map_err(BuildError::Tool)?;
         let load = settings.initial_inputs.weight_on_bit;
-        if tool.static_start {
-            stepper.settle(load)?;
+        let start = if tool.static_start {
+            stepper.settle(load)?
         } else {
-            stepper.start_as_given(load, settings.time_step)?;
-        }
-        // Station by station, as it was found: over the joints inner stations are shown as they are slaved only.
-        let start = stepper.state().clone();
-        stepper.prepare(settings.time_step);
+            stepper.start_as_given(load, settings.time_step)?
+        };
         let observer = Observer::new(&stepper, settings);
         let mut simulation = Self {
             settings: settings.clone(),
@@ -150,7 +150,7 @@ impl Simulation {
                 drive_torque: self.stepper.drive_torque(),
             };
             self.observer
-                .after_step(&self.stepper, &self.applied, self.step, dt, iterations);
+                .after_step(&mut self.stepper, &self.applied, self.step, dt, iterations);
         }
         self.stepper.stopwatch().stop(Phase::Analysis);
         outcome
@@ -159,7 +159,7 @@ impl Simulation {
     /// A snapshot of the right sizes, to be filled by [`Simulation::snapshot`].
     pub fn new_snapshot(&self) -> Snapshot {
         let mut out = self.observer.new_snapshot(self.stepper.model());
-        self.fill(&mut out);
+        self.fill(&self.stepper.state(), &mut out);
         out
     }
 
@@ -167,20 +167,21 @@ impl Simulation {
     /// forces and bit accelerations start anew.
     pub fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
         self.stepper.stopwatch().start();
-        self.fill(out);
+        self.stepper.refresh_view();
+        self.fill(self.stepper.view(), out);
         if end_interval {
             self.observer.end_interval();
         }
         self.stepper.stopwatch().stop(Phase::Snapshot);
     }
 
-    fn fill(&self, out: &mut Snapshot) {
+    fn fill(&self, state: &State, out: &mut Snapshot) {
         out.step = self.step;
         out.time = self.time();
         out.applied = self.applied;
         out.energy = *self.stepper.audit();
         out.solver = self.solver_counters();
-        self.observer.fill(&self.stepper, &self.applied, out);
+        self.observer.fill(&self.stepper, state, &self.applied, out);
     }
 
     /// Parameters that may change while running.

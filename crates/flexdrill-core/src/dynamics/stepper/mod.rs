@@ -3,11 +3,11 @@
 mod checkpoint;
 mod outside;
 
-use std::cell::{Ref, RefCell};
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use crate::chain::{self, Chain};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::newton::{self, Stride};
 use crate::dynamics::outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
@@ -18,13 +18,12 @@ use crate::dynamics::station_equations::StationEquations;
 use crate::dynamics::sub_steps::{SubSteps, most_attempts};
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::dynamics::track::Track;
-use crate::dynamics::view::{BottomMotion, Shown, StateView};
+use crate::dynamics::view::BottomMotion;
 use crate::inputs::InputKind;
 #[cfg(feature = "reference")]
 use crate::linear::SparseReference;
 use crate::linear::{BlockLu, LinearSolver};
 use crate::model::Model;
-use crate::reduced::{self, Reduced};
 use crate::simd::Instructions;
 use crate::tool::description::{Body, Direction, LiveParameters, ToolDescription};
 use crate::validation::ValidationError;
@@ -51,6 +50,23 @@ pub enum SolverKind {
     /// faer's sparse LU, to hold block LU against.
     #[cfg(feature = "reference")]
     Reference,
+}
+
+/// How steps are taken.
+#[derive(Debug, Clone, Copy)]
+pub struct StepperSettings {
+    /// Size of a whole step (s).
+    pub time_step: f64,
+    /// How time is integrated.
+    pub scheme: Scheme,
+    /// When an iterate is accepted.
+    pub tolerances: Tolerances,
+    /// Most halvings of a step.
+    pub max_halvings: u32,
+    /// The linear solver.
+    pub solver: SolverKind,
+    /// Vector instructions.
+    pub instructions: Instructions,
 }
 
 /// Counters since the start.
@@ -86,60 +102,69 @@ pub struct Stepper {
     /// Steps are taken in 2^refinement parts.
     refinement: u32,
     live: LiveParameters,
+    /// The tool over its nodes; `None` where steps are taken over all stations.
+    chain: Option<Chain>,
+    /// Where the motion is: in the numbering of the chain, or without one in that of the model.
     track: Track,
-    /// Whether steps are to be taken over a chain of nodes.
-    chain: bool,
-    /// The tool over its nodes, made for the first step size, and the state as the model numbers it.
-    reduced: Option<(Reduced, RefCell<Shown>)>,
-    /// Whether steps are taken over the joints.
-    over_joints: bool,
+    /// The present state in the numbering of the model, as it was asked for last; of a chain only.
+    view: State,
+    view_is_current: bool,
     audit: EnergyAudit,
     counters: Counters,
     /// Whole turns taken off the spins so far.
     turns: f64,
     weight_on_bit: f64,
-    /// Step size that the chain is prepared for (s); 0 before the first one.
+    /// Step size that the chain is prepared for (s).
     prepared_for: f64,
 }
 
 impl Stepper {
-    /// Builds the tool in its initial state: as given, or at rest if the description asks for it and
-    /// [`Stepper::settle`] is called.
+    /// Builds the tool, at rest and undeflected until [`Stepper::settle`] or
+    /// [`Stepper::start_as_given`] is called.
     ///
     /// # Errors
     /// See [`Model::new`].
-    pub fn new(
-        description: &ToolDescription,
-        scheme: Scheme,
-        tolerances: Tolerances,
-        max_halvings: u32,
-        kind: SolverKind,
-        instructions: Instructions,
-    ) -> Result<Self, ValidationError> {
+    pub fn new(description: &ToolDescription, settings: &StepperSettings) -> Result<Self, ValidationError> {
+        let StepperSettings {
+            time_step: h,
+            scheme,
+            tolerances,
+            max_halvings,
+            solver: kind,
+            instructions,
+        } = *settings;
         let model = Model::new(description)?;
         let solver: Box<dyn LinearSolver> = match kind {
             SolverKind::Chain | SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
             #[cfg(feature = "reference")]
             SolverKind::Reference => Box::new(SparseReference::default()),
         };
-        let state = State::at_rest(&model);
-        Ok(Self {
-            newton: StationEquations::new(&model, solver, tolerances, instructions),
+        let view = State::at_rest(&model);
+        let newton = StationEquations::new(&model, solver, tolerances, instructions);
+        let chain = (kind == SolverKind::Chain).then(|| Chain::of(&model, &newton.tolerances, h, instructions));
+        let track = match &chain {
+            Some(chain) => Track::new(&model, chain.state(), chain.spans()),
+            None => Track::new(&model, view.clone(), 0),
+        };
+        let mut stepper = Self {
+            newton,
             scheme,
             max_halvings,
             refinement: 0,
             live: LiveParameters::of(description),
-            chain: kind == SolverKind::Chain,
-            reduced: None,
-            over_joints: false,
-            track: Track::new(&model, state, 0),
+            chain,
+            track,
+            view,
+            view_is_current: false,
             audit: EnergyAudit::default(),
             counters: Counters::default(),
             turns: 0.0,
             weight_on_bit: 0.0,
             prepared_for: 0.0,
             model,
-        })
+        };
+        stepper.prepare(h);
+        Ok(stepper)
     }
 
     /// The tool as built.
@@ -147,18 +172,46 @@ impl Stepper {
         &self.model
     }
 
-    /// State at the end of the last step.
-    pub fn state(&self) -> StateView<'_> {
-        let Some((reduced, shown)) = self.reduced.as_ref().filter(|_| self.over_joints) else {
-            return StateView::Stations(&self.track.state);
+    /// State at the end of the last step, in the numbering of the model: a copy.
+    pub fn state(&self) -> State {
+        let Some(chain) = &self.chain else {
+            return self.track.state.clone();
         };
-        let (now, forces) = (&self.track.state, &self.track.energy.joints);
-        let outdated = shown.borrow().outdated();
-        if outdated {
-            let mut shown = shown.borrow_mut();
-            shown.bring_up(|full| reduced.show(&self.model, now, forces, full));
+        let mut state = self.view.clone();
+        chain.show(&self.model, &self.track.state, &self.track.energy.joints, &mut state);
+        state
+    }
+
+    /// Makes [`Stepper::view`] the state at the end of the last step.
+    pub(crate) fn refresh_view(&mut self) {
+        if let (Some(chain), false) = (&self.chain, self.view_is_current) {
+            chain.show(
+                &self.model,
+                &self.track.state,
+                &self.track.energy.joints,
+                &mut self.view,
+            );
+            self.view_is_current = true;
         }
-        StateView::Joints(Ref::map(shown.borrow(), Shown::state))
+    }
+
+    /// The same as [`Stepper::state`] without a copy, after [`Stepper::refresh_view`].
+    pub(crate) fn view(&self) -> &State {
+        debug_assert!(self.chain.is_none() || self.view_is_current, "an earlier step's view");
+        if self.chain.is_some() {
+            &self.view
+        } else {
+            &self.track.state
+        }
+    }
+
+    /// One of the displacements, velocities or accelerations at the end of the last step, by the model's unknown.
+    pub(crate) fn value(&self, of: fn(&State) -> &[f64], unknown: usize) -> f64 {
+        let values = of(&self.track.state);
+        match &self.chain {
+            Some(chain) => chain.value(&self.model, values, unknown),
+            None => values[unknown],
+        }
     }
 
     /// How the bottom of the pipe moves at the end of the last step.
@@ -166,18 +219,18 @@ impl Stepper {
         let (state, last) = (&self.track.state, self.model.last());
         let bottom = &self.model.stations[last];
         let (spin, axial) = (bottom.pipe_above + Direction::Psi as usize, bottom.pipe_above);
-        match &self.reduced {
-            Some((reduced, _)) if self.over_joints => {
-                let mut above = reduced.pipe_translation(&state.a, last - 1);
+        match &self.chain {
+            Some(chain) => {
+                let mut above = chain.pipe_translation(&state.a, last - 1);
                 if let Some(joint) = self.model.stations[last - 1].joint {
                     let at = &self.model.joints[joint];
                     above = at.lower.tr_mul(&(at.upper * above));
                 }
-                let at_bottom = reduced.pipe_translation(&state.a, last);
-                let spin = reduced.places.bit_spin;
+                let at_bottom = chain.pipe_translation(&state.a, last);
+                let spin = chain.places.bit_spin;
                 BottomMotion::new([state.v[spin], state.a[spin]], at_bottom.x, above)
             }
-            _ => {
+            None => {
                 let above = translation(&state.a, self.model.stations[last - 1].pipe_below);
                 BottomMotion::new([state.v[spin], state.a[spin]], state.a[axial], above)
             }
@@ -223,9 +276,8 @@ impl Stepper {
     /// Most halvings of the step that may be asked for: down to the smallest step for which the inner stations of a span
     /// follow its ends, [`MOST_REFINEMENT`] at most.
     pub fn finest_refinement(&self) -> u32 {
-        let chain = self.reduced.as_ref();
-        let finest = chain.map_or(MOST_REFINEMENT, |(chain, _)| chain.finest_refinement(self.prepared_for));
-        finest.min(MOST_REFINEMENT)
+        let finest = |chain: &Chain| chain.finest_refinement(self.prepared_for);
+        self.chain.as_ref().map_or(MOST_REFINEMENT, finest).min(MOST_REFINEMENT)
     }
 
     /// Times the phases of [`Stepper::advance`] while it runs.
@@ -248,23 +300,9 @@ impl Stepper {
         self.live = live;
     }
 
-    /// Goes back to the stations, where a start is found; [`Stepper::prepare`] then decides anew.
-    pub(crate) fn leave_joints(&mut self) {
-        if self.over_joints {
-            self.over_joints = false;
-            self.prepared_for = 0.0;
-            self.track = Track::new(&self.model, State::at_rest(&self.model), 0);
-        }
-    }
-
-    /// What the static start works on, station by station.
-    pub(crate) fn parts(&mut self) -> (&Model, &mut StationEquations, &mut State, &mut State) {
-        (
-            &self.model,
-            &mut self.newton,
-            &mut self.track.state,
-            &mut self.track.trial,
-        )
+    /// What a start is found with, over all stations.
+    pub(super) fn parts(&mut self) -> (&Model, &mut StationEquations) {
+        (&self.model, &mut self.newton)
     }
 
     /// Conditions at `time` under `weight_on_bit`.
@@ -272,17 +310,18 @@ impl Stepper {
         Conditions::new(&self.model.description, &self.live, time, weight_on_bit)
     }
 
-    /// Takes `state` as the present one, with the audit starting at zero. The accelerations must balance the forces.
+    /// Takes `state`, in the numbering of the model, as the present one, with the audit starting at zero. The
+    /// accelerations must balance the forces.
     pub fn start_from(&mut self, state: &State, weight_on_bit: f64) {
         let conditions = self.conditions(state.time, weight_on_bit);
-        if let (true, Some((reduced, shown))) = (self.over_joints, &mut self.reduced) {
-            let track = &mut self.track;
-            shown.get_mut().copy_from(state);
-            reduced.numbering.gather(state, &mut track.state);
-            reduced.take_bows(&self.model, state, &mut track.state);
-            let mut equations = reduced::equations(reduced, &mut self.newton.assembler);
-            let (to, scratch) = (&mut track.state, &mut track.trial);
-            // The stations' balance is not quite the joints'.
+        let track = &mut self.track;
+        let (to, scratch) = (&mut track.state, &mut track.trial);
+        if let Some(chain) = &mut self.chain {
+            // What is no unknown of the chain, and never shown anew.
+            self.view.copy_from(state);
+            chain.take(&self.model, state, to);
+            let mut equations = chain::equations(chain, &mut self.newton.assembler);
+            // The stations' balance is not quite the nodes'.
             let at_rest = to.v.iter().all(|&v| v == 0.0);
             if at_rest {
                 equations.polish_rest(&self.model, to, scratch, &conditions);
@@ -296,13 +335,13 @@ impl Stepper {
                 to.copy_from(scratch);
             }
         } else {
-            self.track.state.copy_from(state);
+            to.copy_from(state);
         }
         if state.scheme_step == 0.0 {
-            let State { a, lagged, .. } = &mut self.track.state;
+            let State { a, lagged, .. } = to;
             lagged.copy_from_slice(a);
         }
-        self.evaluate(&conditions, !self.over_joints);
+        self.evaluate(&conditions, self.chain.is_none());
         self.audit = EnergyAudit::default();
         self.counters = Counters::default();
         self.turns = 0.0;
@@ -312,22 +351,15 @@ impl Stepper {
     /// Evaluates forces and energies of the present state, with the axial forces that it holds or, without
     /// `keep_axial`, those of its displacements.
     fn evaluate(&mut self, conditions: &Conditions, keep_axial: bool) {
-        let Self {
-            model,
-            newton,
-            reduced,
-            track,
-            ..
-        } = self;
-        let assembler = &mut newton.assembler;
-        if let (true, Some((reduced, shown))) = (self.over_joints, reduced) {
-            reduced::equations(reduced, assembler).evaluate(model, &mut track.state, conditions, keep_axial);
-            reduced.energy(&mut track.energy, model, &track.state, conditions, assembler);
-            shown.get_mut().outdate();
+        let (model, track, assembler) = (&self.model, &mut self.track, &mut self.newton.assembler);
+        if let Some(chain) = &mut self.chain {
+            chain::equations(chain, assembler).evaluate(model, &mut track.state, conditions, keep_axial);
+            chain.energy(&mut track.energy, model, &track.state, conditions, assembler);
         } else {
             assembler.residual(model, &track.state, conditions);
             track.energy.evaluate(model, &track.state, conditions, assembler);
         }
+        self.view_is_current = false;
     }
 
     /// Angle of the drive since the start (rad).
@@ -345,8 +377,8 @@ impl Stepper {
         self.turns += turns;
         state.drive_angle -= turns * TAU;
         let mut unwind = |spin: usize| state.q[spin] -= turns * TAU;
-        if let (true, Some((reduced, _))) = (self.over_joints, &self.reduced) {
-            reduced.spins().for_each(unwind);
+        if let Some(chain) = &self.chain {
+            chain.spins().for_each(unwind);
             return;
         }
         for station in &self.model.stations {
@@ -359,27 +391,16 @@ impl Stepper {
 
     /// Makes what steps of size `h` (s) and their halves need, so that [`Stepper::advance`] does not.
     pub fn prepare(&mut self, h: f64) {
-        if !self.chain || self.prepared_for == h {
+        if self.prepared_for == h {
             return;
         }
-        let conditions = self.conditions(0.0, 0.0);
         self.prepared_for = h;
-        if self.reduced.is_none() {
-            let instructions = self.newton.assembler.instructions();
-            let reduced = Reduced::of(&self.model, &self.newton.tolerances, h, instructions);
-            self.reduced = reduced.map(|reduced| (reduced, RefCell::new(Shown::of(&self.track.state))));
-        }
-        let finest = self.finest_level();
-        let Some((reduced, _)) = &mut self.reduced else { return };
-        for level in 0..=finest {
-            let factors = self.scheme.factors(h / f64::from(1_u32 << level));
-            reduced.prepare(&self.model, &conditions, factors);
-        }
-        if !self.over_joints {
-            let track = Track::new(&self.model, reduced.state(), reduced.spans());
-            let before = std::mem::replace(&mut self.track, track).state;
-            self.over_joints = true;
-            self.start_from(&before, self.weight_on_bit);
+        let (conditions, finest) = (self.conditions(0.0, 0.0), self.finest_level());
+        if let Some(chain) = &mut self.chain {
+            for level in 0..=finest {
+                let factors = self.scheme.factors(h / f64::from(1_u32 << level));
+                chain.prepare(&self.model, &conditions, factors);
+            }
         }
     }
 
@@ -398,8 +419,8 @@ impl Stepper {
         failure
     }
 
-    /// Advances by `h` (s) under `forcing`, in the parts of [`Stepper::set_refinement`]. A sub-step that does not converge is halved and retried; when the smallest
-    /// one fails, the state stays that before the step.
+    /// Advances by `h` (s) under `forcing`, in the parts of [`Stepper::set_refinement`]. A sub-step that does not converge
+    /// is halved and retried; when the smallest one fails, the state stays that before the step.
     pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
         self.prepare(h);
         let start = (self.track.state.time, self.track.state.drive_angle);
@@ -435,9 +456,7 @@ impl Stepper {
         }
         let deepest = sub_steps.deepest();
         self.unwind();
-        if let Some((_, shown)) = &mut self.reduced {
-            shown.get_mut().outdate();
-        }
+        self.view_is_current = false;
         self.weight_on_bit = forcing.weight_on_bit[1];
         self.counters.iterations += u64::from(iterations);
         self.counters.halved_steps += u64::from(deepest > 0);
@@ -474,20 +493,20 @@ impl Stepper {
         let Self {
             model,
             newton,
-            reduced,
+            chain,
             track,
             ..
         } = self;
         let iterations;
         let (from, to, energy) = (&track.state, &mut track.trial, &mut track.trial_energy);
-        let (places, weight) = if let (true, Some((reduced, _))) = (self.over_joints, reduced) {
-            let mut equations = reduced::equations(reduced, &mut newton.assembler);
-            to.bow.copy_from_slice(&track.energy.bow);
+        let (places, weight) = if let Some(chain) = chain {
+            let mut equations = chain::equations(chain, &mut newton.assembler);
+            to.deflection.copy_from_slice(&track.energy.deflection);
             let made = newton::step(&mut equations, model, stride, &conditions, from, to);
             newton.assembler.stopwatch.lap(Phase::Assembly);
             iterations = made?;
-            reduced.energy(energy, model, to, &conditions, &newton.assembler);
-            (&reduced.places, &reduced.weight)
+            chain.energy(energy, model, to, &conditions, &newton.assembler);
+            (&chain.places, &chain.weight)
         } else {
             let made = newton::step(newton, model, stride, &conditions, from, to);
             newton.assembler.stopwatch.lap(Phase::Assembly);

@@ -58,12 +58,9 @@ impl Stepper {
             let direction = load.unknown - node;
             (direction < 3).then(|| frame.column(direction) * *value)
         });
-        let sum = |values: &[f64], spans: fn(&crate::dynamics::energy::SpanForces) -> &[[f64; 16]; 2]| match self
-            .reduced
-            .as_ref()
-            .filter(|_| self.over_joints)
+        let sum = |values: &[f64], spans: fn(&crate::dynamics::energy::SpanForces) -> &[[f64; 16]; 2]| match &self.chain
         {
-            Some((reduced, _)) => reduced.sum_in_world(model, values, energy.spans.iter().map(spans)),
+            Some(chain) => chain.sum_in_world(model, values, energy.spans.iter().map(spans)),
             None => model.sum_in_world(values),
         };
         OutsideForces {

@@ -5,21 +5,21 @@ use crate::Instructions;
 use crate::dynamics::energy::joint_violation;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::stepper::{SolverKind, Stepper};
+use crate::dynamics::stepper::{SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
 use crate::tool::{Body, Direction, JointKind, LoadHistory, Location, PointLoad, ToolDescription};
 use nalgebra::Vector3;
 
 fn stepper(tolerances: Tolerances, solver: SolverKind) -> Stepper {
-    Stepper::new(
-        &ToolDescription::paper(),
-        Scheme::newmark(0.6),
+    let settings = StepperSettings {
+        time_step: 2.5e-4,
+        scheme: Scheme::newmark(0.6),
         tolerances,
-        6,
+        max_halvings: 6,
         solver,
-        Instructions::best(),
-    )
-    .unwrap()
+        instructions: Instructions::best(),
+    };
+    Stepper::new(&ToolDescription::paper(), &settings).unwrap()
 }
 
 #[test]
@@ -27,7 +27,7 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
     let mut stepper = stepper(Tolerances::default(), SolverKind::Stations);
     let weight_on_bit = 10e3;
     stepper.settle(weight_on_bit).unwrap();
-    let (model, state) = (stepper.model(), &*stepper.state());
+    let (model, state) = (stepper.model(), stepper.state());
     let forces = &stepper.newton().assembler;
     // All forces from outside on both pipes in the world: gravity, weight on bit, wall, supports.
     let mut total = Vector3::z() * (model.mass() * model.description.gravity);
@@ -58,11 +58,11 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
 fn nothing_moves_after_the_static_start() {
     let mut simulation = crate::support::simulation(&ToolDescription::paper());
     let inputs = simulation.settings().initial_inputs;
-    let start: State = simulation.stepper().state().clone();
+    let start = simulation.stepper().state();
     for _ in 0..400 {
         simulation.advance(&inputs);
     }
-    let state = &*simulation.stepper().state();
+    let state = simulation.stepper().state();
     let moved = state
         .q
         .iter()

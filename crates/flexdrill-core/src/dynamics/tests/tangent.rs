@@ -6,7 +6,7 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::stepper::{SolverKind, Stepper};
+use crate::dynamics::stepper::{SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
 use crate::model::Model;
 use crate::support::{Random, small};
@@ -43,15 +43,15 @@ fn lively_state(model: &Model) -> State {
 }
 
 fn check(tool: &ToolDescription) {
-    let stepper = Stepper::new(
-        tool,
-        Scheme::newmark(0.6),
-        Tolerances::default(),
-        0,
-        SolverKind::Stations,
-        Instructions::best(),
-    )
-    .unwrap();
+    let settings = StepperSettings {
+        time_step: 5e-4,
+        scheme: Scheme::newmark(0.6),
+        tolerances: Tolerances::default(),
+        max_halvings: 0,
+        solver: SolverKind::Stations,
+        instructions: Instructions::best(),
+    };
+    let stepper = Stepper::new(tool, &settings).unwrap();
     let model = stepper.model();
     let mut conditions = stepper.conditions(0.0, 1e4);
     conditions.bit_torque = 90.0;

@@ -143,7 +143,11 @@ mod tests {
                     let rows = group.rows().iter().zip(&lambda);
                     rows.map(|(row, lambda)| row.gradient[k][lane] * lambda[lane]).sum()
                 };
-                let of_stop = |lane: usize| group.shut_stop().map_or(0.0, |stop| stop.gradient[k][lane] * stop.moment[lane]);
+                let of_stop = |lane: usize| {
+                    group
+                        .shut_stop()
+                        .map_or(0.0, |stop| stop.gradient[k][lane] * stop.moment[lane])
+                };
                 Aligned(std::array::from_fn(|lane| of_rows(lane) + of_stop(lane)))
             });
             let mut derivative = [[Lane::default(); 6]; 6];

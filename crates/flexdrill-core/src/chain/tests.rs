@@ -1,10 +1,10 @@
-//! The reduced equations are those of the whole tool seen through the slaving: residual, tangent and solution.
+//! The chain equations are those of the whole tool seen through the slaving: residual, tangent and solution.
 
 use faer::prelude::Solve;
 use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::dependents::{FIRST_ROW, SECOND_ROW};
-use super::{NODE, Reduced, TIE, equations};
+use super::{Chain, NODE, TIE, equations};
 use crate::Instructions;
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
@@ -62,19 +62,19 @@ fn load(location: Location, body: Body) -> PointLoad {
 }
 
 /// Contact in both layers at about a third of the stations, inside spans too, at joints and at the first station.
-fn lively(reduced: &Reduced, seed: u64) -> State {
+fn lively(chain: &Chain, seed: u64) -> State {
     let mut seed = seed;
-    let mut state = reduced.state();
+    let mut state = chain.state();
     for values in [&mut state.v, &mut state.a] {
         values.iter_mut().for_each(|x| *x = random(&mut seed));
     }
     for node in state.q.chunks_exact_mut(NODE) {
         let angle = 3.0 * random(&mut seed);
-        let reach = if random(&mut seed) > 0.0 { 0.019 } else { 1e-4 };
-        (node[3], node[4], node[5]) = (1e-4 * random(&mut seed), reach * angle.cos(), reach * angle.sin());
+        let active = if random(&mut seed) > 0.0 { 0.019 } else { 1e-4 };
+        (node[3], node[4], node[5]) = (1e-4 * random(&mut seed), active * angle.cos(), active * angle.sin());
         let angle = 3.0 * random(&mut seed);
-        let reach = if random(&mut seed) > 0.0 { 0.009 } else { 1e-4 };
-        (node[9], node[10], node[11]) = (1e-4 * random(&mut seed), reach * angle.cos(), reach * angle.sin());
+        let active = if random(&mut seed) > 0.0 { 0.009 } else { 1e-4 };
+        (node[9], node[10], node[11]) = (1e-4 * random(&mut seed), active * angle.cos(), active * angle.sin());
         // A twist that a joint carries: what is out of balance by more has multipliers that no motion has.
         (node[0], node[12]) = (2.0 + 1e-3 * random(&mut seed), 5.0 * random(&mut seed));
         // Near what the joint's row asks for.
@@ -84,7 +84,7 @@ fn lively(reduced: &Reduced, seed: u64) -> State {
         }
         node[TIE] = 1e-4 * random(&mut seed);
     }
-    for (k, node) in reduced.nodes.list.iter().enumerate() {
+    for (k, node) in chain.nodes.list.iter().enumerate() {
         if node.joint.is_none() {
             for values in [&mut state.q, &mut state.v, &mut state.a] {
                 values.copy_within(NODE * k..NODE * k + 3, NODE * k + 6);
@@ -95,13 +95,13 @@ fn lively(reduced: &Reduced, seed: u64) -> State {
 }
 
 /// The state with what is not in the equations at zero, as it is in motion.
-fn clean(reduced: &Reduced, state: &mut State) {
-    for (unknown, weight) in reduced.limits.weights(Accuracy::Rest).iter().enumerate() {
+fn clean(chain: &Chain, state: &mut State) {
+    for (unknown, weight) in chain.limits.weights(Accuracy::Rest).iter().enumerate() {
         let node = unknown / NODE * NODE;
-        if *weight == 0.0 && Some(unknown) != reduced.places.driven {
+        if *weight == 0.0 && Some(unknown) != chain.places.driven {
             (state.q[unknown], state.v[unknown], state.a[unknown]) = (0.0, 0.0, 0.0);
         }
-        if reduced.nodes.list[unknown / NODE].joint.is_none() {
+        if chain.nodes.list[unknown / NODE].joint.is_none() {
             for values in [&mut state.q, &mut state.v, &mut state.a] {
                 values.copy_within(node..node + 3, node + 6);
             }
@@ -110,28 +110,28 @@ fn clean(reduced: &Reduced, state: &mut State) {
 }
 
 /// No force in any joint.
-fn no_forces(reduced: &Reduced) -> JointForces {
+fn no_forces(chain: &Chain) -> JointForces {
     JointForces {
-        on_top: vec![[0.0; 3]; reduced.spans()],
-        multipliers: vec![[0.0; 2]; reduced.multipliers.len()],
+        on_top: vec![[0.0; 3]; chain.spans()],
+        multipliers: vec![[0.0; 2]; chain.multipliers.len()],
     }
 }
 
-/// What the whole tool's unknowns are by each reduced one and, in further columns, by the multiplier of each rotational
+/// What the whole tool's unknowns are by each chain one and, in further columns, by the multiplier of each rotational
 /// row.
-fn slaving(reduced: &Reduced, model: &Model) -> DMatrix<f64> {
-    let n = reduced.unknowns();
+fn slaving(chain: &Chain, model: &Model) -> DMatrix<f64> {
+    let n = chain.unknowns();
     let rows = Joint::rotational_rows(model.description.joint.kind);
     let mut out = DMatrix::zeros(model.unknowns(), n + rows * model.joints.len());
-    let (mut unit, mut full) = (reduced.state(), State::at_rest(model));
+    let (mut unit, mut full) = (chain.state(), State::at_rest(model));
     for j in 0..n {
         // Where the pipe passes a node in one piece, the rotations below are those above.
-        let one_piece = reduced.nodes.list[j / NODE].joint.is_none();
+        let one_piece = chain.nodes.list[j / NODE].joint.is_none();
         let (above, below) = ((0..3).contains(&(j % NODE)), (6..9).contains(&(j % NODE)));
         let with = if one_piece && above { j + 6 } else { j };
         (unit.q[j], unit.q[with]) = (1.0, 1.0);
         if !(one_piece && below) {
-            reduced.show(model, &unit, &no_forces(reduced), &mut full);
+            chain.show(model, &unit, &no_forces(chain), &mut full);
             out.set_column(j, &DVector::from_column_slice(&full.q));
         }
         (unit.q[j], unit.q[with]) = (0.0, 0.0);
@@ -158,25 +158,24 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
     let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.3, 1e4);
     conditions.bit_torque = 90.0;
     for instructions in Instructions::available() {
-        let mut reduced =
-            Reduced::of(&model, &Tolerances::default(), nodes_for, instructions).expect("a tool of this form");
-        let slaving = slaving(&reduced, &model);
-        let mut state = lively(&reduced, seed);
-        clean(&reduced, &mut state);
+        let mut chain = Chain::of(&model, &Tolerances::default(), nodes_for, instructions);
+        let slaving = slaving(&chain, &model);
+        let mut state = lively(&chain, seed);
+        clean(&chain, &mut state);
         // Each span has an axial force of its own.
         let mut next = seed + 9;
-        for l in 0..reduced.spans() {
+        for l in 0..chain.spans() {
             (state.pipe_axial[l], state.guide_axial[l]) = (2e3 * random(&mut next), 2e3 * random(&mut next));
         }
 
         let mut assembler = Assembler::new(&model, instructions);
-        equations(&mut reduced, &mut assembler).evaluate(&model, &mut state, &conditions, true);
+        equations(&mut chain, &mut assembler).evaluate(&model, &mut state, &conditions, true);
         let mut full = State::at_rest(&model);
         let forces = JointForces {
-            multipliers: reduced.multipliers.clone(),
-            ..no_forces(&reduced)
+            multipliers: chain.multipliers.clone(),
+            ..no_forces(&chain)
         };
-        reduced.show(&model, &state, &forces, &mut full);
+        chain.show(&model, &state, &forces, &mut full);
         let mut whole = Assembler::new(&model, instructions);
         whole.residual(&model, &full, &conditions);
         let inside = |layer: &Layer| {
@@ -200,7 +199,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
 
         // Residual: the whole tool's through the slaving. The multipliers that follow from the dependent rotations balance
         // those; their places hold the rows.
-        let n = reduced.unknowns();
+        let n = chain.unknowns();
         let mut expected = slaving.tr_mul(&DVector::from_column_slice(&whole.residual));
         let rows = Joint::rotational_rows(tool.joint.kind);
         let mut right = -expected.clone();
@@ -213,8 +212,8 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
                 "{instructions}: {what} is {got} against {expected}, scale {scale:e}"
             );
         };
-        for (joint, node) in reduced.nodes.of_joints.iter().enumerate() {
-            for dependent in reduced.dependents[*node].iter() {
+        for (joint, node) in chain.nodes.of_joints.iter().enumerate() {
+            for dependent in chain.dependents[*node].iter() {
                 near(
                     0.0,
                     expected[NODE * node + dependent.slot],
@@ -226,8 +225,8 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
                 expected[NODE * node + place] = expected[n + rows * joint + row];
             }
         }
-        for (unknown, got) in reduced.residual.iter().enumerate() {
-            if reduced.limits.weights(Accuracy::Rest)[unknown] > 0.0 {
+        for (unknown, got) in chain.residual.iter().enumerate() {
+            if chain.limits.weights(Accuracy::Rest)[unknown] > 0.0 {
                 near(*got, expected[unknown], &format!("residual {unknown}"));
             }
         }
@@ -242,7 +241,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
             matrix[(unknown, unknown)] = 0.0;
         }
         let mut matrix = slaving.tr_mul(&(matrix * &slaving));
-        for (unknown, weight) in reduced.limits.weights(Accuracy::Rest).iter().enumerate() {
+        for (unknown, weight) in chain.limits.weights(Accuracy::Rest).iter().enumerate() {
             if *weight == 0.0 || matrix.column(unknown).amax() == 0.0 {
                 matrix.row_mut(unknown).fill(0.0);
                 matrix.column_mut(unknown).fill(0.0);
@@ -261,23 +260,23 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         let x = lu.solve(faer::Mat::from_fn(right.len(), 1, |i, _| right[i]));
         let x = DVector::from_fn(right.len(), |i, _| x[(i, 0)]).component_mul(&sizes);
         assert!(x.iter().all(|x| x.is_finite()), "a tangent without an inverse");
-        reduced.prepare(&model, &conditions, factors);
+        chain.prepare(&model, &conditions, factors);
         for (single, within) in [(false, 1e-9), (true, 1e-3)] {
             let by = (&conditions, factors);
             if single {
-                let solved = reduced.solve_in_single(&mut assembler, &model, &state, by);
+                let solved = chain.solve_in_single(&mut assembler, &model, &state, by);
                 assert!(solved, "single precision was refused");
             } else {
-                reduced.solve(&mut assembler, &model, &state, by).unwrap();
+                chain.solve(&mut assembler, &model, &state, by).unwrap();
             }
-            let got = DVector::from_column_slice(&reduced.correction);
-            for (k, node) in reduced.nodes.list.iter().enumerate() {
+            let got = DVector::from_column_slice(&chain.correction);
+            for (k, node) in chain.nodes.list.iter().enumerate() {
                 if node.joint.is_none() {
                     let first = NODE * k;
                     assert_eq!(got.rows(first, 3), got.rows(first + 6, 3), "node {k} is in one piece");
                 }
             }
-            let one_piece = |i: usize| reduced.nodes.list[i / NODE].joint.is_none() && (6..9).contains(&(i % NODE));
+            let one_piece = |i: usize| chain.nodes.list[i / NODE].joint.is_none() && (6..9).contains(&(i % NODE));
             let got = DVector::from_fn(n, |i, _| if one_piece(i) { 0.0 } else { got[i] });
             let (expected, sizes) = (x.rows(0, n).clone_owned(), sizes.rows(0, n).clone_owned());
             // In the units that make the matrix of one size.
@@ -395,59 +394,59 @@ fn check_derivative(tool: &ToolDescription) {
     let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.0, 1e4);
     conditions.bit_torque = 90.0;
     let instructions = Instructions::best();
-    let mut reduced = Reduced::of(&model, &Tolerances::default(), 5e-4, instructions).unwrap();
+    let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
     // No axial force: the tangent leaves geometric stiffness out.
-    let mut state = lively(&reduced, 21);
-    clean(&reduced, &mut state);
+    let mut state = lively(&chain, 21);
+    clean(&chain, &mut state);
     let mut assembler = Assembler::new(&model, instructions);
-    equations(&mut reduced, &mut assembler).evaluate(&model, &mut state, &conditions, true);
+    equations(&mut chain, &mut assembler).evaluate(&model, &mut state, &conditions, true);
     assert!(assembler.inner.count() > 2, "no inner contact to test");
     assert!(
         tool.guide_fixed || assembler.outer.count() > 2,
         "no outer contact to test"
     );
     let mut seed = 7;
-    let mut wanted: Vec<f64> = reduced
+    let mut wanted: Vec<f64> = chain
         .limits
         .weights(Accuracy::Rest)
         .iter()
         .map(|weight| if *weight > 0.0 { random(&mut seed) } else { 0.0 })
         .collect();
     // The moments on rotations that follow from others are in balance whatever happens.
-    for (k, dependents) in reduced.dependents.iter().enumerate() {
+    for (k, dependents) in chain.dependents.iter().enumerate() {
         let slots = dependents.iter().map(|dependent| dependent.slot);
         slots
             .filter(|&slot| slot != FIRST_ROW)
             .for_each(|slot| wanted[NODE * k + slot] = 0.0);
     }
-    reduced.residual.copy_from_slice(&wanted);
-    reduced.prepare(&model, &conditions, factors);
-    reduced
+    chain.residual.copy_from_slice(&wanted);
+    chain.prepare(&model, &conditions, factors);
+    chain
         .solve(&mut assembler, &model, &state, (&conditions, factors))
         .unwrap();
-    let solution = reduced.correction.clone();
+    let solution = chain.correction.clone();
     // The largest displacement moves by 1e-9 m: contact and stop laws are far from their ends, and forces of 1e6 N round
     // to 1e-10 of them.
     let by = 1e-9 / solution.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let mut residual = |by: f64| {
         let mut moved = state.clone();
-        reduced
+        chain
             .correction
             .iter_mut()
             .zip(&solution)
             .for_each(|(to, x)| *to = by * x);
         // Another one each time, as an assembler learns of friction from one correction to the next.
         let mut assembler = Assembler::new(&model, instructions);
-        let mut newton = equations(&mut reduced, &mut assembler);
+        let mut newton = equations(&mut chain, &mut assembler);
         correct(&newton, &mut moved, factors);
         newton.evaluate(&model, &mut moved, &conditions, true);
-        reduced.residual.clone()
+        chain.residual.clone()
     };
     let (high, low) = (residual(by), residual(-by));
     let rounding = 1e6 * f64::EPSILON / by;
     assert!(10.0 * rounding < 0.05, "the quotient must tell something");
     for (unknown, wanted) in wanted.iter().enumerate() {
-        if reduced.limits.weights(Accuracy::Rest)[unknown] > 0.0 {
+        if chain.limits.weights(Accuracy::Rest)[unknown] > 0.0 {
             let difference = (high[unknown] - low[unknown]) / (2.0 * by);
             // The right-hand side is of order one; what the quotient rounds to is that of forces of 1e6 N over the step.
             assert!(
@@ -483,8 +482,8 @@ fn the_tangent_is_the_derivative_of_the_residual() {
 fn spans_that_are_too_long_or_too_soft_have_nodes_inside() {
     let spans = |tool: &ToolDescription, h: f64| {
         let model = Model::new(tool).unwrap();
-        let reduced = Reduced::of(&model, &Tolerances::default(), h, Instructions::PORTABLE).unwrap();
-        reduced.spans()
+        let chain = Chain::of(&model, &Tolerances::default(), h, Instructions::PORTABLE);
+        chain.spans()
     };
     let default = ToolDescription::paper();
     assert_eq!(spans(&default, 5e-4), 33);
@@ -513,7 +512,7 @@ fn spans_bow_as_the_whole_tool_does_with_its_joints_held() {
     let model = Model::new(&tool).unwrap();
     let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
     // Over the fewest nodes.
-    let reduced = Reduced::of(&model, &Tolerances::default(), 1.0, Instructions::PORTABLE).unwrap();
+    let chain = Chain::of(&model, &Tolerances::default(), 1.0, Instructions::PORTABLE);
     let elastic = TangentFactors {
         stiffness: 1.0,
         damping: 0.0,
@@ -523,7 +522,7 @@ fn spans_bow_as_the_whole_tool_does_with_its_joints_held() {
     let mut whole = DMatrix::zeros(model.unknowns(), model.unknowns());
     system.for_each_entry(|row, column, value| whole[(row, column)] += value);
     for (l, i, local) in [(0, 1, 1), (1, 2, 2), (3, 4, 4), (2, 3, 5)] {
-        let (first, per) = (reduced.nodes.first(l), reduced.nodes.elements(l));
+        let (first, per) = (chain.nodes.first(l), chain.nodes.elements(l));
         for body in 0..2 {
             let at = |i: usize| {
                 let station = &model.stations[first + i];
@@ -548,7 +547,7 @@ fn spans_bow_as_the_whole_tool_does_with_its_joints_held() {
                 force[place + local] = if body == 0 { station.pipe_radius } else { 1.0 };
             }
             let bowed = stiffness.cholesky().unwrap().solve(&force);
-            let got = &reduced.kinds[reduced.links[l].kind].bow[i - 1][body][local];
+            let got = &chain.kinds[chain.links[l].kind].deflection[i - 1][body][local];
             let scale = got.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             assert!(scale > 0.0);
             for other in 1..per {
@@ -578,11 +577,11 @@ fn turning_as_a_whole_changes_no_energy() {
     let model = Model::new(&tool).unwrap();
     let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
     for instructions in Instructions::available() {
-        let mut reduced = Reduced::of(&model, &Tolerances::default(), 5e-4, instructions).unwrap();
-        let mut state = lively(&reduced, 5);
-        let spins: Vec<usize> = reduced.spins().collect();
+        let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
+        let mut state = lively(&chain, 5);
+        let spins: Vec<usize> = chain.spins().collect();
         spins.iter().for_each(|&spin| state.q[spin] *= 2e-4);
-        clean(&reduced, &mut state);
+        clean(&chain, &mut state);
         let (mut assembler, mut whole) = (
             Assembler::new(&model, instructions),
             Assembler::new(&model, instructions),
@@ -590,10 +589,10 @@ fn turning_as_a_whole_changes_no_energy() {
         let mut full = State::at_rest(&model);
         // Over the joints, and station by station.
         let mut stored = |state: &mut State| {
-            equations(&mut reduced, &mut assembler).evaluate(&model, state, &conditions, true);
-            let mut point = EnergyPoint::new(&model, reduced.unknowns(), reduced.spans());
-            reduced.energy(&mut point, &model, state, &conditions, &assembler);
-            reduced.show(&model, state, &no_forces(&reduced), &mut full);
+            equations(&mut chain, &mut assembler).evaluate(&model, state, &conditions, true);
+            let mut point = EnergyPoint::new(&model, chain.unknowns(), chain.spans());
+            chain.energy(&mut point, &model, state, &conditions, &assembler);
+            chain.show(&model, state, &no_forces(&chain), &mut full);
             whole.residual(&model, &full, &conditions);
             let mut at_stations = EnergyPoint::new(&model, model.unknowns(), 0);
             at_stations.evaluate(&model, &full, &conditions, &whole);
@@ -630,73 +629,73 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
     conditions.bit_torque = 90.0;
     let by = (&conditions, factors);
     for instructions in Instructions::available() {
-        let mut reduced = Reduced::of(&model, &Tolerances::default(), 5e-4, instructions).unwrap();
+        let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
         let mut assembler = Assembler::new(&model, instructions);
-        let mut state = lively(&reduced, 8);
-        clean(&reduced, &mut state);
-        reduced.prepare(&model, &conditions, factors);
-        equations(&mut reduced, &mut assembler).evaluate(&model, &mut state, &conditions, false);
-        assert!(reduced.solve_in_single(&mut assembler, &model, &state, by));
+        let mut state = lively(&chain, 8);
+        clean(&chain, &mut state);
+        chain.prepare(&model, &conditions, factors);
+        equations(&mut chain, &mut assembler).evaluate(&model, &mut state, &conditions, false);
+        assert!(chain.solve_in_single(&mut assembler, &model, &state, by));
 
         // All below a node is out of balance: the elimination above is that of before, the solution that of the whole.
-        let residual = reduced.residual.clone();
-        let (first, bottom) = (25, reduced.spans());
-        reduced.residual[..NODE * first].fill(0.0);
-        reduced.solve(&mut assembler, &model, &state, by).unwrap();
-        let expected = reduced.correction.clone();
-        let weights = reduced.limits.weights(Accuracy::Rest).to_vec();
-        reduced.reach.set_windows(&reduced.residual, &weights);
-        assert!(reduced.solve_in_single(&mut assembler, &model, &state, by));
-        let [window] = reduced.reach.windows[..] else {
-            panic!("{:?}", reduced.reach.windows)
+        let residual = chain.residual.clone();
+        let (first, bottom) = (25, chain.spans());
+        chain.residual[..NODE * first].fill(0.0);
+        chain.solve(&mut assembler, &model, &state, by).unwrap();
+        let expected = chain.correction.clone();
+        let weights = chain.limits.weights(Accuracy::Rest).to_vec();
+        chain.active.set_windows(&chain.residual, &weights);
+        assert!(chain.solve_in_single(&mut assembler, &model, &state, by));
+        let [window] = chain.active.windows[..] else {
+            panic!("{:?}", chain.active.windows)
         };
         assert_eq!((window.first, window.last), (first, bottom));
         assert!(window.top < first, "nothing follows above");
         for place in 0..NODE {
             let at =
                 |values: &[f64]| DVector::from_iterator(bottom + 1, values.iter().skip(place).step_by(NODE).copied());
-            let (got, expected) = (at(&reduced.correction), at(&expected));
+            let (got, expected) = (at(&chain.correction), at(&expected));
             let apart = (&got - &expected).amax() / expected.amax().max(f64::MIN_POSITIVE);
             // As single precision is held to the whole tool's above.
             assert!(apart < 1e-3, "{instructions}: unknowns {place} are {apart:e} apart");
         }
 
         // Two nodes out of balance.
-        reduced.residual.copy_from_slice(&residual);
-        reduced.foreseen_part = 0.0;
+        chain.residual.copy_from_slice(&residual);
+        chain.foreseen_part = 0.0;
         let mut weights = vec![0.0; residual.len()];
         for node in [12, 28] {
             weights[NODE * node..NODE * (node + 1)].fill(1.0);
         }
-        reduced.reach.set_windows(&residual, &weights);
-        assert!(reduced.solve_in_single(&mut assembler, &model, &state, by));
-        assert_eq!(reduced.reach.windows.len(), 2);
-        let moved: Vec<bool> = reduced
+        chain.active.set_windows(&residual, &weights);
+        assert!(chain.solve_in_single(&mut assembler, &model, &state, by));
+        assert_eq!(chain.active.windows.len(), 2);
+        let moved: Vec<bool> = chain
             .correction
             .chunks_exact(NODE)
             .map(|node| node.iter().any(|dq| *dq != 0.0))
             .collect();
-        let mut newton = equations(&mut reduced, &mut assembler);
+        let mut newton = equations(&mut chain, &mut assembler);
         correct(&newton, &mut state, factors);
         newton.residual(&model, &mut state, &conditions, factors, 3);
         let kept = moved.iter().filter(|moved| !**moved).count();
         assert!(kept >= 5, "all but {kept} of the nodes move");
-        for (node, felt) in reduced.reach.felt.iter().enumerate() {
+        for (node, affected) in chain.active.affected.iter().enumerate() {
             let neighbours = &moved[node.saturating_sub(1)..(node + 2).min(bottom + 1)];
-            assert_eq!(*felt, neighbours.contains(&true), "node {node}");
+            assert_eq!(*affected, neighbours.contains(&true), "node {node}");
             let range = NODE * node..NODE * (node + 1);
             assert!(
-                *felt || reduced.residual[range.clone()] == residual[range],
+                *affected || chain.residual[range.clone()] == residual[range],
                 "node {node}"
             );
         }
         let (got, touching) = (
-            reduced.residual.clone(),
+            chain.residual.clone(),
             [contacts(&assembler.inner), contacts(&assembler.outer)],
         );
-        equations(&mut reduced, &mut assembler).evaluate(&model, &mut state, &conditions, false);
-        let scale = reduced.residual.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        for (unknown, (got, expected)) in got.iter().zip(&reduced.residual).enumerate() {
+        equations(&mut chain, &mut assembler).evaluate(&model, &mut state, &conditions, false);
+        let scale = chain.residual.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        for (unknown, (got, expected)) in got.iter().zip(&chain.residual).enumerate() {
             // Rounding of stiffness times displacement, which cancel to the residual.
             assert!(
                 (got - expected).abs() < 1e-9 * scale,

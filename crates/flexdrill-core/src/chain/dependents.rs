@@ -8,7 +8,7 @@
 
 use super::nodes::Node;
 use super::precision::{Lanes, Precision};
-use super::{GUIDE, NODE, Reduced, U};
+use super::{Chain, GUIDE, NODE, U};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::joints::rotations;
 use crate::dynamics::state::State;
@@ -203,7 +203,9 @@ impl Dependent {
             if k != SLOT {
                 // Its column goes to their columns, and its row says x_slot - by x = offset.
                 let of_it = self.by[k];
-                L::load(&a[k]).plus_product(column, L::splat(S::of(of_it))).store(&mut a[k]);
+                L::load(&a[k])
+                    .plus_product(column, L::splat(S::of(of_it)))
+                    .store(&mut a[k]);
                 without_row(L::load(&a[k]), a[k][SLOT])
                     .plus_product(only, L::splat(S::of(-of_it)))
                     .store(&mut a[k]);
@@ -237,14 +239,14 @@ impl Spins {
     }
 }
 
-impl Reduced {
+impl Chain {
     /// Adds the moments of the joints' stops, linearises the rotations that follow from others, and takes the moments on
     /// them over to those: with the multipliers of the joints' rows they are in balance. Their places are taken by the
     /// rows themselves, times `scale`.
     pub(super) fn balance_dependents(&mut self, assembler: &mut Assembler, state: &State, scale: f64) {
         let (residual, _) = self.residual.as_chunks_mut::<NODE>();
         for (k, (node, residual)) in self.nodes.list.iter().zip(residual).enumerate() {
-            if node.joint.is_none() && self.reach.felt[k] {
+            if node.joint.is_none() && self.active.affected[k] {
                 self.dependents[k].project(residual);
             }
         }
@@ -258,9 +260,9 @@ impl Reduced {
     }
 }
 
-/// The joints' part of [`Reduced::balance_dependents`], eight at a time.
+/// The joints' part of [`Chain::balance_dependents`], eight at a time.
 struct Joints<'a> {
-    by: &'a mut Reduced,
+    by: &'a mut Chain,
     groups: &'a mut [JointGroup],
     state: &'a State,
     scale: f64,
@@ -281,7 +283,7 @@ impl Kernel for Joints<'_> {
         let places = by.places.joints.chunks(8).zip(by.nodes.of_joints.chunks(8));
         let of_groups = by.spins.iter_mut().zip(by.multipliers.chunks_mut(8));
         for ((group, (places, nodes)), (spins, multipliers)) in groups.iter_mut().zip(places).zip(of_groups) {
-            if !nodes.iter().any(|&k| by.reach.felt[k]) {
+            if !nodes.iter().any(|&k| by.active.affected[k]) {
                 continue;
             }
             let (q, rate) = rotations(places, state);
@@ -289,7 +291,7 @@ impl Kernel for Joints<'_> {
             let stop = group.shut_stop();
             let [row] = group.rows() else {
                 for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {
-                    if by.reach.felt[k] {
+                    if by.active.affected[k] {
                         let (residual, dependents) = (&mut residual[k], &mut by.dependents[k]);
                         let gradients = [0, 1].map(|r| group.rows()[r].gradient.map(|lanes| lanes[lane]));
                         dependents.linearise_two(gradients, scale, by.rows[k].as_ref());
@@ -327,7 +329,7 @@ impl Kernel for Joints<'_> {
             let mut lambdas = Lane::default();
             lambda.store(&mut lambdas);
             for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {
-                if by.reach.felt[k] {
+                if by.active.affected[k] {
                     let residual = &mut residual[k];
                     for (place, moment) in OTHERS.into_iter().zip(&moments) {
                         residual[place] += moment[lane];

@@ -1,8 +1,8 @@
-//! What contacts, the bit and point masses add to the reduced tangent in an iteration. A contact inside a span adds to
+//! What contacts, the bit and point masses add to the chain tangent in an iteration. A contact inside a span adds to
 //! the blocks of both its ends and to what couples them.
 
 use super::precision::{Lanes, Precision};
-use super::{BOTTOM, GUIDE, NODE, Reduced, TIE, TOP};
+use super::{BOTTOM, Chain, GUIDE, NODE, TIE, TOP};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
@@ -82,10 +82,10 @@ impl<S: Precision> Additions<S> {
         coupling
     }
 
-    /// Fills the additions, joints left out, from what was linearised by the last residual of `reduced` at `state`.
+    /// Fills the additions, joints left out, from what was linearised by the last residual of `chain` at `state`.
     pub(super) fn linearise(
         &mut self,
-        reduced: &Reduced,
+        chain: &Chain,
         assembler: &Assembler,
         model: &Model,
         state: &State,
@@ -93,16 +93,16 @@ impl<S: Precision> Additions<S> {
     ) {
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
-        reduced.instructions.run(Contacts {
+        chain.instructions.run(Contacts {
             to: self,
-            reduced,
+            chain,
             assembler,
             factors,
         });
-        let spin = reduced.places.bit_spin;
+        let spin = chain.places.bit_spin;
         self.block(spin / NODE, Touching::Both)[spin % NODE][spin % NODE] +=
             S::of(factors.damping * assembler.bit.slope);
-        for (point, places) in model.masses.iter().zip(&reduced.places.masses) {
+        for (point, places) in model.masses.iter().zip(&chain.places.masses) {
             if !point.body.is_coupled() {
                 continue;
             }
@@ -124,7 +124,7 @@ impl<S: Precision> Additions<S> {
 
 struct Contacts<'a, S> {
     to: &'a mut Additions<S>,
-    reduced: &'a Reduced,
+    chain: &'a Chain,
     assembler: &'a Assembler,
     factors: TangentFactors,
 }
@@ -137,11 +137,11 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
         let mut on_guide = OnGuide::<S>::new();
         let layers = [(&self.assembler.inner, true), (&self.assembler.outer, false)];
         for (layer, inner) in layers {
-            let (nodes, spans) = (&self.reduced.nodes, &self.reduced.reach.spans);
+            let (nodes, spans) = (&self.chain.nodes, &self.chain.active.spans);
             let stations = &nodes.stations;
             for (station, touch) in layer.among(|station| spans[stations[station].0]) {
                 let (l, i) = stations[station];
-                let on_nodes = &S::on_nodes(&self.reduced.kinds[self.reduced.links[l].kind])[i];
+                let on_nodes = &S::on_nodes(&self.chain.kinds[self.chain.links[l].kind])[i];
                 let place = Place {
                     l,
                     at: [i == 0, i == nodes.elements(l)],
@@ -169,7 +169,7 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
 /// belongs: columns of the top end, then of the bottom end; rows as [`OnNodes::outer_joined`].
 struct OnGuide<S> {
     span: usize,
-    any: bool,
+    has_contacts: bool,
     columns: Aligned<[[S; NODE]; 12]>,
 }
 
@@ -177,15 +177,15 @@ impl<S: Precision> OnGuide<S> {
     fn new() -> Self {
         Self {
             span: 0,
-            any: false,
+            has_contacts: false,
             columns: Aligned([[S::ZERO; NODE]; 12]),
         }
     }
 
     #[inline(always)]
     fn add<V: Vector>(&mut self, contact: &Factors<S::Lanes<V>, S>) {
-        if !self.any {
-            self.any = true;
+        if !self.has_contacts {
+            self.has_contacts = true;
             *self.columns = [[S::ZERO; NODE]; 12];
         }
         for c in 0..6 {
@@ -196,10 +196,10 @@ impl<S: Precision> OnGuide<S> {
 
     #[inline(always)]
     fn put<V: Vector>(&mut self, to: &mut Additions<S>) {
-        if !self.any {
+        if !self.has_contacts {
             return;
         }
-        self.any = false;
+        self.has_contacts = false;
         let l = self.span;
         let rows = S::Lanes::<V>::load(S::guide());
         let coupling = to.coupling(l, Touching::Guide);

@@ -6,11 +6,11 @@
 
 mod block;
 
+use super::active::Window;
 use super::dependents::{Dependents, FIRST_ROW, MOMENTS, SECOND_ROW};
 use super::nodes::{Node, pass};
 use super::operator::Operator;
 use super::precision::Rounded;
-use super::reach::Window;
 use super::tangent::Additions;
 use super::{GUIDE, Link, NODE, TIE};
 use crate::dynamics::joints::JointTangent;
@@ -22,7 +22,7 @@ use crate::simd::vector::Vector;
 
 use block::{Inverse, begin, eliminate, eliminate_last};
 
-pub(in crate::reduced) use block::ONLY;
+pub(in crate::chain) use block::ONLY;
 
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;

@@ -1,8 +1,8 @@
-//! The step-constant part of the reduced tangent: elastic, damping and inertia terms, made once per step size.
+//! The step-constant part of the chain tangent: elastic, damping and inertia terms, made once per step size.
 
 use super::single::SingleOperator;
 use super::slaving::row;
-use super::{BOTTOM, EndColumn, NODE, Reduced, TIE, TOP, U};
+use super::{BOTTOM, Chain, EndColumn, NODE, TIE, TOP, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::model::Model;
@@ -36,11 +36,11 @@ pub(super) struct Operator {
 }
 
 impl Operator {
-    pub(super) fn of(reduced: &Reduced, model: &Model, factors: TangentFactors, conditions: &Conditions) -> Self {
+    pub(super) fn of(chain: &Chain, model: &Model, factors: TangentFactors, conditions: &Conditions) -> Self {
         let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
         let elastic = factors.stiffness + factors.damping * beta;
         let inertial = factors.mass + factors.damping * alpha;
-        let spans: Vec<Aligned<[[EndColumn; 12]; 2]>> = reduced
+        let spans: Vec<Aligned<[[EndColumn; 12]; 2]>> = chain
             .kinds
             .iter()
             .map(|kind| {
@@ -52,8 +52,8 @@ impl Operator {
                 }))
             })
             .collect();
-        let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; reduced.nodes.list.len()];
-        for (l, link) in reduced.links.iter().enumerate() {
+        let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; chain.nodes.list.len()];
+        for (l, link) in chain.links.iter().enumerate() {
             for (body, columns) in spans[link.kind].iter().enumerate() {
                 let (top, bottom) = (&TOP[6 * body..], &BOTTOM[6 * body..]);
                 for j in 0..6 {
@@ -64,16 +64,16 @@ impl Operator {
                 }
             }
         }
-        for (point, places) in model.masses.iter().zip(&reduced.places.masses) {
+        for (point, places) in model.masses.iter().zip(&chain.places.masses) {
             for (&place, mass) in places.iter().zip(point.body.diagonal()) {
                 let (node, at) = (place / NODE, place % NODE);
                 nodes[node][at][at] += inertial * mass;
             }
         }
         nodes.iter_mut().for_each(|node| node[TIE][TIE] = 1.0);
-        if reduced.places.tie.is_some() {
-            nodes[reduced.spans()][TIE][TIE] = 0.0;
-            let (last, scale) = (reduced.spans(), model.force_scale);
+        if chain.places.tie.is_some() {
+            nodes[chain.spans()][TIE][TIE] = 0.0;
+            let (last, scale) = (chain.spans(), model.force_scale);
             for (place, sign) in [(U, scale), (super::GUIDE, -scale)] {
                 nodes[last][TIE][place] += sign;
                 nodes[last][place][TIE] += sign;

@@ -1,9 +1,9 @@
-//! The energy audit's point over the joints: elements and friction; the rest is shared with the whole tool.
+//! The energy audit's point over the chain: elements and friction; the rest is shared with the whole tool.
 
 use super::contacts::{OnSpan, at_radius, plus_rows};
 use super::residual::{around, load, product, store};
 use super::slaving::TENSION;
-use super::{EndColumn, Reduced, at_ends, ends};
+use super::{Chain, EndColumn, at_ends, ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{EnergyPoint, SpanForces};
@@ -12,7 +12,7 @@ use crate::model::{HeldNode, Model};
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 
-impl Reduced {
+impl Chain {
     /// Evaluates `point` at `state`, at which the residual was evaluated last.
     pub(crate) fn energy(
         &mut self,
@@ -43,14 +43,14 @@ impl Reduced {
             model,
             assembler,
         });
-        self.bow_spans(&mut point.bow, model, assembler);
+        self.deflect_spans(&mut point.deflection, model, assembler);
         point.joints.multipliers.copy_from_slice(&self.multipliers);
         point.finish(stored, &self.places, model, conditions, assembler, &self.residual);
         self.reactions_inside_a_fixed_guide(point, model, assembler);
     }
 }
 
-impl Reduced {
+impl Chain {
     /// What supports put on the stations of a guide that is fixed as a whole, between the nodes: weight and contacts are
     /// all that acts there.
     fn reactions_inside_a_fixed_guide(&self, point: &mut EnergyPoint, model: &Model, assembler: &Assembler) {
@@ -102,7 +102,7 @@ static SPIN: [[f64; 8]; 2] = [
 
 /// Forces of the spans and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
 struct SpanEnergies<'a> {
-    by: &'a mut Reduced,
+    by: &'a mut Chain,
     point: &'a mut EnergyPoint,
     state: &'a State,
     conditions: &'a Conditions,
@@ -130,14 +130,14 @@ impl Kernel for SpanEnergies<'_> {
                 let stiff = product::<V>(&kind.stiffness[body], &at_v);
                 let moving = product::<V>(&kind.mass[body], &at_v);
                 let inert = product::<V>(&kind.mass[body], &at_ends(rates2, l, body));
-                let mut stretched: [V; 2] = load(&by.stretched[l][body]);
-                stretched[0] = stretched[0].times(V::load(&FORCES));
+                let mut geometric_forces: [V; 2] = load(&by.geometric_forces[l][body]);
+                geometric_forces[0] = geometric_forces[0].times(V::load(&FORCES));
                 let in_use = if body == 0 {
                     state.pipe_axial[l]
                 } else {
                     state.guide_axial[l]
                 };
-                let beyond = V::splat(in_use - by.stretched[l][body][TENSION]);
+                let beyond = V::splat(in_use - by.geometric_forces[l][body][TENSION]);
                 let tension_in_use = V::splat(in_use);
                 // Two lanes of each hold other unknowns; forces are zero there.
                 let (mut q, v) = (
@@ -156,23 +156,27 @@ impl Kernel for SpanEnergies<'_> {
                 let linear: [V; 2] = load(&by.linear[l][body]);
                 let mut damped = zero;
                 for half in 0..2 {
-                    foreseen[half] = foreseen[half].minus_product(v[half], stretched[half].times(beyond));
-                    stretched[half] = stretched[half].times(tension_in_use);
+                    foreseen[half] = foreseen[half].minus_product(v[half], geometric_forces[half].times(beyond));
+                    geometric_forces[half] = geometric_forces[half].times(tension_in_use);
                     damped[half] = moving[half].times(alpha).plus_product(stiff[half], beta);
                     let bent = linear[half].minus(damped[half].plus(inert[half]));
                     elastic[half] = elastic[half].plus_product(q[half], bent);
-                    geometric[half] = geometric[half].plus_product(q[half], stretched[half]);
+                    geometric[half] = geometric[half].plus_product(q[half], geometric_forces[half]);
                     kinetic[half] = kinetic[half].plus_product(v[half], moving[half]);
                 }
                 if body == 0 {
-                    let (linear, stretched) = (&by.linear[l][0], &by.stretched[l][0]);
+                    let (linear, geometric_forces) = (&by.linear[l][0], &by.geometric_forces[l][0]);
                     for (i, top) in point.joints.on_top[l].iter_mut().enumerate() {
-                        let touched = if by.any[l] { by.touched[l][0][i] } else { 0.0 };
-                        *top = linear[i] + in_use * stretched[i] + touched - link.weight_on_top[i];
+                        let contact_forces = if by.has_contacts[l] {
+                            by.contact_forces[l][0][i]
+                        } else {
+                            0.0
+                        };
+                        *top = linear[i] + in_use * geometric_forces[i] + contact_forces - link.weight_on_top[i];
                     }
                 }
                 let forces = &mut point.spans[l];
-                store(stretched, &mut forces.geometric[body]);
+                store(geometric_forces, &mut forces.geometric[body]);
                 store(damped, &mut forces.damping[body]);
                 store(inert, &mut forces.inertia[body]);
             }
@@ -230,7 +234,7 @@ impl Kernel for SpanWorks<'_> {
 
 /// Friction of all contacts into `point`, with the power of their damping. Gives the energy in their springs (J).
 struct Friction<'a> {
-    by: &'a Reduced,
+    by: &'a Chain,
     point: &'a mut EnergyPoint,
     model: &'a Model,
     assembler: &'a Assembler,

@@ -1,11 +1,11 @@
-//! The residual over the joints: spans, point masses, contacts, joints, ends.
+//! The residual over the chain: spans, point masses, contacts, joints, ends.
 //!
 //! A step's first residual is evaluated whole. After that only the correction's share is added: what is linear changes by
 //! the step-constant tangent times the correction, and what geometric stiffness multiplies its axial force by likewise;
 //! contacts, stops and joint rows are evaluated anew.
 
 use super::slaving::TENSION;
-use super::{EndColumn, Ends, GUIDE, NODE, Reduced, U, at_ends, ends};
+use super::{Chain, EndColumn, Ends, GUIDE, NODE, U, at_ends, ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::phases::Phase;
@@ -37,7 +37,7 @@ pub(super) fn plus_column<V: Vector>(sum: [V; 2], column: &[f64; 16], x: V) -> [
     [sum[0].plus_product(column[0], x), sum[1].plus_product(column[1], x)]
 }
 
-impl Reduced {
+impl Chain {
     /// Sets the axial forces that are foreseen from `from` for `h` (s) on, of which `part` counts.
     pub(super) fn foresee(&mut self, from: &State, h: f64, part: f64) {
         self.foreseen_part = part;
@@ -56,7 +56,7 @@ impl Reduced {
     ) {
         assembler.stopwatch.lap(Phase::Other);
         if operator.is_none() {
-            self.reach.set_whole();
+            self.active.set_whole();
         }
         let instructions = self.instructions;
         instructions.run(Spans {
@@ -67,20 +67,20 @@ impl Reduced {
             keep_axial,
         });
         assembler.stopwatch.lap(Phase::Assembly);
-        self.contact_forces(assembler, model, to, conditions);
+        self.find_contacts(assembler, model, to, conditions);
         instructions.run(Gather { by: self, state: to });
         assembler.stopwatch.lap(Phase::Contact);
         let mut residual = std::mem::take(&mut self.residual);
-        let felt = |unknown: usize| self.reach.felt[unknown / NODE];
-        mass_forces(&mut residual, &self.places, model, (to, conditions), felt);
-        assembler.end_forces(&mut residual, &self.places, model, (to, conditions), felt);
+        let affected = |unknown: usize| self.active.affected[unknown / NODE];
+        mass_forces(&mut residual, &self.places, model, (to, conditions), affected);
+        assembler.end_forces(&mut residual, &self.places, model, (to, conditions), affected);
         self.residual = residual;
         self.balance_dependents(assembler, to, model.moment_scale);
     }
 }
 
 struct Foresee<'a> {
-    by: &'a mut Reduced,
+    by: &'a mut Chain,
     from: &'a State,
     h: f64,
 }
@@ -126,7 +126,7 @@ pub(super) fn around<V: Vector>(values: &[f64], ends: [usize; 2]) -> [V; 2] {
 
 /// The residual of gravity, spans and contacts.
 struct Gather<'a> {
-    by: &'a mut Reduced,
+    by: &'a mut Chain,
     state: &'a State,
 }
 
@@ -138,7 +138,7 @@ impl Kernel for Gather<'_> {
         let Self { by, state } = self;
         let (residual, _) = by.residual.as_chunks_mut::<NODE>();
         let (weights, _) = by.weight.as_chunks::<NODE>();
-        let (nodes, felt) = (residual.len(), &by.reach.felt);
+        let (nodes, affected) = (residual.len(), &by.active.affected);
         // What the spans below and above put on the nodes of a block, and on the first one of the next.
         let mut above = [NodeForces::default(); BLOCK];
         let mut below = [NodeForces::default(); BLOCK + 1];
@@ -149,7 +149,7 @@ impl Kernel for Gather<'_> {
                     above[l - start] = NodeForces::default();
                     break;
                 }
-                if !(felt[l] || felt[l + 1]) {
+                if !(affected[l] || affected[l + 1]) {
                     continue;
                 }
                 for (body, (top, bottom)) in [(U, 0), (GUIDE, GUIDE)].into_iter().enumerate() {
@@ -158,10 +158,14 @@ impl Kernel for Gather<'_> {
                     } else {
                         state.guide_axial[l]
                     };
-                    let mut sum = plus_column(load(&by.linear[l][body]), &by.stretched[l][body], V::splat(axial));
-                    if by.any[l] {
-                        let touched: [V; 2] = load(&by.touched[l][body]);
-                        sum = [sum[0].plus(touched[0]), sum[1].plus(touched[1])];
+                    let mut sum = plus_column(
+                        load(&by.linear[l][body]),
+                        &by.geometric_forces[l][body],
+                        V::splat(axial),
+                    );
+                    if by.has_contacts[l] {
+                        let contact_forces: [V; 2] = load(&by.contact_forces[l][body]);
+                        sum = [sum[0].plus(contact_forces[0]), sum[1].plus(contact_forces[1])];
                     }
                     // The pipe first: what its two lanes without a force leave, the guide's overwrite; those of the guide
                     // are beyond the node.
@@ -171,7 +175,7 @@ impl Kernel for Gather<'_> {
             }
             let forces = above.iter().zip(&below);
             for (l, (above, below)) in (start..nodes).zip(forces) {
-                if felt[l] {
+                if affected[l] {
                     let (weight, above, below): ([V; 2], [V; 2], [V; 2]) =
                         (load(&weights[l]), load(first(above)), load(first(below)));
                     store(
@@ -211,7 +215,7 @@ fn put<V: Vector>(x: V, forces: &mut NodeForces, place: usize) {
 
 /// Linear and geometric forces of the spans.
 struct Spans<'a> {
-    by: &'a mut Reduced,
+    by: &'a mut Chain,
     to: &'a mut State,
     conditions: &'a Conditions,
     operator: Option<usize>,
@@ -230,8 +234,10 @@ impl Kernel for Spans<'_> {
         if !self.keep_axial {
             let part = self.by.foreseen_part;
             let axial = self.to.pipe_axial.iter_mut().zip(&mut self.to.guide_axial);
-            for ((pipe, guide), (stretched, foreseen)) in axial.zip(self.by.stretched.iter().zip(&self.by.foreseen)) {
-                let now = [stretched[0][TENSION], stretched[1][TENSION]];
+            for ((pipe, guide), (geometric_forces, foreseen)) in
+                axial.zip(self.by.geometric_forces.iter().zip(&self.by.foreseen))
+            {
+                let now = [geometric_forces[0][TENSION], geometric_forces[1][TENSION]];
                 *pipe = now[0] + part * (foreseen[0] - now[0]);
                 *guide = now[1] + part * (foreseen[1] - now[1]);
             }
@@ -246,8 +252,8 @@ impl Spans<'_> {
         let Self { by, to, conditions, .. } = self;
         let rayleigh = [conditions.rayleigh.alpha, conditions.rayleigh.beta];
         let ((q, _), (v, _), (a, _)) = (to.q.as_chunks(), to.v.as_chunks(), to.a.as_chunks());
-        let forces = by.linear.iter_mut().zip(&mut by.stretched);
-        for (l, (link, (linear, stretched))) in by.links.iter().zip(forces).enumerate() {
+        let forces = by.linear.iter_mut().zip(&mut by.geometric_forces);
+        for (l, (link, (linear, geometric_forces))) in by.links.iter().zip(forces).enumerate() {
             let kind = &by.kinds[link.kind];
             for body in 0..2 {
                 let (at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
@@ -261,7 +267,7 @@ impl Spans<'_> {
                 let stiff = product::<V>(&kind.stiffness[body], &strained);
                 let inert = product::<V>(&kind.mass[body], &pushed);
                 store([stiff[0].plus(inert[0]), stiff[1].plus(inert[1])], &mut linear[body]);
-                store(product::<V>(&kind.geometric[body], &at), &mut stretched[body]);
+                store(product::<V>(&kind.geometric[body], &at), &mut geometric_forces[body]);
             }
         }
     }
@@ -272,19 +278,19 @@ impl Spans<'_> {
         let by = &mut *self.by;
         let operator = &by.operators[operator].spans;
         let (corrections, _) = by.correction.as_chunks();
-        let forces = by.linear.iter_mut().zip(&mut by.stretched);
-        let nodes = corrections.windows(2).zip(&by.reach.spans);
-        for ((link, (nodes, moved)), (linear, stretched)) in by.links.iter().zip(nodes).zip(forces) {
+        let forces = by.linear.iter_mut().zip(&mut by.geometric_forces);
+        let nodes = corrections.windows(2).zip(&by.active.spans);
+        for ((link, (nodes, moved)), (linear, geometric_forces)) in by.links.iter().zip(nodes).zip(forces) {
             if !moved {
                 continue;
             }
             let (columns, geometric) = (&operator[link.kind], &by.kinds[link.kind].geometric);
             for body in 0..2 {
-                let sums = [load(&linear[body]), load(&stretched[body])];
+                let sums = [load(&linear[body]), load(&geometric_forces[body])];
                 let dq = at_ends(nodes, 0, body);
                 let (sum, other) = products::<V>([&columns[body], &geometric[body]], &dq, sums);
                 store(sum, &mut linear[body]);
-                store(other, &mut stretched[body]);
+                store(other, &mut geometric_forces[body]);
             }
         }
     }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Matrix3};
 use super::nodes::Nodes;
 use super::precision::OnNodes;
 use super::{EndColumn, ends};
-use crate::dynamics::state::Bow;
+use crate::dynamics::state::Deflection;
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
 
@@ -36,7 +36,7 @@ pub(super) struct LinkMatrices {
     pub inner: Vec<Aligned<[[[f64; 8]; 12]; 2]>>,
     /// Lateral deflection of the inner stations, as `lateral`, by a local force at each of them while the ends stand
     /// still.
-    pub bow: Vec<Aligned<[[EndColumn; 6]; 2]>>,
+    pub deflection: Vec<Aligned<[[EndColumn; 6]; 2]>>,
     /// Slowest frequency of pipe or guide while the ends stand still (rad/s).
     pub slowest: f64,
     slaved: [DMatrix<f64>; 2],
@@ -56,7 +56,7 @@ pub(super) struct Link {
     /// What the pipe's weight puts on its top end (N), along the axes of the link above.
     pub weight_on_top: [f64; 3],
     /// Lateral deflection of the inner stations under the weight of pipe and guide (m), as [`LinkMatrices::lateral`].
-    pub sag: Aligned<Bow>,
+    pub by_weight: Aligned<Deflection>,
 }
 
 /// The spans between `nodes`, whose matrices were `made` with them: like ones share theirs.
@@ -76,7 +76,7 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
             offset: Aligned([[0.0; 8]; 2]),
             clearance_squared: Aligned([f64::MAX; 8]),
             weight_on_top: [0.0; 3],
-            sag: Aligned([[0.0; 16]; 2]),
+            by_weight: Aligned([[0.0; 16]; 2]),
         };
         for i in 0..per {
             let station = &model.stations[first + i + 1];
@@ -88,7 +88,7 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
     (kinds, links)
 }
 
-/// Consistent forces of gravity in the reduced numbering.
+/// Consistent forces of gravity in the chain numbering.
 pub(super) fn weights(
     model: &Model,
     nodes: &Nodes,
@@ -112,10 +112,10 @@ pub(super) fn weights(
             }
             let kind = &kinds[link.kind];
             let on_ends = kind.slaved[body].tr_mul(&weight);
-            let sag = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
+            let by_weight = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
             for i in 1..per {
-                let at = local_lateral(model, first + i, body) * sag.rows(6 * (i - 1), 6);
-                (link.sag[body][i - 1], link.sag[body][8 + i - 1]) = (at[0], at[1]);
+                let at = local_lateral(model, first + i, body) * by_weight.rows(6 * (i - 1), 6);
+                (link.by_weight[body][i - 1], link.by_weight[body][8 + i - 1]) = (at[0], at[1]);
             }
             if body == 0 {
                 link.weight_on_top = [on_ends[0], on_ends[1], on_ends[2]];
@@ -229,7 +229,7 @@ impl LinkMatrices {
                 }))
             })
             .collect();
-        let bow = (1..per).map(|i| {
+        let deflection = (1..per).map(|i| {
             Aligned(std::array::from_fn(|body| {
                 let bent = compliance[body].columns(6 * (i - 1), 6) * local(model, first + i, body).transpose();
                 let mut columns = [[0.0; 16]; 6];
@@ -253,7 +253,7 @@ impl LinkMatrices {
             on_nodes_single: force.iter().map(|rows| OnNodes::of(rows, model.guide_radii)).collect(),
             force,
             inner,
-            bow: bow.collect(),
+            deflection: deflection.collect(),
             slowest,
             slaved,
             compliance,
@@ -266,7 +266,7 @@ impl LinkMatrices {
         let mut largest = 0.0_f64;
         for lane in 0..16 {
             let sum = |body: usize| {
-                self.bow
+                self.deflection
                     .iter()
                     .map(|at| at[body][1][lane].abs() + at[body][2][lane].abs())
                     .sum::<f64>()

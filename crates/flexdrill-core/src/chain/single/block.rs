@@ -5,14 +5,14 @@ use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 
 /// Pairs of pivots. The spin below and the tie's multiplier are pivots in the last node only: elsewhere the one follows
-/// from other rotations and the other does not exist. The span above a node does not reach the tilts below, so that these
+/// from other rotations and the other does not exist. The span above a node does not active the tilts below, so that these
 /// may go before what comes from above is known; the rest follows in order.
 const PAIRS: [[usize; 2]; 8] = [[6, 15], [7, 8], [0, 1], [2, 3], [4, 5], [9, 10], [11, 12], [13, 14]];
 /// Place at which the pair of the tie's multiplier goes in the last node: its row has no pivot before the others are out.
 const LAST: usize = 8;
 
 /// The other one of a row's pair.
-static MATES: Aligned<[i32; NODE]> = {
+static PARTNERS: Aligned<[i32; NODE]> = {
     let mut out = [0; NODE];
     let mut n = 0;
     while n < PAIRS.len() {
@@ -26,7 +26,7 @@ static MATES: Aligned<[i32; NODE]> = {
 static BESIDE: Aligned<[Column; LAST + 1]> = Aligned(table(false));
 static BEYOND: Aligned<[Column; LAST + 1]> = Aligned(table(true));
 /// One row.
-pub(in crate::reduced) static ONLY: Aligned<[Column; NODE]> = {
+pub(in crate::chain) static ONLY: Aligned<[Column; NODE]> = {
     let mut out = [[0.0; NODE]; NODE];
     let mut k = 0;
     while k < NODE {
@@ -58,11 +58,11 @@ const fn table(beyond: bool) -> [Column; LAST + 1] {
     out
 }
 
-/// The inverse of the pivots that are out: what of each row is its own, and what its mate's.
+/// The inverse of the pivots that are out: what of each row is its own, and what its partner's.
 #[derive(Clone, Copy)]
 pub(super) struct Inverse<S> {
     pub own: S,
-    pub mate: S,
+    pub partner: S,
 }
 
 impl<S: Single> Inverse<S> {
@@ -71,7 +71,7 @@ impl<S: Single> Inverse<S> {
     pub fn start() -> Self {
         Self {
             own: S::load(&ONLY[6]),
-            mate: S::splat(0.0),
+            partner: S::splat(0.0),
         }
     }
 }
@@ -104,8 +104,8 @@ fn pair<S: Single, const N: usize, const K: usize, const NEXT: usize>(
     let (row, next) = (S::load(&ONLY[K]), S::load(&ONLY[NEXT]));
     inverse.own = inverse.own.plus_product(row, s.times(reciprocal));
     inverse.own = inverse.own.plus_product(next, p.times(reciprocal));
-    inverse.mate = inverse.mate.minus_product(row, q.times(reciprocal));
-    inverse.mate = inverse.mate.minus_product(next, r.times(reciprocal));
+    inverse.partner = inverse.partner.minus_product(row, q.times(reciprocal));
+    inverse.partner = inverse.partner.minus_product(next, r.times(reciprocal));
     let beyond = S::load(&BEYOND[N]);
     let (x, y) = (by_first.times(beyond), by_second.times(beyond));
     x.times(x).largest(y.times(y))
@@ -166,7 +166,10 @@ pub(super) fn eliminate<S: Single, const CROSSED: bool>(
 #[inline(always)]
 pub(super) fn eliminate_last<S: Single>(a: &mut [Column; NODE], right: &mut Column) -> S {
     let zero = S::splat(0.0);
-    let mut inverse = Inverse { own: zero, mate: zero };
+    let mut inverse = Inverse {
+        own: zero,
+        partner: zero,
+    };
     let with_first = |n: usize| {
         let mut after = [[0; 2]; 8];
         let count = 8 - n;
@@ -201,6 +204,6 @@ pub(super) fn eliminate_last<S: Single>(a: &mut [Column; NODE], right: &mut Colu
 fn solve<S: Single>(column: &mut Column, inverse: Inverse<S>) {
     let x = S::load(column);
     x.times(inverse.own)
-        .plus_product(x.taken(&MATES), inverse.mate)
+        .plus_product(x.taken(&PARTNERS), inverse.partner)
         .store(column);
 }

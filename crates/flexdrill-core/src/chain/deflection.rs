@@ -1,4 +1,4 @@
-//! How spans bow between their ends: the static deflection of inner stations under contacts and weight, the ends held,
+//! How spans deflect between their ends: the static deflection of inner stations under contacts and weight, the ends held,
 //! w = K_ii^-1 f_i.
 //!
 //! The slaving says how inner stations follow the ends, and puts what acts on them on the ends. What is left of the static
@@ -8,20 +8,20 @@
 
 use super::contacts::{at_radius, plus_rows};
 use super::residual::{load, store};
-use super::{EndColumn, Reduced, at_ends};
+use super::{Chain, EndColumn, at_ends};
 use crate::dynamics::assembly::Assembler;
-use crate::dynamics::state::{Bow, State, translation};
+use crate::dynamics::state::{Deflection, State, translation};
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 
-impl Reduced {
+impl Chain {
     /// How the spans are bowed in `full`, whose ends are those of `to`.
-    pub(crate) fn take_bows(&self, model: &Model, full: &State, to: &mut State) {
+    pub(super) fn take_deflections(&self, model: &Model, full: &State, to: &mut State) {
         let (nodes, _) = to.q.as_chunks();
-        for (l, (bow, link)) in to.bow.iter_mut().zip(&self.links).enumerate() {
-            for (body, bow) in bow.iter_mut().enumerate() {
-                *bow = [0.0; 16];
+        for (l, (deflection, link)) in to.deflection.iter_mut().zip(&self.links).enumerate() {
+            for (body, deflection) in deflection.iter_mut().enumerate() {
+                *deflection = [0.0; 16];
                 let [top, bottom] = at_ends(nodes, l, body);
                 for i in 1..self.nodes.elements(l) {
                     let station = &model.stations[self.nodes.first(l) + i];
@@ -35,16 +35,16 @@ impl Reduced {
                         let slaved = columns
                             .zip(top.iter().chain(&bottom))
                             .map(|(column, x)| column[lane] * x);
-                        bow[lane] = at - slaved.sum::<f64>();
+                        deflection[lane] = at - slaved.sum::<f64>();
                     }
                 }
             }
         }
     }
 
-    /// How the spans bow under the contacts of the last residual and under their weight, into `to`.
-    pub(super) fn bow_spans(&self, to: &mut [Bow], model: &Model, assembler: &Assembler) {
-        self.instructions.run(Bows {
+    /// How the spans deflect under the contacts of the last residual and under their weight, into `to`.
+    pub(super) fn deflect_spans(&self, to: &mut [Deflection], model: &Model, assembler: &Assembler) {
+        self.instructions.run(Deflections {
             by: self,
             to,
             model,
@@ -54,20 +54,20 @@ impl Reduced {
 
     /// Deflections by local forces at station `i` of span `l`, of pipe and guide; `None` at a span's end.
     #[inline(always)]
-    fn bow(&self, l: usize, i: usize) -> Option<&[[EndColumn; 6]; 2]> {
-        let bow = &self.kinds[self.links[l].kind].bow;
-        bow.get(i.checked_sub(1)?).map(|bow| &**bow)
+    fn deflection(&self, l: usize, i: usize) -> Option<&[[EndColumn; 6]; 2]> {
+        let deflection = &self.kinds[self.links[l].kind].deflection;
+        deflection.get(i.checked_sub(1)?).map(|deflection| &**deflection)
     }
 }
 
-struct Bows<'a> {
-    by: &'a Reduced,
-    to: &'a mut [Bow],
+struct Deflections<'a> {
+    by: &'a Chain,
+    to: &'a mut [Deflection],
     model: &'a Model,
     assembler: &'a Assembler,
 }
 
-impl Kernel for Bows<'_> {
+impl Kernel for Deflections<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -79,10 +79,12 @@ impl Kernel for Bows<'_> {
             assembler,
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
-        to.iter_mut().zip(&by.links).for_each(|(to, link)| *to = *link.sag);
+        to.iter_mut()
+            .zip(&by.links)
+            .for_each(|(to, link)| *to = *link.by_weight);
         for (station, touch) in assembler.inner.iter() {
             let (l, i) = by.nodes.stations[station];
-            if let Some([by_pipe, by_guide]) = by.bow(l, i) {
+            if let Some([by_pipe, by_guide]) = by.deflection(l, i) {
                 let on_pipe = touch.force();
                 let mut on_guide = at_radius(&on_pipe, inner_radius);
                 on_guide.iter_mut().for_each(|x| *x = -*x);
@@ -93,7 +95,7 @@ impl Kernel for Bows<'_> {
         }
         for (station, touch) in assembler.outer.iter() {
             let (l, i) = by.nodes.stations[station];
-            if let Some([_, by_guide]) = by.bow(l, i) {
+            if let Some([_, by_guide]) = by.deflection(l, i) {
                 let on_guide = at_radius(&touch.force(), outer_radius);
                 let guide = &mut to[l][1];
                 store(plus_rows::<V>(load(guide), by_guide, &on_guide), guide);

@@ -25,7 +25,7 @@ pub(super) struct Window {
 
 /// What the present correction reaches.
 #[derive(Debug)]
-pub(super) struct Reach {
+pub(super) struct Active {
     /// Whether it is the whole tool.
     pub whole: bool,
     /// From the top down; no two touch.
@@ -35,20 +35,20 @@ pub(super) struct Reach {
     /// Spans with an end that is linearised or, once solved for, moves.
     pub spans: Vec<bool>,
     /// Nodes whose residual changes.
-    pub felt: Vec<bool>,
+    pub affected: Vec<bool>,
 }
 
-impl Reach {
+impl Active {
     pub(super) fn new(nodes: usize) -> Self {
-        let mut reach = Self {
+        let mut active = Self {
             whole: false,
             windows: Vec::with_capacity(nodes),
             nodes: vec![true; nodes],
             spans: vec![true; nodes - 1],
-            felt: vec![true; nodes],
+            affected: vec![true; nodes],
         };
-        reach.set_whole();
-        reach
+        active.set_whole();
+        active
     }
 
     /// The whole tool.
@@ -65,7 +65,7 @@ impl Reach {
         });
         self.nodes.fill(true);
         self.spans.fill(true);
-        self.felt.fill(true);
+        self.affected.fill(true);
     }
 
     /// Windows around the nodes that are out of balance, `weights` being one over the limits of `residual`.
@@ -107,11 +107,11 @@ impl Reach {
         }
         let bottom = self.nodes.len() - 1;
         self.spans.fill(false);
-        self.felt.fill(false);
+        self.affected.fill(false);
         for window in &self.windows {
             let (above, below) = (window.top.saturating_sub(1), (window.last + 1).min(bottom));
             self.spans[above..below].fill(true);
-            self.felt[above..=below].fill(true);
+            self.affected[above..=below].fill(true);
         }
     }
 }
@@ -135,26 +135,30 @@ mod tests {
         for (node, value) in [(2, 2.0), (7, -2.0), (16, 1.1), (28, f64::NAN)] {
             residual[NODE * node + node % NODE] = value;
         }
-        let mut reach = Reach::new(30);
-        assert!(reach.whole);
-        reach.set_windows(&residual, &weights);
-        let ends: Vec<_> = reach.windows.iter().map(|window| (window.first, window.last)).collect();
+        let mut active = Active::new(30);
+        assert!(active.whole);
+        active.set_windows(&residual, &weights);
+        let ends: Vec<_> = active
+            .windows
+            .iter()
+            .map(|window| (window.first, window.last))
+            .collect();
         assert_eq!(ends, [(2, 13), (16, 22), (28, 29)]);
-        assert_eq!(reach.nodes, marks(30, &[2..14, 16..23, 28..30]));
-        assert_eq!(reach.spans, marks(29, &[1..14, 15..23, 27..29]));
+        assert_eq!(active.nodes, marks(30, &[2..14, 16..23, 28..30]));
+        assert_eq!(active.spans, marks(29, &[1..14, 15..23, 27..29]));
         // The second one moves up into the first.
-        reach.windows[1].top = 11;
-        reach.moved();
-        assert_eq!(reach.spans, marks(29, &[1..23, 27..29]));
-        assert_eq!(reach.felt, marks(30, &[1..24, 27..30]));
-        reach.set_whole();
-        assert_eq!(reach.windows.len(), 1);
+        active.windows[1].top = 11;
+        active.moved();
+        assert_eq!(active.spans, marks(29, &[1..23, 27..29]));
+        assert_eq!(active.affected, marks(30, &[1..24, 27..30]));
+        active.set_whole();
+        assert_eq!(active.windows.len(), 1);
         assert!(
-            reach
+            active
                 .nodes
                 .iter()
-                .chain(&reach.spans)
-                .chain(&reach.felt)
+                .chain(&active.spans)
+                .chain(&active.affected)
                 .all(|&mark| mark)
         );
     }

@@ -85,11 +85,6 @@ impl Nodes {
         }
     }
 
-    /// Number of spans.
-    pub(super) fn spans(&self) -> usize {
-        self.list.len() - 1
-    }
-
     /// Station at the top of span `l`, or of node `l`.
     #[inline(always)]
     pub(super) fn first(&self, l: usize) -> usize {

@@ -1,15 +1,15 @@
-//! Newton's equations over the joints, and their solution: blocks of 16 eliminated from the top down.
+//! Newton's equations over the chain, and their solution: blocks of 16 eliminated from the top down.
 
+use super::active::WHOLE_CORRECTIONS;
 use super::dependents::{Dependents, FIRST_ROW, MOMENTS, ROTATIONS, SECOND_ROW};
 use super::double::sixteen;
 use super::nodes::{Node, pass};
 use super::operator::{Block, Operator};
 use super::precision::Double;
-use super::reach::WHOLE_CORRECTIONS;
 use super::residual::{load, plus_column, store};
 use super::single::SingleElimination;
 use super::tangent::Additions;
-use super::{BOTTOM, GUIDE, Link, NODE, Reduced, SINGLE_CORRECTIONS, TIE, TOP};
+use super::{BOTTOM, Chain, GUIDE, Link, NODE, SINGLE_CORRECTIONS, TIE, TOP};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
@@ -162,8 +162,8 @@ impl Kernel for Elimination<'_> {
                 self.coupling::<V>(k, &mut columns, &mut lower)
             };
             let coupling = &mut columns[..12];
-            let reduced = self.dependents[k].eliminate(&mut block, coupling, Double::<V>(load(&right)), rows, true);
-            store(reduced.0, &mut right);
+            let chain = self.dependents[k].eliminate(&mut block, coupling, Double::<V>(load(&right)), rows, true);
+            store(chain.0, &mut right);
             if let Some(rows) = &self.rows[k] {
                 for (i, column) in block.iter_mut().enumerate() {
                     keep(column, rows);
@@ -223,13 +223,13 @@ impl Kernel for Elimination<'_> {
     }
 }
 
-impl Reduced {
+impl Chain {
     /// Solves for the correction in single precision; `false` where its pivots do not do.
     fn correct_in_single(&mut self, operator: usize) -> bool {
-        if !self.reach.whole {
+        if !self.active.whole {
             self.correction.fill(0.0);
         }
-        for window in &self.reach.windows {
+        for window in &self.active.windows {
             let unknowns = NODE * window.first..NODE * (window.last + 1);
             let residual = &self.residual[unknowns.clone()];
             let values = self.correction[unknowns].iter_mut().zip(residual);
@@ -243,11 +243,11 @@ impl Reduced {
             dependents: &self.dependents,
             links: &self.links,
             rows: &self.rows,
-            windows: &mut self.reach.windows,
+            windows: &mut self.active.windows,
             weights: self.limits.weights(self.accuracy),
             values: &mut self.correction,
         });
-        self.reach.moved();
+        self.active.moved();
         solved
     }
 
@@ -291,7 +291,7 @@ impl Reduced {
         let Some(operator) = self.operator(factors, conditions) else {
             return Err(Singular { station: 0, pivot: 0.0 });
         };
-        self.reach.set_whole();
+        self.active.set_whole();
         let mut additions = std::mem::take(&mut self.additions);
         additions.linearise(self, assembler, model, state, (conditions, factors));
         self.additions = additions;
@@ -329,7 +329,7 @@ impl Reduced {
         self.single_additions = additions;
         let sweep = &mut self.single_sweep;
         let lambda = |joint: usize| self.multipliers[joint];
-        let (reached, of_joints) = (&self.reach.nodes, &self.nodes.of_joints);
+        let (reached, of_joints) = (&self.active.nodes, &self.nodes.of_joints);
         let wanted = |joint: usize| reached[of_joints[joint]];
         let (dependents, spins) = (&mut self.dependents, self.one_row.then_some(&self.spins));
         assembler.joint_tangents(factors, lambda, wanted, |joint, tangent| {
@@ -343,18 +343,18 @@ impl Reduced {
     }
 }
 
-/// The reduced equations, with the assembler that evaluates joints and holds the contacts.
-pub(crate) struct ReducedEquations<'a> {
-    pub(super) reduced: &'a mut Reduced,
+/// The chain equations, with the assembler that evaluates joints and holds the contacts.
+pub(crate) struct ChainEquations<'a> {
+    pub(super) chain: &'a mut Chain,
     pub(super) assembler: &'a mut Assembler,
 }
 
-impl ReducedEquations<'_> {
+impl ChainEquations<'_> {
     /// Evaluates the whole residual at `to`, with the axial forces that it holds or, without `keep_axial`, those of its
     /// displacements.
     pub(crate) fn evaluate(&mut self, model: &Model, to: &mut State, conditions: &Conditions, keep_axial: bool) {
-        self.reduced.foreseen_part = 0.0;
-        self.reduced
+        self.chain.foreseen_part = 0.0;
+        self.chain
             .evaluate(self.assembler, model, to, conditions, (None, keep_axial));
     }
 
@@ -375,11 +375,11 @@ impl ReducedEquations<'_> {
         // The tangent has no geometric stiffness, and without it neither a joint that touches nothing nor the guide's turn
         // about its own axis has any: they move by no more than their inertia lets them in 5 ms.
         let factors = TangentFactors { mass: 4e4, ..still };
-        self.reduced.prepare(model, conditions, factors);
-        self.reduced.iterations = SINGLE_CORRECTIONS;
+        self.chain.prepare(model, conditions, factors);
+        self.chain.iterations = SINGLE_CORRECTIONS;
         self.assembler.begin();
         self.evaluate(model, state, conditions, false);
-        let mut best = worst(&self.reduced.residual, self.reduced.limits.weights(Accuracy::Rest));
+        let mut best = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
         for _ in 0..MOST_STATIC_CORRECTIONS {
             if best <= SETTLED {
                 return;
@@ -390,7 +390,7 @@ impl ReducedEquations<'_> {
             }
             correct(self, scratch, still);
             self.evaluate(model, scratch, conditions, false);
-            let ratio = worst(&self.reduced.residual, self.reduced.limits.weights(Accuracy::Rest));
+            let ratio = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
             if ratio.is_nan() || ratio >= best {
                 return;
             }
@@ -416,16 +416,16 @@ impl ReducedEquations<'_> {
             damping: h,
             mass: 1.0,
         };
-        self.reduced.prepare(model, conditions, factors);
-        self.reduced.iterations = SINGLE_CORRECTIONS;
+        self.chain.prepare(model, conditions, factors);
+        self.chain.iterations = SINGLE_CORRECTIONS;
         self.assembler.begin();
         self.evaluate(model, state, conditions, false);
         // The rows hold already; what is asked for is how their second derivatives can be zero.
-        for residual in self.reduced.residual.chunks_exact_mut(NODE) {
+        for residual in self.chain.residual.chunks_exact_mut(NODE) {
             (residual[FIRST_ROW], residual[SECOND_ROW]) = (0.0, 0.0);
         }
         self.solve(model, state, conditions, factors)?;
-        for (i, &x) in self.reduced.correction.iter().enumerate() {
+        for (i, &x) in self.chain.correction.iter().enumerate() {
             if i % NODE == TIE {
                 state.q[i] += x;
             } else {
@@ -436,12 +436,12 @@ impl ReducedEquations<'_> {
     }
 }
 
-impl Equations for ReducedEquations<'_> {
+impl Equations for ChainEquations<'_> {
     fn begin(&mut self, _: &Model, stride: Stride, from: &State, _: &mut State) {
         self.assembler.begin();
-        self.reduced.accuracy = stride.accuracy;
-        self.reduced.foresee(from, stride.foresight, stride.foreseen_part);
-        self.reduced.limits.for_step(stride.h);
+        self.chain.accuracy = stride.accuracy;
+        self.chain.foresee(from, stride.foresight, stride.foreseen_part);
+        self.chain.limits.for_step(stride.h);
     }
 
     fn residual(
@@ -452,9 +452,9 @@ impl Equations for ReducedEquations<'_> {
         factors: TangentFactors,
         iterations: u32,
     ) {
-        self.reduced.iterations = iterations;
-        let operator = self.reduced.operator(factors, conditions).filter(|_| iterations > 0);
-        self.reduced
+        self.chain.iterations = iterations;
+        let operator = self.chain.operator(factors, conditions).filter(|_| iterations > 0);
+        self.chain
             .evaluate(self.assembler, model, to, conditions, (operator, false));
     }
 
@@ -465,38 +465,38 @@ impl Equations for ReducedEquations<'_> {
         conditions: &Conditions,
         factors: TangentFactors,
     ) -> Result<(), Singular> {
-        let (reduced, assembler) = (&mut *self.reduced, &mut *self.assembler);
-        if reduced.iterations < WHOLE_CORRECTIONS {
-            reduced.reach.set_whole();
+        let (chain, assembler) = (&mut *self.chain, &mut *self.assembler);
+        if chain.iterations < WHOLE_CORRECTIONS {
+            chain.active.set_whole();
         } else {
-            let weights = reduced.limits.weights(reduced.accuracy);
-            reduced.reach.set_windows(&reduced.residual, weights);
+            let weights = chain.limits.weights(chain.accuracy);
+            chain.active.set_windows(&chain.residual, weights);
         }
-        let single = reduced.iterations < SINGLE_CORRECTIONS
-            && reduced.solve_in_single(assembler, model, to, (conditions, factors));
+        let single =
+            chain.iterations < SINGLE_CORRECTIONS && chain.solve_in_single(assembler, model, to, (conditions, factors));
         let solved = if single {
             Ok(())
         } else {
-            reduced.solve(assembler, model, to, (conditions, factors))
+            chain.solve(assembler, model, to, (conditions, factors))
         };
         assembler.stopwatch.lap(Phase::Solve);
         solved
     }
 
     fn residuals(&self) -> &[f64] {
-        &self.reduced.residual
+        &self.chain.residual
     }
 
     fn weights(&self, accuracy: Accuracy) -> &[f64] {
-        self.reduced.limits.weights(accuracy)
+        self.chain.limits.weights(accuracy)
     }
 
     fn correction(&self) -> (&[f64], &[f64]) {
-        (&self.reduced.correction, &self.reduced.moving)
+        (&self.chain.correction, &self.chain.moving)
     }
 
     fn driven<'b>(&'b self, _: &'b Model) -> &'b [usize] {
-        &self.reduced.driven
+        &self.chain.driven
     }
 
     fn out_of_range(&self, _: &Model, state: &State) -> Option<(usize, f64)> {
@@ -512,11 +512,11 @@ impl Equations for ReducedEquations<'_> {
     }
 
     fn instructions(&self) -> Instructions {
-        self.reduced.instructions
+        self.chain.instructions
     }
 
     fn locate(&self, _: &Model, unknown: usize) -> (usize, Body) {
-        let (station, guide) = self.reduced.locate(unknown);
+        let (station, guide) = self.chain.locate(unknown);
         (station, if guide { Body::Guide } else { Body::Pipe })
     }
 }

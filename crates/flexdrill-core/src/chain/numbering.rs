@@ -1,49 +1,43 @@
-//! The reduced numbering beside the model's: from one to the other.
+//! The chain numbering beside the model's: from one to the other.
 
 use nalgebra::Vector3;
 
 use super::nodes::Nodes;
-use super::{EndForces, GUIDE, NODE, Reduced, TIE, U, ends};
+use super::{Chain, EndForces, GUIDE, NODE, TIE, U, ends};
 use crate::dynamics::energy::JointForces;
 use crate::dynamics::state::State;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 
-/// Places of the model's unknowns.
+/// Places of the model's unknowns in the chain.
 pub(crate) struct Numbering {
-    /// By the model's unknowns.
+    /// By the model's unknowns; `None` for those that follow from others.
     places: Vec<Option<usize>>,
-    /// First unknowns of the nodes at which the pipe goes through in one piece.
-    welded: Vec<usize>,
+    /// First unknowns of the nodes that the pipe passes in one piece.
+    in_one_piece: Vec<usize>,
 }
 
 impl Numbering {
     pub(super) fn of(model: &Model, nodes: &Nodes) -> Self {
         let mut places = vec![None; model.unknowns()];
-        for (k, node) in nodes.list.iter().enumerate() {
-            let (station, first) = (&model.stations[node.station], NODE * k);
-            for i in 0..3 {
-                places[station.pipe_above + i] = Some(first + U + i);
-                places[station.pipe_above + 3 + i] = Some(first + i);
-                if station.joint.is_some() {
-                    places[station.pipe_below + 3 + i] = Some(first + 6 + i);
-                }
-            }
-            for i in 0..6 {
-                places[station.guide + i] = Some(first + GUIDE + i);
+        for node in &nodes.list {
+            let station = &model.stations[node.station];
+            let joint = station.joint.map(|_| station.pipe_below + 3..station.pipe_below + 6);
+            let pipe_and_guide = (station.pipe_above..station.pipe_above + 6).chain(station.guide..station.guide + 6);
+            for unknown in pipe_and_guide.chain(joint.into_iter().flatten()).chain(model.tie) {
+                places[unknown] = Some(place(model, nodes, unknown));
             }
         }
-        if let Some(tie) = model.tie {
-            places[tie] = Some(NODE * nodes.spans() + TIE);
+        let in_one_piece = nodes.list.iter().enumerate().filter(|(_, node)| node.joint.is_none());
+        Self {
+            places,
+            in_one_piece: in_one_piece.map(|(k, _)| NODE * k).collect(),
         }
-        let welded = nodes.list.iter().enumerate().filter(|(_, node)| node.joint.is_none());
-        let welded = welded.map(|(k, _)| NODE * k).collect();
-        Self { places, welded }
     }
 
-    /// Place of an unknown of the model that is one of the reduced numbering too.
-    pub(crate) fn place(&self, unknown: usize) -> Option<usize> {
+    /// Place of an unknown of the model that is one of the chain too.
+    pub(super) fn place(&self, unknown: usize) -> Option<usize> {
         self.places[unknown]
     }
 
@@ -54,13 +48,13 @@ impl Numbering {
         held.chain(driven).collect()
     }
 
-    /// Takes what `full` holds for the unknowns of `reduced`.
-    pub(crate) fn gather(&self, full: &State, reduced: &mut State) {
+    /// Takes what `full` holds for the unknowns of `chain`.
+    fn gather(&self, full: &State, chain: &mut State) {
         let pairs = [
-            (&full.q, &mut reduced.q),
-            (&full.v, &mut reduced.v),
-            (&full.a, &mut reduced.a),
-            (&full.lagged, &mut reduced.lagged),
+            (&full.q, &mut chain.q),
+            (&full.v, &mut chain.v),
+            (&full.a, &mut chain.a),
+            (&full.lagged, &mut chain.lagged),
         ];
         for (from, to) in pairs {
             to.fill(0.0);
@@ -69,15 +63,43 @@ impl Numbering {
                     to[*place] = *x;
                 }
             }
-            for &first in &self.welded {
+            for &first in &self.in_one_piece {
                 to.copy_within(first..first + 3, first + 6);
             }
         }
-        (reduced.scheme_step, reduced.time, reduced.drive_angle) = (full.scheme_step, full.time, full.drive_angle);
+        (chain.scheme_step, chain.time, chain.drive_angle) = (full.scheme_step, full.time, full.drive_angle);
     }
 }
 
-impl Reduced {
+/// Place of an unknown of a station at a node.
+pub(super) fn place(model: &Model, nodes: &Nodes, unknown: usize) -> usize {
+    let at = model.layout.station_of(unknown);
+    let (station, (span, i)) = (&model.stations[at], nodes.stations[at]);
+    let first = NODE * if i == 0 { span } else { span + 1 };
+    if model.tie == Some(unknown) {
+        return first + TIE;
+    }
+    match unknown.checked_sub(station.guide) {
+        Some(i @ 0..6) => first + GUIDE + i,
+        // Of the pipe, below a joint and above: the displacement below follows from that above.
+        _ => match (station.joint, unknown.checked_sub(station.pipe_below)) {
+            (Some(_), Some(i @ 3..6)) => first + 3 + i,
+            (Some(_), Some(i @ 0..3)) => first + U + i,
+            _ => match unknown - station.pipe_above {
+                i @ 0..3 => first + U + i,
+                i => first + i - 3,
+            },
+        },
+    }
+}
+
+impl Chain {
+    /// Takes a state in the numbering of the model.
+    pub(crate) fn take(&self, model: &Model, from: &State, to: &mut State) {
+        self.numbering.gather(from, to);
+        self.take_deflections(model, from, to);
+    }
+
     /// A state of the right sizes.
     pub(crate) fn state(&self) -> State {
         let (n, spans) = (self.unknowns(), self.spans());
@@ -89,7 +111,7 @@ impl Reduced {
             scheme_step: 0.0,
             pipe_axial: vec![0.0; spans],
             guide_axial: vec![0.0; spans],
-            bow: vec![[[0.0; 16]; 2]; spans],
+            deflection: vec![[[0.0; 16]; 2]; spans],
             time: 0.0,
             drive_angle: 0.0,
         }
@@ -100,7 +122,7 @@ impl Reduced {
         (0..self.nodes.list.len()).flat_map(|k| [NODE * k, NODE * k + 6])
     }
 
-    /// Station and whether it is the guide's, of a reduced unknown.
+    /// Station and whether it is the guide's, of a chain unknown.
     pub(super) fn locate(&self, unknown: usize) -> (usize, bool) {
         (
             self.nodes.list[unknown / NODE].station,
@@ -108,7 +130,7 @@ impl Reduced {
         )
     }
 
-    /// Sum in the world of what `values`, per reduced unknown, and the `spans` on their ends put on the displacements.
+    /// Sum in the world of what `values`, per chain unknown, and the `spans` on their ends put on the displacements.
     pub(crate) fn sum_in_world<'a>(
         &self,
         model: &Model,
@@ -132,21 +154,45 @@ impl Reduced {
         sum
     }
 
-    /// Shows the reduced state in the model's numbering: inner stations as they are slaved, and the force
+    /// Shows the chain state in the model's numbering: inner stations as they are slaved, and the force
     /// and moment of each joint as its multipliers. Lagged accelerations stay as they are.
-    pub(crate) fn show(&self, model: &Model, reduced: &State, forces: &JointForces, full: &mut State) {
+    pub(crate) fn show(&self, model: &Model, chain: &State, forces: &JointForces, full: &mut State) {
         self.instructions.run(Show {
             by: self,
             model,
-            reduced,
+            chain,
             forces,
             full,
         });
     }
 }
 
-impl Reduced {
-    /// What `values` in the reduced numbering mean for the translation of the pipe at `station`, in the pipe's own axes;
+impl Chain {
+    /// What `values` in the chain's numbering mean for an unknown of the model's pipe or guide.
+    pub(crate) fn value(&self, model: &Model, values: &[f64], unknown: usize) -> f64 {
+        if let Some(place) = self.numbering.place(unknown) {
+            return values[place];
+        }
+        let at = model.layout.station_of(unknown);
+        let (station, (l, i)) = (&model.stations[at], self.nodes.stations[at]);
+        if let Some(joint) = station.joint {
+            // The displacement below follows from that above.
+            let joint = &model.joints[joint];
+            let above = self.pipe_translation(values, at);
+            return joint.lower.tr_mul(&(joint.upper * above))[unknown - station.pipe_below];
+        }
+        let (body, k) = match unknown.checked_sub(station.guide) {
+            Some(k @ 0..6) => (1, k),
+            _ => (0, unknown - station.pipe_above),
+        };
+        let columns = &self.kinds[self.links[l].kind].inner[i - 1][body];
+        let [top, bottom] = ends(l, body);
+        (0..6)
+            .map(|j| columns[j][k] * values[top + j] + columns[6 + j][k] * values[bottom + j])
+            .sum()
+    }
+
+    /// What `values` in the chain numbering mean for the translation of the pipe at `station`, in the pipe's own axes;
     /// at a joint of the end above.
     pub(crate) fn pipe_translation(&self, values: &[f64], station: usize) -> Vector3<f64> {
         let (l, i) = self.nodes.stations[station];
@@ -170,9 +216,9 @@ impl Reduced {
 }
 
 struct Show<'a> {
-    by: &'a Reduced,
+    by: &'a Chain,
     model: &'a Model,
-    reduced: &'a State,
+    chain: &'a State,
     forces: &'a JointForces,
     full: &'a mut State,
 }
@@ -185,15 +231,15 @@ impl Kernel for Show<'_> {
         let Self {
             by,
             model,
-            reduced,
+            chain,
             forces,
             full,
         } = self;
-        (full.scheme_step, full.time, full.drive_angle) = (reduced.scheme_step, reduced.time, reduced.drive_angle);
+        (full.scheme_step, full.time, full.drive_angle) = (chain.scheme_step, chain.time, chain.drive_angle);
         for (from, to) in [
-            (&reduced.q, &mut full.q),
-            (&reduced.v, &mut full.v),
-            (&reduced.a, &mut full.a),
+            (&chain.q, &mut full.q),
+            (&chain.v, &mut full.v),
+            (&chain.a, &mut full.a),
         ] {
             for (k, node) in from.as_chunks::<NODE>().0.iter().enumerate() {
                 let station = &model.stations[by.nodes.list[k].station];
@@ -249,12 +295,12 @@ impl Kernel for Show<'_> {
             }
         }
         if let (Some(tie), Some(place)) = (model.tie, by.places.tie) {
-            full.q[tie] = reduced.q[place];
+            full.q[tie] = chain.q[place];
         }
         for l in 0..by.links.len() {
             let elements = by.nodes.first(l)..by.nodes.first(l + 1);
-            full.pipe_axial[elements.clone()].fill(reduced.pipe_axial[l]);
-            full.guide_axial[elements].fill(reduced.guide_axial[l]);
+            full.pipe_axial[elements.clone()].fill(chain.pipe_axial[l]);
+            full.guide_axial[elements].fill(chain.guide_axial[l]);
         }
     }
 }

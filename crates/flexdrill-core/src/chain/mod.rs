@@ -1,4 +1,4 @@
-//! The tool reduced to its joints: links and guide between two joints move as their ends do.
+//! The tool chain to its joints: links and guide between two joints move as their ends do.
 //!
 //! A span is a link with the guide beside it. Its inner stations are slaved statically: x_i = -K_ii^-1 K_ie x_e (Guyan),
 //! so that stiffness, mass and geometric stiffness of a span are matrices over its two ends. The displacement of a
@@ -16,8 +16,9 @@
 //! All stations keep their contacts: one inside a span moves, and acts on, both ends through the slaving. It holds where
 //! inner stations vibrate faster than a step can follow, so that [`nodes`] are placed by that.
 
-mod bow;
+mod active;
 mod contacts;
+mod deflection;
 mod dependents;
 mod double;
 mod energy;
@@ -25,7 +26,6 @@ mod nodes;
 mod numbering;
 mod operator;
 mod precision;
-mod reach;
 mod residual;
 mod single;
 mod slaving;
@@ -43,18 +43,18 @@ use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::simd::aligned::Aligned;
 
+use active::Active;
 use dependents::{Dependents, FIRST_ROW, SECOND_ROW, Spins};
 use nodes::Nodes;
 use operator::Operator;
-use reach::Reach;
 use single::SingleSweep;
 use slaving::{Link, LinkMatrices};
 use solve::Sweep;
 use tangent::Additions;
 
 pub(crate) use energy::span_works;
-pub(crate) use numbering::Numbering;
-pub(crate) use solve::ReducedEquations;
+use numbering::Numbering;
+pub(crate) use solve::ChainEquations;
 
 /// Unknowns per node.
 const NODE: usize = 16;
@@ -75,9 +75,9 @@ type EndForces = [EndColumn; 2];
 /// Least product of a span's slowest inner frequency, its ends clamped (rad/s), and the step (s). What a step resolves
 /// is slower than 1 / h; inner stations answer it quasi-statically to 1 / 8^2.
 const LEAST_FREQUENCY: f64 = 8.0;
-/// Most that a span may bow, its ends held, under what its contacts push back with when all its inner stations are
+/// Largest deflection of a span between its ends under what its contacts push back with when all its inner stations are
 /// displaced by 1: the largest row sum of K_ii^-1 times the contacts' stiffness. As spans are bowed by the forces of the
-/// step before, an error of the bow shrinks by this from step to step, and would grow above 1.
+/// step before, an error of the deflection shrinks by this from step to step, and would grow above 1.
 const MOST_COMPLIANCE: f64 = 0.25;
 
 /// Corrections of a step that are solved in single precision; a step that needs more is solved in double from there on.
@@ -88,15 +88,15 @@ const TOP: [usize; 12] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14];
 /// Of its bottom end.
 const BOTTOM: [usize; 12] = [0, 1, 2, 3, 4, 5, 9, 10, 11, 12, 13, 14];
 
-/// The reduced tool, and the room that steps need.
-pub(crate) struct Reduced {
+/// The chain tool, and the room that steps need.
+pub(crate) struct Chain {
     instructions: Instructions,
     /// Inner frequency of the slowest span (rad/s).
     slowest: f64,
     nodes: Nodes,
     kinds: Vec<LinkMatrices>,
     links: Vec<Link>,
-    pub(crate) numbering: Numbering,
+    numbering: Numbering,
     pub(crate) places: Places,
     /// What the drive prescribes: the spin of the first node, above and below.
     driven: Vec<usize>,
@@ -120,10 +120,10 @@ pub(crate) struct Reduced {
     /// Forces of the spans on their ends: linear ones, those of geometric stiffness per axial force with
     /// the axial force of the displacements beside them, those of contacts.
     linear: Vec<Aligned<EndForces>>,
-    stretched: Vec<Aligned<EndForces>>,
-    touched: Vec<Aligned<EndForces>>,
-    /// Whether `touched` holds anything, per span.
-    any: Vec<bool>,
+    geometric_forces: Vec<Aligned<EndForces>>,
+    contact_forces: Vec<Aligned<EndForces>>,
+    /// Whether `contact_forces` holds anything, per span.
+    has_contacts: Vec<bool>,
     foreseen: Vec<[f64; 2]>,
     foreseen_part: f64,
     additions: Additions<f64>,
@@ -133,20 +133,21 @@ pub(crate) struct Reduced {
     /// Corrections made in this step.
     iterations: u32,
     /// What the present one reaches.
-    reach: Reach,
+    active: Active,
     /// How closely the step is solved.
     accuracy: Accuracy,
     correction: Vec<f64>,
 }
 
-impl Reduced {
+impl Chain {
     /// The chain of a tool for steps of size `h` (s).
-    pub(crate) fn of(model: &Model, tolerances: &Tolerances, h: f64, instructions: Instructions) -> Option<Self> {
-        let (chain, spans) = Nodes::of(model, h);
-        let numbering = Numbering::of(model, &chain);
-        let places = model.places.renumbered(|unknown| numbering.place(unknown))?;
-        let nodes = chain.list.len();
-        let (kinds, mut links) = slaving::links(model, &chain, spans);
+    pub(crate) fn of(model: &Model, tolerances: &Tolerances, h: f64, instructions: Instructions) -> Self {
+        let (points, spans) = Nodes::of(model, h);
+        let numbering = Numbering::of(model, &points);
+        let place = |unknown: usize| numbering::place(model, &points, unknown);
+        let places = model.places.renumbered(place, |unknown| numbering.place(unknown));
+        let nodes = points.list.len();
+        let (kinds, mut links) = slaving::links(model, &points, spans);
         let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
         let spans = links.len();
         let mut driven: Vec<usize> = places.driven.into_iter().collect();
@@ -163,7 +164,7 @@ impl Reduced {
         let joint_rows = Joint::rotational_rows(model.description.joint.kind);
         let limits = |force: f64, moment: f64| {
             let mut limits = vec![moment; unknowns];
-            for (node, at) in limits.chunks_exact_mut(NODE).zip(&chain.list) {
+            for (node, at) in limits.chunks_exact_mut(NODE).zip(&points.list) {
                 node[U..U + 3].fill(force);
                 node[GUIDE..GUIDE + 3].fill(force);
                 let rows = tolerances.constraint * model.moment_scale;
@@ -183,17 +184,17 @@ impl Reduced {
             held.iter().for_each(|&unknown| limits[unknown] = f64::INFINITY);
             limits.iter().map(|limit| 1.0 / limit).collect::<Vec<f64>>()
         };
-        let weight = slaving::weights(model, &chain, &kinds, &mut links, unknowns);
-        Some(Self {
+        let weight = slaving::weights(model, &points, &kinds, &mut links, unknowns);
+        Self {
             instructions,
             slowest,
-            dependents: chain.list.iter().map(Dependents::of).collect(),
+            dependents: points.list.iter().map(Dependents::of).collect(),
             spins: vec![Spins::default(); model.joints.len().div_ceil(8)],
             one_row: joint_rows == 1,
             multipliers: vec![[0.0; 2]; model.joints.len()],
             driven,
             limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
-            nodes: chain,
+            nodes: points,
             kinds,
             links,
             numbering,
@@ -206,9 +207,9 @@ impl Reduced {
             operators: Vec::new(),
             residual: vec![0.0; unknowns],
             linear: vec![Aligned([[0.0; 16]; 2]); spans],
-            stretched: vec![Aligned([[0.0; 16]; 2]); spans],
-            touched: vec![Aligned([[0.0; 16]; 2]); spans],
-            any: vec![false; spans],
+            geometric_forces: vec![Aligned([[0.0; 16]; 2]); spans],
+            contact_forces: vec![Aligned([[0.0; 16]; 2]); spans],
+            has_contacts: vec![false; spans],
             foreseen: vec![[0.0; 2]; spans],
             foreseen_part: 0.0,
             additions: Additions::new(nodes),
@@ -216,10 +217,10 @@ impl Reduced {
             sweep: Sweep::new(nodes),
             single_sweep: SingleSweep::new(nodes),
             iterations: 0,
-            reach: Reach::new(nodes),
+            active: Active::new(nodes),
             accuracy: Accuracy::Rest,
             correction: vec![0.0; unknowns],
-        })
+        }
     }
 
     /// Halvings of a step of size `h` (s) down to the smallest that the slaving of inner stations holds for.
@@ -288,6 +289,6 @@ fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
 }
 
 /// The equations and what observers read, together.
-pub(crate) fn equations<'a>(reduced: &'a mut Reduced, assembler: &'a mut Assembler) -> ReducedEquations<'a> {
-    ReducedEquations { reduced, assembler }
+pub(crate) fn equations<'a>(chain: &'a mut Chain, assembler: &'a mut Assembler) -> ChainEquations<'a> {
+    ChainEquations { chain, assembler }
 }

@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 
 use super::residual::{load, plus_column, product, store};
-use super::{EndColumn, EndForces, Reduced, at_ends};
+use super::{Chain, EndColumn, EndForces, at_ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
@@ -13,16 +13,16 @@ use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
 
-impl Reduced {
+impl Chain {
     /// Finds what touches and what it puts on the spans' ends.
-    pub(super) fn contact_forces(
+    pub(super) fn find_contacts(
         &mut self,
         assembler: &mut Assembler,
         model: &Model,
         state: &State,
         conditions: &Conditions,
     ) {
-        for (any, moved) in self.any.iter_mut().zip(&self.reach.spans) {
+        for (any, moved) in self.has_contacts.iter_mut().zip(&self.active.spans) {
             *any &= !moved;
         }
         let instructions = self.instructions;
@@ -57,7 +57,7 @@ impl Reduced {
 }
 
 struct Search<'a> {
-    by: &'a mut Reduced,
+    by: &'a mut Chain,
     assembler: &'a mut Assembler,
     model: &'a Model,
     state: &'a State,
@@ -104,7 +104,7 @@ impl Search<'_> {
         } = self;
         let station = by.nodes.first(l) + i;
         let guide = by.local::<V>(&state.v, l, i, 1);
-        by.any[l] = true;
+        by.has_contacts[l] = true;
         if closed[0] {
             let pipe = by.local::<V>(&state.v, l, i, 0);
             let velocity = pipe.minus_product(guide, V::load(&arms[0]));
@@ -126,17 +126,21 @@ impl Search<'_> {
             by, assembler, model, ..
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
-        for (touched, (any, moved)) in by.touched.iter_mut().zip(by.any.iter().zip(&by.reach.spans)) {
+        for (contact_forces, (any, moved)) in by
+            .contact_forces
+            .iter_mut()
+            .zip(by.has_contacts.iter().zip(&by.active.spans))
+        {
             if *any && *moved {
-                **touched = [[0.0; 16]; 2];
+                **contact_forces = [[0.0; 16]; 2];
             }
         }
-        let moved = |station: usize| by.reach.spans[by.nodes.stations[station].0];
+        let moved = |station: usize| by.active.spans[by.nodes.stations[station].0];
         for (station, touch) in assembler.inner.among(moved) {
             let (l, i) = by.nodes.stations[station];
             let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
             let force = touch.force();
-            let [pipe, guide] = &mut by.touched[l].0;
+            let [pipe, guide] = &mut by.contact_forces[l].0;
             let mut opposite = force;
             opposite.iter_mut().for_each(|x| *x = -*x);
             store(plus_rows::<V>(load(pipe), on_pipe, &opposite), pipe);
@@ -149,12 +153,12 @@ impl Search<'_> {
         for (station, touch) in assembler.outer.among(moved) {
             let (l, i) = by.nodes.stations[station];
             if l != sum.span {
-                sum.take_from(&mut by.touched, l);
+                sum.take_from(&mut by.contact_forces, l);
             }
             let rows = &by.kinds[by.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.force(), outer_radius));
         }
-        sum.take_from(&mut by.touched, 0);
+        sum.take_from(&mut by.contact_forces, 0);
     }
 }
 
@@ -207,12 +211,12 @@ impl Kernel for Search<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(mut self) {
-        if self.by.reach.whole {
+        if self.by.active.whole {
             self.assembler.inner.clear();
             self.assembler.outer.clear();
         } else {
             for l in 0..self.by.links.len() {
-                if self.by.reach.spans[l] {
+                if self.by.active.spans[l] {
                     let stations = self.by.nodes.first(l) + usize::from(l > 0)..self.by.nodes.first(l + 1) + 1;
                     self.assembler.inner.open(stations.clone());
                     self.assembler.outer.open(stations);
@@ -232,22 +236,26 @@ impl Kernel for Search<'_> {
             inner.norm_squared() > top.inner_clearance * top.inner_clearance,
             guide.norm_squared() > outer_squared,
         ];
-        if (closed[0] | closed[1]) && self.by.reach.spans[0] {
+        if (closed[0] | closed[1]) && self.by.active.spans[0] {
             self.found::<V>((0, 0), [inner.into(), guide.into()], closed);
         }
         let (nodes, _) = self.state.q.as_chunks();
         let state = self.state;
         for l in 0..self.by.links.len() {
-            if !self.by.reach.spans[l] {
+            if !self.by.active.spans[l] {
                 continue;
             }
             let link = &self.by.links[l];
             let kind = &self.by.kinds[link.kind];
             let pipe = product::<V>(&kind.lateral[0], &at_ends(nodes, l, 0));
             let guide = product::<V>(&kind.lateral[1], &at_ends(nodes, l, 1));
-            let [bow_of_pipe, bow_of_guide]: [[V; 2]; 2] = [load(&state.bow[l][0]), load(&state.bow[l][1])];
-            let pipe = [pipe[0].plus(bow_of_pipe[0]), pipe[1].plus(bow_of_pipe[1])];
-            let guide = [guide[0].plus(bow_of_guide[0]), guide[1].plus(bow_of_guide[1])];
+            let [deflection_of_pipe, deflection_of_guide]: [[V; 2]; 2] =
+                [load(&state.deflection[l][0]), load(&state.deflection[l][1])];
+            let pipe = [pipe[0].plus(deflection_of_pipe[0]), pipe[1].plus(deflection_of_pipe[1])];
+            let guide = [
+                guide[0].plus(deflection_of_guide[0]),
+                guide[1].plus(deflection_of_guide[1]),
+            ];
             let y = V::load(&link.offset[0]).plus(pipe[0].minus(guide[0]));
             let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
             let square = |y: V, z: V| y.times(y).plus_product(z, z);
