@@ -25,7 +25,7 @@ impl Chain {
         for (any, moved) in self.has_contacts.iter_mut().zip(&self.active.spans) {
             *any &= !moved;
         }
-        let instructions = self.instructions;
+        let instructions = self.model.instructions;
         instructions.run(Search {
             by: self,
             assembler,
@@ -39,10 +39,10 @@ impl Chain {
     /// Local motions of pipe and guide at station `i` of span `l`, by end unknowns `x`.
     #[inline(always)]
     fn local<V: Vector>(&self, x: &[f64], l: usize, i: usize, body: usize) -> V {
-        let columns = &self.kinds[self.links[l].kind].motion[i][body];
+        let columns = &self.model.kinds[self.model.links[l].kind].motion[i][body];
         let [top, bottom] = at_ends(x.as_chunks().0, l, body);
         let (mut above, mut below) = (V::splat(0.0), V::splat(0.0));
-        if i < self.nodes.elements(l) {
+        if i < self.model.nodes.elements(l) {
             for j in 0..6 {
                 above = above.plus_product(V::load(&columns[j]), V::splat(top[j]));
             }
@@ -102,7 +102,7 @@ impl Search<'_> {
             conditions,
             arms,
         } = self;
-        let station = by.nodes.first(l) + i;
+        let station = by.model.nodes.first(l) + i;
         let guide = by.local::<V>(&state.v, l, i, 1);
         by.has_contacts[l] = true;
         if closed[0] {
@@ -135,10 +135,10 @@ impl Search<'_> {
                 **contact_forces = [[0.0; 16]; 2];
             }
         }
-        let moved = |station: usize| by.active.spans[by.nodes.stations[station].0];
+        let moved = |station: usize| by.active.spans[by.model.nodes.stations[station].0];
         for (station, touch) in assembler.inner.among(moved) {
-            let (l, i) = by.nodes.stations[station];
-            let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
+            let (l, i) = by.model.nodes.stations[station];
+            let [on_pipe, on_guide] = &by.model.kinds[by.model.links[l].kind].force[i].0;
             let force = touch.force();
             let [pipe, guide] = &mut by.contact_forces[l].0;
             let mut opposite = force;
@@ -151,11 +151,11 @@ impl Search<'_> {
         }
         let mut sum = OnSpan::<V>::new();
         for (station, touch) in assembler.outer.among(moved) {
-            let (l, i) = by.nodes.stations[station];
+            let (l, i) = by.model.nodes.stations[station];
             if l != sum.span {
                 sum.take_from(&mut by.contact_forces, l);
             }
-            let rows = &by.kinds[by.links[l].kind].force[i][1];
+            let rows = &by.model.kinds[by.model.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.force(), outer_radius));
         }
         sum.take_from(&mut by.contact_forces, 0);
@@ -215,9 +215,10 @@ impl Kernel for Search<'_> {
             self.assembler.inner.clear();
             self.assembler.outer.clear();
         } else {
-            for l in 0..self.by.links.len() {
+            for l in 0..self.by.model.links.len() {
                 if self.by.active.spans[l] {
-                    let stations = self.by.nodes.first(l) + usize::from(l > 0)..self.by.nodes.first(l + 1) + 1;
+                    let stations =
+                        self.by.model.nodes.first(l) + usize::from(l > 0)..self.by.model.nodes.first(l + 1) + 1;
                     self.assembler.inner.open(stations.clone());
                     self.assembler.outer.open(stations);
                 }
@@ -241,12 +242,12 @@ impl Kernel for Search<'_> {
         }
         let (nodes, _) = self.state.q.as_chunks();
         let state = self.state;
-        for l in 0..self.by.links.len() {
+        for l in 0..self.by.model.links.len() {
             if !self.by.active.spans[l] {
                 continue;
             }
-            let link = &self.by.links[l];
-            let kind = &self.by.kinds[link.kind];
+            let link = &self.by.model.links[l];
+            let kind = &self.by.model.kinds[link.kind];
             let pipe = product::<V>(&kind.lateral[0], &at_ends(nodes, l, 0));
             let guide = product::<V>(&kind.lateral[1], &at_ends(nodes, l, 1));
             let [deflection_of_pipe, deflection_of_guide]: [[V; 2]; 2] =
@@ -260,7 +261,7 @@ impl Kernel for Search<'_> {
             let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
             let square = |y: V, z: V| y.times(y).plus_product(z, z);
             // Lanes beyond the span's stations hold nothing, and may not touch even where a state is beyond all bounds.
-            let stations = (1 << self.by.nodes.elements(l)) - 1;
+            let stations = (1 << self.by.model.nodes.elements(l)) - 1;
             let inner = square(y, z).above(V::load(&link.clearance_squared)) & stations;
             let outer = square(guide[0], guide[1]).above(V::splat(outer_squared)) & stations;
             let mut any = inner | outer;

@@ -19,19 +19,19 @@ impl Chain {
     /// How the spans are bowed in `full`, whose ends are those of `to`.
     pub(super) fn take_deflections(&self, model: &Model, full: &State, to: &mut State) {
         let (nodes, _) = to.q.as_chunks();
-        for (l, (deflection, link)) in to.deflection.iter_mut().zip(&self.links).enumerate() {
+        for (l, (deflection, link)) in to.deflection.iter_mut().zip(&self.model.links).enumerate() {
             for (body, deflection) in deflection.iter_mut().enumerate() {
                 *deflection = [0.0; 16];
                 let [top, bottom] = at_ends(nodes, l, body);
-                for i in 1..self.nodes.elements(l) {
-                    let station = &model.stations[self.nodes.first(l) + i];
+                for i in 1..self.model.nodes.elements(l) {
+                    let station = &model.stations[self.model.nodes.first(l) + i];
                     let at = if body == 0 {
                         station.pipe_to_station * translation(&full.q, station.pipe_above)
                     } else {
                         translation(&full.q, station.guide)
                     };
                     for (lane, at) in [(i - 1, at.y), (8 + i - 1, at.z)] {
-                        let columns = self.kinds[link.kind].lateral[body].iter();
+                        let columns = self.model.kinds[link.kind].lateral[body].iter();
                         let slaved = columns
                             .zip(top.iter().chain(&bottom))
                             .map(|(column, x)| column[lane] * x);
@@ -44,7 +44,7 @@ impl Chain {
 
     /// How the spans deflect under the contacts of the last residual and under their weight, into `to`.
     pub(super) fn deflect_spans(&self, to: &mut [Deflection], model: &Model, assembler: &Assembler) {
-        self.instructions.run(Deflections {
+        self.model.instructions.run(Deflections {
             by: self,
             to,
             model,
@@ -55,7 +55,7 @@ impl Chain {
     /// Deflections by local forces at station `i` of span `l`, of pipe and guide; `None` at a span's end.
     #[inline(always)]
     fn deflection(&self, l: usize, i: usize) -> Option<&[[EndColumn; 6]; 2]> {
-        let deflection = &self.kinds[self.links[l].kind].deflection;
+        let deflection = &self.model.kinds[self.model.links[l].kind].deflection;
         deflection.get(i.checked_sub(1)?).map(|deflection| &**deflection)
     }
 }
@@ -80,10 +80,10 @@ impl Kernel for Deflections<'_> {
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
         to.iter_mut()
-            .zip(&by.links)
+            .zip(&by.model.links)
             .for_each(|(to, link)| *to = *link.by_weight);
         for (station, touch) in assembler.inner.iter() {
-            let (l, i) = by.nodes.stations[station];
+            let (l, i) = by.model.nodes.stations[station];
             if let Some([by_pipe, by_guide]) = by.deflection(l, i) {
                 let on_pipe = touch.force();
                 let mut on_guide = at_radius(&on_pipe, inner_radius);
@@ -94,7 +94,7 @@ impl Kernel for Deflections<'_> {
             }
         }
         for (station, touch) in assembler.outer.iter() {
-            let (l, i) = by.nodes.stations[station];
+            let (l, i) = by.model.nodes.stations[station];
             if let Some([_, by_guide]) = by.deflection(l, i) {
                 let on_guide = at_radius(&touch.force(), outer_radius);
                 let guide = &mut to[l][1];

@@ -14,6 +14,7 @@ use crate::dynamics::joints::rotations;
 use crate::dynamics::state::State;
 use crate::elements::joint::group::JointGroup;
 use crate::simd::Kernel;
+use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
 
@@ -191,11 +192,10 @@ impl Dependent {
         let (by, only) = (L::round(&self.by), L::load(S::only(SLOT)));
         let column = L::load(&a[SLOT]);
         // The right-hand side gives what its change by itself puts on all rows, and keeps that change.
-        let minus_offset = S::of(-offset);
-        let own = L::splat(minus_offset).times(L::splat(a[SLOT][SLOT]));
-        let right = right
-            .plus_product(column, L::splat(minus_offset))
-            .plus_product(by, own)
+        let mut lanes = Aligned([S::ZERO; NODE]);
+        right.plus_product(column, L::splat(S::of(-offset))).store(&mut lanes);
+        let right = L::load(&lanes)
+            .plus_product(by, L::splat(lanes[SLOT]))
             .plus_product(only, L::splat(S::of(offset)));
         // Its row goes to the rows of what it follows; -1 at its own place leaves nothing there.
         let without_row = |column: L, moment: S| column.plus_product(by, L::splat(moment));
@@ -245,12 +245,12 @@ impl Chain {
     /// rows themselves, times `scale`.
     pub(super) fn balance_dependents(&mut self, assembler: &mut Assembler, state: &State, scale: f64) {
         let (residual, _) = self.residual.as_chunks_mut::<NODE>();
-        for (k, (node, residual)) in self.nodes.list.iter().zip(residual).enumerate() {
+        for (k, (node, residual)) in self.model.nodes.list.iter().zip(residual).enumerate() {
             if node.joint.is_none() && self.active.affected[k] {
                 self.dependents[k].project(residual);
             }
         }
-        let instructions = self.instructions;
+        let instructions = self.model.instructions;
         instructions.run(Joints {
             by: self,
             groups: assembler.groups_mut(),
@@ -280,7 +280,7 @@ impl Kernel for Joints<'_> {
             scale,
         } = self;
         let (residual, _) = by.residual.as_chunks_mut::<NODE>();
-        let places = by.places.joints.chunks(8).zip(by.nodes.of_joints.chunks(8));
+        let places = by.model.places.joints.chunks(8).zip(by.model.nodes.of_joints.chunks(8));
         let of_groups = by.spins.iter_mut().zip(by.multipliers.chunks_mut(8));
         for ((group, (places, nodes)), (spins, multipliers)) in groups.iter_mut().zip(places).zip(of_groups) {
             if !nodes.iter().any(|&k| by.active.affected[k]) {
@@ -294,7 +294,7 @@ impl Kernel for Joints<'_> {
                     if by.active.affected[k] {
                         let (residual, dependents) = (&mut residual[k], &mut by.dependents[k]);
                         let gradients = [0, 1].map(|r| group.rows()[r].gradient.map(|lanes| lanes[lane]));
-                        dependents.linearise_two(gradients, scale, by.rows[k].as_ref());
+                        dependents.linearise_two(gradients, scale, by.model.rows[k].as_ref());
                         *lambda = dependents.multipliers(residual, scale);
                         dependents.project(residual);
                         residual[FIRST_ROW] = scale * group.rows()[0].value[lane];

@@ -22,7 +22,7 @@ impl Chain {
         conditions: &Conditions,
         assembler: &Assembler,
     ) {
-        let instructions = self.instructions;
+        let instructions = self.model.instructions;
         let mut stored = instructions.run(SpanEnergies {
             by: self,
             point,
@@ -32,7 +32,7 @@ impl Chain {
         if !model.masses.is_empty() {
             point.damping.fill(0.0);
             point.inertia.fill(0.0);
-            point.add_masses(&self.places, model, state, conditions);
+            point.add_masses(&self.model.places, model, state, conditions);
         }
         stored += point.kinetic;
         point.friction.fill(0.0);
@@ -45,7 +45,7 @@ impl Chain {
         });
         self.deflect_spans(&mut point.deflection, model, assembler);
         point.joints.multipliers.copy_from_slice(&self.multipliers);
-        point.finish(stored, &self.places, model, conditions, assembler, &self.residual);
+        point.finish(stored, &self.model.places, model, conditions, assembler, &self.residual);
         self.reactions_inside_a_fixed_guide(point, model, assembler);
     }
 }
@@ -57,7 +57,7 @@ impl Chain {
         if !model.description.guide_fixed {
             return;
         }
-        let inside = |at: &&HeldNode| self.places.held[at.held.start].is_none();
+        let inside = |at: &&HeldNode| self.model.places.held[at.held.start].is_none();
         for at in model.held_nodes.iter().filter(inside) {
             for index in at.held.clone() {
                 point.reactions[index] = -model.weight[model.held[index]];
@@ -70,7 +70,7 @@ impl Chain {
                 let Ok(first) = model.held.binary_search(&guide) else {
                     continue;
                 };
-                if self.places.held[first].is_none() {
+                if self.model.places.held[first].is_none() {
                     let reactions = &mut point.reactions[first..first + 6];
                     for (reaction, force) in reactions.iter_mut().zip(at_radius(&touch.force(), radius)) {
                         *reaction += sign * force;
@@ -123,8 +123,8 @@ impl Kernel for SpanEnergies<'_> {
         let zero = [V::splat(0.0); 2];
         let (mut elastic, mut geometric, mut kinetic, mut foreseen) = (zero, zero, zero, zero);
         let ((rates, _), (rates2, _)) = (state.v.as_chunks(), state.a.as_chunks());
-        for (l, link) in by.links.iter().enumerate() {
-            let kind = &by.kinds[link.kind];
+        for (l, link) in by.model.links.iter().enumerate() {
+            let kind = &by.model.kinds[link.kind];
             for body in 0..2 {
                 let at_v = at_ends(rates, l, body);
                 let stiff = product::<V>(&kind.stiffness[body], &at_v);
@@ -253,8 +253,8 @@ impl Kernel for Friction<'_> {
         } = self;
         let mut stored = 0.0;
         for (station, touch) in assembler.inner.iter() {
-            let (l, i) = by.nodes.stations[station];
-            let [on_pipe, on_guide] = &by.kinds[by.links[l].kind].force[i].0;
+            let (l, i) = by.model.nodes.stations[station];
+            let [on_pipe, on_guide] = &by.model.kinds[by.model.links[l].kind].force[i].0;
             let force = touch.friction_force();
             let mut on = on_ends::<V>(on_pipe, &force);
             add(&mut point.friction, ends(l, 0), &on);
@@ -267,13 +267,13 @@ impl Kernel for Friction<'_> {
         let mut sum = OnSpan::<V>::new();
         let mut on = [0.0; 16];
         for (station, touch) in assembler.outer.iter() {
-            let (l, i) = by.nodes.stations[station];
+            let (l, i) = by.model.nodes.stations[station];
             if l != sum.span {
                 let span = sum.span;
                 store(sum.next(l), &mut on);
                 add(&mut point.friction, ends(span, 1), &on);
             }
-            let rows = &by.kinds[by.links[l].kind].force[i][1];
+            let rows = &by.model.kinds[by.model.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.friction_force(), model.guide_radii[1]));
             stored += touch.energy;
             point.contact_dissipation += touch.dissipation;

@@ -1,9 +1,9 @@
-//! The tool chain to its joints: links and guide between two joints move as their ends do.
+//! The chain of nodes that every step is taken over: pipe and guide between two nodes move as their ends do.
 //!
-//! A span is a link with the guide beside it. Its inner stations are slaved statically: x_i = -K_ii^-1 K_ie x_e (Guyan),
+//! A span is the pipe with the guide beside it between two nodes. Its inner stations are slaved statically: x_i = -K_ii^-1 K_ie x_e (Guyan),
 //! so that stiffness, mass and geometric stiffness of a span are matrices over its two ends. The displacement of a
 //! joint's start below follows from that of the end above, u_b = E_b^T E_a u_a, so that the translational rows are kept
-//! exactly and have no multipliers. What is left is 16 unknowns per node (top, joints, bottom):
+//! exactly and have no multipliers. What is left is 16 unknowns per node:
 //!
 //! | place | unknown |
 //! |---|---|
@@ -88,14 +88,19 @@ const TOP: [usize; 12] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14];
 /// Of its bottom end.
 const BOTTOM: [usize; 12] = [0, 1, 2, 3, 4, 5, 9, 10, 11, 12, 13, 14];
 
-/// The chain tool, and the room that steps need.
-pub(crate) struct Chain {
-    instructions: Instructions,
+/// What does not change while the tool moves.
+pub(crate) struct ChainModel {
+    /// Vector instructions.
+    pub(crate) instructions: Instructions,
     /// Inner frequency of the slowest span (rad/s).
     slowest: f64,
     nodes: Nodes,
+    /// Matrices of the spans that differ.
     kinds: Vec<LinkMatrices>,
+    /// The spans, top to bottom.
     links: Vec<Link>,
+    /// Whether joints have one rotational row.
+    one_row: bool,
     numbering: Numbering,
     pub(crate) places: Places,
     /// What the drive prescribes: the spin of the first node, above and below.
@@ -104,38 +109,45 @@ pub(crate) struct Chain {
     pub(crate) weight: Vec<f64>,
     /// Rows of each node whose unknowns are free, 1, or held, 0; `None` where all are free.
     rows: Vec<Option<[f64; NODE]>>,
-    limits: Limits,
+    /// Per unknown 1, or 0 for the tie's multiplier, which has no velocity.
     moving: Vec<f64>,
+}
+
+/// The chain of nodes: its model, what a residual evaluates, and the room that a step needs.
+pub(crate) struct Chain {
+    pub(crate) model: ChainModel,
+    /// Step-constant tangents, one per step size.
     operators: Vec<Operator>,
-    /// The rotations of each node that follow from its others, as linearised by the last residual.
+    limits: Limits,
+    /// How closely the step is solved.
+    accuracy: Accuracy,
+    /// Corrections made in this step.
+    iterations: u32,
+    /// The nodes and spans that the present correction changes.
+    active: Active,
+    foreseen: Vec<[f64; 2]>,
+    foreseen_part: f64,
+    /// Forces of the spans on their ends: elastic, damping and inertia forces.
+    linear: Vec<Aligned<EndForces>>,
+    /// Those of geometric stiffness per axial force, with the axial force of the displacements beside them.
+    geometric_forces: Vec<Aligned<EndForces>>,
+    /// Those of contacts, and whether there are any.
+    contact_forces: Vec<Aligned<EndForces>>,
+    has_contacts: Vec<bool>,
+    /// The rotations of each node that follow from its others.
     dependents: Vec<Dependents>,
     /// The same of joints with one row, eight at a time.
     spins: Vec<Spins>,
-    /// Whether joints have one row.
-    one_row: bool,
-    /// Multipliers of the rotational rows of each joint at the last residual (N m).
+    /// Multipliers of the rotational rows of each joint (N m).
     multipliers: Vec<[f64; 2]>,
     /// Residual with its reactions.
     residual: Vec<f64>,
-    /// Forces of the spans on their ends: linear ones, those of geometric stiffness per axial force with
-    /// the axial force of the displacements beside them, those of contacts.
-    linear: Vec<Aligned<EndForces>>,
-    geometric_forces: Vec<Aligned<EndForces>>,
-    contact_forces: Vec<Aligned<EndForces>>,
-    /// Whether `contact_forces` holds anything, per span.
-    has_contacts: Vec<bool>,
-    foreseen: Vec<[f64; 2]>,
-    foreseen_part: f64,
+    /// What contacts, the bit and point masses add to the tangent, in both precisions.
     additions: Additions<f64>,
     single_additions: Additions<f32>,
     sweep: Sweep,
     single_sweep: SingleSweep,
-    /// Corrections made in this step.
-    iterations: u32,
-    /// What the present one reaches.
-    active: Active,
-    /// How closely the step is solved.
-    accuracy: Accuracy,
+    /// The last correction.
     correction: Vec<f64>,
 }
 
@@ -186,47 +198,49 @@ impl Chain {
         };
         let weight = slaving::weights(model, &points, &kinds, &mut links, unknowns);
         Self {
-            instructions,
-            slowest,
-            dependents: points.list.iter().map(Dependents::of).collect(),
-            spins: vec![Spins::default(); model.joints.len().div_ceil(8)],
-            one_row: joint_rows == 1,
-            multipliers: vec![[0.0; 2]; model.joints.len()],
-            driven,
-            limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
-            nodes: points,
-            kinds,
-            links,
-            numbering,
-            places,
-            weight,
-            rows,
-            moving: (0..unknowns)
-                .map(|unknown| if unknown % NODE == TIE { 0.0 } else { 1.0 })
-                .collect(),
             operators: Vec::new(),
-            residual: vec![0.0; unknowns],
+            limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
+            accuracy: Accuracy::Rest,
+            iterations: 0,
+            active: Active::new(nodes),
+            foreseen: vec![[0.0; 2]; spans],
+            foreseen_part: 0.0,
             linear: vec![Aligned([[0.0; 16]; 2]); spans],
             geometric_forces: vec![Aligned([[0.0; 16]; 2]); spans],
             contact_forces: vec![Aligned([[0.0; 16]; 2]); spans],
             has_contacts: vec![false; spans],
-            foreseen: vec![[0.0; 2]; spans],
-            foreseen_part: 0.0,
+            dependents: points.list.iter().map(Dependents::of).collect(),
+            spins: vec![Spins::default(); model.joints.len().div_ceil(8)],
+            multipliers: vec![[0.0; 2]; model.joints.len()],
+            residual: vec![0.0; unknowns],
             additions: Additions::new(nodes),
             single_additions: Additions::new(nodes),
             sweep: Sweep::new(nodes),
             single_sweep: SingleSweep::new(nodes),
-            iterations: 0,
-            active: Active::new(nodes),
-            accuracy: Accuracy::Rest,
             correction: vec![0.0; unknowns],
+            model: ChainModel {
+                instructions,
+                slowest,
+                nodes: points,
+                kinds,
+                links,
+                one_row: joint_rows == 1,
+                numbering,
+                places,
+                driven,
+                weight,
+                rows,
+                moving: (0..unknowns)
+                    .map(|unknown| if unknown % NODE == TIE { 0.0 } else { 1.0 })
+                    .collect(),
+            },
         }
     }
 
     /// Halvings of a step of size `h` (s) down to the smallest that the slaving of inner stations holds for.
     pub(crate) fn finest_refinement(&self, h: f64) -> u32 {
         let mut halvings = 0;
-        while halvings < 31 && self.slowest * h / f64::from(2_u32 << halvings) >= LEAST_FREQUENCY {
+        while halvings < 31 && self.model.slowest * h / f64::from(2_u32 << halvings) >= LEAST_FREQUENCY {
             halvings += 1;
         }
         halvings
@@ -234,12 +248,12 @@ impl Chain {
 
     /// Number of unknowns.
     pub(crate) fn unknowns(&self) -> usize {
-        NODE * self.nodes.list.len()
+        NODE * self.model.nodes.list.len()
     }
 
     /// Number of spans.
     pub(crate) fn spans(&self) -> usize {
-        self.links.len()
+        self.model.links.len()
     }
 
     /// Makes what steps with these factors need.

@@ -96,7 +96,7 @@ pub(super) fn place(model: &Model, nodes: &Nodes, unknown: usize) -> usize {
 impl Chain {
     /// Takes a state in the numbering of the model.
     pub(crate) fn take(&self, model: &Model, from: &State, to: &mut State) {
-        self.numbering.gather(from, to);
+        self.model.numbering.gather(from, to);
         self.take_deflections(model, from, to);
     }
 
@@ -119,13 +119,13 @@ impl Chain {
 
     /// Spins of the pipe.
     pub(crate) fn spins(&self) -> impl Iterator<Item = usize> {
-        (0..self.nodes.list.len()).flat_map(|k| [NODE * k, NODE * k + 6])
+        (0..self.model.nodes.list.len()).flat_map(|k| [NODE * k, NODE * k + 6])
     }
 
     /// Station and whether it is the guide's, of a chain unknown.
     pub(super) fn locate(&self, unknown: usize) -> (usize, bool) {
         (
-            self.nodes.list[unknown / NODE].station,
+            self.model.nodes.list[unknown / NODE].station,
             (GUIDE..TIE).contains(&(unknown % NODE)),
         )
     }
@@ -139,11 +139,11 @@ impl Chain {
     ) -> Vector3<f64> {
         let of = |values: &[f64], first: usize| Vector3::new(values[first], values[first + 1], values[first + 2]);
         let on_node = |k: usize, pipe: Vector3<f64>, guide: Vector3<f64>| {
-            let station = &model.stations[self.nodes.first(k)];
+            let station = &model.stations[self.model.nodes.first(k)];
             station.frame * (station.pipe_to_station * pipe + guide)
         };
         let mut sum = Vector3::zeros();
-        for k in 0..self.nodes.list.len() {
+        for k in 0..self.model.nodes.list.len() {
             sum += on_node(k, of(values, NODE * k + U), of(values, NODE * k + GUIDE));
         }
         for (l, [pipe, guide]) in spans.enumerate() {
@@ -157,7 +157,7 @@ impl Chain {
     /// Shows the chain state in the model's numbering: inner stations as they are slaved, and the force
     /// and moment of each joint as its multipliers. Lagged accelerations stay as they are.
     pub(crate) fn show(&self, model: &Model, chain: &State, forces: &JointForces, full: &mut State) {
-        self.instructions.run(Show {
+        self.model.instructions.run(Show {
             by: self,
             model,
             chain,
@@ -170,11 +170,11 @@ impl Chain {
 impl Chain {
     /// What `values` in the chain's numbering mean for an unknown of the model's pipe or guide.
     pub(crate) fn value(&self, model: &Model, values: &[f64], unknown: usize) -> f64 {
-        if let Some(place) = self.numbering.place(unknown) {
+        if let Some(place) = self.model.numbering.place(unknown) {
             return values[place];
         }
         let at = model.layout.station_of(unknown);
-        let (station, (l, i)) = (&model.stations[at], self.nodes.stations[at]);
+        let (station, (l, i)) = (&model.stations[at], self.model.nodes.stations[at]);
         if let Some(joint) = station.joint {
             // The displacement below follows from that above.
             let joint = &model.joints[joint];
@@ -185,7 +185,7 @@ impl Chain {
             Some(k @ 0..6) => (1, k),
             _ => (0, unknown - station.pipe_above),
         };
-        let columns = &self.kinds[self.links[l].kind].inner[i - 1][body];
+        let columns = &self.model.kinds[self.model.links[l].kind].inner[i - 1][body];
         let [top, bottom] = ends(l, body);
         (0..6)
             .map(|j| columns[j][k] * values[top + j] + columns[6 + j][k] * values[bottom + j])
@@ -195,15 +195,15 @@ impl Chain {
     /// What `values` in the chain numbering mean for the translation of the pipe at `station`, in the pipe's own axes;
     /// at a joint of the end above.
     pub(crate) fn pipe_translation(&self, values: &[f64], station: usize) -> Vector3<f64> {
-        let (l, i) = self.nodes.stations[station];
+        let (l, i) = self.model.nodes.stations[station];
         let node = |k: usize| Vector3::new(values[NODE * k + U], values[NODE * k + U + 1], values[NODE * k + U + 2]);
         if station == 0 {
             return node(0);
         }
-        if i == self.nodes.elements(l) {
+        if i == self.model.nodes.elements(l) {
             return node(l + 1);
         }
-        let columns = &self.kinds[self.links[l].kind].inner[i - 1][0];
+        let columns = &self.model.kinds[self.model.links[l].kind].inner[i - 1][0];
         let [top, bottom] = ends(l, 0);
         let mut out = Vector3::zeros();
         for j in 0..6 {
@@ -242,7 +242,7 @@ impl Kernel for Show<'_> {
             (&chain.a, &mut full.a),
         ] {
             for (k, node) in from.as_chunks::<NODE>().0.iter().enumerate() {
-                let station = &model.stations[by.nodes.list[k].station];
+                let station = &model.stations[by.model.nodes.list[k].station];
                 let u = Vector3::new(node[U], node[U + 1], node[U + 2]);
                 for i in 0..3 {
                     to[station.pipe_above + i] = u[i];
@@ -258,8 +258,8 @@ impl Kernel for Show<'_> {
                     }
                 }
             }
-            for (l, link) in by.links.iter().enumerate() {
-                let inner = &by.kinds[link.kind].inner;
+            for (l, link) in by.model.links.iter().enumerate() {
+                let inner = &by.model.kinds[link.kind].inner;
                 for body in 0..2 {
                     let [top, bottom] = ends(l, body);
                     let mut x = [V::splat(0.0); 12];
@@ -276,14 +276,14 @@ impl Kernel for Show<'_> {
                         }
                         let mut lanes = [0.0; 8];
                         even.plus(odd).store(&mut lanes);
-                        let station = &model.stations[by.nodes.first(l) + i + 1];
+                        let station = &model.stations[by.model.nodes.first(l) + i + 1];
                         let first = if body == 0 { station.pipe_above } else { station.guide };
                         to[first..first + 6].copy_from_slice(&lanes[..6]);
                     }
                 }
             }
         }
-        for (span, node) in by.nodes.list.iter().enumerate() {
+        for (span, node) in by.model.nodes.list.iter().enumerate() {
             let Some(joint) = node.joint else { continue };
             let (at, first) = (&model.joints[joint], model.multipliers(joint));
             // What the span below asks for at its top, in the frame of the link above.
@@ -294,11 +294,11 @@ impl Kernel for Show<'_> {
                 full.q[first + 3 + row] = lambda / model.moment_scale;
             }
         }
-        if let (Some(tie), Some(place)) = (model.tie, by.places.tie) {
+        if let (Some(tie), Some(place)) = (model.tie, by.model.places.tie) {
             full.q[tie] = chain.q[place];
         }
-        for l in 0..by.links.len() {
-            let elements = by.nodes.first(l)..by.nodes.first(l + 1);
+        for l in 0..by.model.links.len() {
+            let elements = by.model.nodes.first(l)..by.model.nodes.first(l + 1);
             full.pipe_axial[elements.clone()].fill(chain.pipe_axial[l]);
             full.guide_axial[elements].fill(chain.guide_axial[l]);
         }

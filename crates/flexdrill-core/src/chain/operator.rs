@@ -41,6 +41,7 @@ impl Operator {
         let elastic = factors.stiffness + factors.damping * beta;
         let inertial = factors.mass + factors.damping * alpha;
         let spans: Vec<Aligned<[[EndColumn; 12]; 2]>> = chain
+            .model
             .kinds
             .iter()
             .map(|kind| {
@@ -52,8 +53,8 @@ impl Operator {
                 }))
             })
             .collect();
-        let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; chain.nodes.list.len()];
-        for (l, link) in chain.links.iter().enumerate() {
+        let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; chain.model.nodes.list.len()];
+        for (l, link) in chain.model.links.iter().enumerate() {
             for (body, columns) in spans[link.kind].iter().enumerate() {
                 let (top, bottom) = (&TOP[6 * body..], &BOTTOM[6 * body..]);
                 for j in 0..6 {
@@ -64,14 +65,14 @@ impl Operator {
                 }
             }
         }
-        for (point, places) in model.masses.iter().zip(&chain.places.masses) {
+        for (point, places) in model.masses.iter().zip(&chain.model.places.masses) {
             for (&place, mass) in places.iter().zip(point.body.diagonal()) {
                 let (node, at) = (place / NODE, place % NODE);
                 nodes[node][at][at] += inertial * mass;
             }
         }
         nodes.iter_mut().for_each(|node| node[TIE][TIE] = 1.0);
-        if chain.places.tie.is_some() {
+        if chain.model.places.tie.is_some() {
             nodes[chain.spans()][TIE][TIE] = 0.0;
             let (last, scale) = (chain.spans(), model.force_scale);
             for (place, sign) in [(U, scale), (super::GUIDE, -scale)] {

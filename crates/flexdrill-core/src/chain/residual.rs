@@ -41,7 +41,7 @@ impl Chain {
     /// Sets the axial forces that are foreseen from `from` for `h` (s) on, of which `part` counts.
     pub(super) fn foresee(&mut self, from: &State, h: f64, part: f64) {
         self.foreseen_part = part;
-        self.instructions.run(Foresee { by: self, from, h });
+        self.model.instructions.run(Foresee { by: self, from, h });
     }
 
     /// Evaluates the residual at `to`; `operator` is that of the last correction, if there was one since the last whole
@@ -58,7 +58,7 @@ impl Chain {
         if operator.is_none() {
             self.active.set_whole();
         }
-        let instructions = self.instructions;
+        let instructions = self.model.instructions;
         instructions.run(Spans {
             by: self,
             to,
@@ -72,8 +72,8 @@ impl Chain {
         assembler.stopwatch.lap(Phase::Contact);
         let mut residual = std::mem::take(&mut self.residual);
         let affected = |unknown: usize| self.active.affected[unknown / NODE];
-        mass_forces(&mut residual, &self.places, model, (to, conditions), affected);
-        assembler.end_forces(&mut residual, &self.places, model, (to, conditions), affected);
+        mass_forces(&mut residual, &self.model.places, model, (to, conditions), affected);
+        assembler.end_forces(&mut residual, &self.model.places, model, (to, conditions), affected);
         self.residual = residual;
         self.balance_dependents(assembler, to, model.moment_scale);
     }
@@ -92,10 +92,10 @@ impl Kernel for Foresee<'_> {
     fn run<V: Vector>(self) {
         let Self { by, from, h } = self;
         let h = V::splat(h);
-        for (l, (out, link)) in by.foreseen.iter_mut().zip(&by.links).enumerate() {
+        for (l, (out, link)) in by.foreseen.iter_mut().zip(&by.model.links).enumerate() {
             for (body, out) in out.iter_mut().enumerate() {
                 let (q, v) = (around::<V>(&from.q, ends(l, body)), around::<V>(&from.v, ends(l, body)));
-                let tension: [V; 2] = load(&by.kinds[link.kind].tension[body]);
+                let tension: [V; 2] = load(&by.model.kinds[link.kind].tension[body]);
                 let top = q[0].plus_product(v[0], h).times(tension[0]);
                 let bottom = q[1].plus_product(v[1], h);
                 let mut lanes = Aligned([0.0; 8]);
@@ -137,7 +137,7 @@ impl Kernel for Gather<'_> {
     fn run<V: Vector>(self) {
         let Self { by, state } = self;
         let (residual, _) = by.residual.as_chunks_mut::<NODE>();
-        let (weights, _) = by.weight.as_chunks::<NODE>();
+        let (weights, _) = by.model.weight.as_chunks::<NODE>();
         let (nodes, affected) = (residual.len(), &by.active.affected);
         // What the spans below and above put on the nodes of a block, and on the first one of the next.
         let mut above = [NodeForces::default(); BLOCK];
@@ -253,8 +253,8 @@ impl Spans<'_> {
         let rayleigh = [conditions.rayleigh.alpha, conditions.rayleigh.beta];
         let ((q, _), (v, _), (a, _)) = (to.q.as_chunks(), to.v.as_chunks(), to.a.as_chunks());
         let forces = by.linear.iter_mut().zip(&mut by.geometric_forces);
-        for (l, (link, (linear, geometric_forces))) in by.links.iter().zip(forces).enumerate() {
-            let kind = &by.kinds[link.kind];
+        for (l, (link, (linear, geometric_forces))) in by.model.links.iter().zip(forces).enumerate() {
+            let kind = &by.model.kinds[link.kind];
             for body in 0..2 {
                 let (at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
                 let (mut strained, mut pushed) = (at, at_ends(a, l, body));
@@ -280,11 +280,11 @@ impl Spans<'_> {
         let (corrections, _) = by.correction.as_chunks();
         let forces = by.linear.iter_mut().zip(&mut by.geometric_forces);
         let nodes = corrections.windows(2).zip(&by.active.spans);
-        for ((link, (nodes, moved)), (linear, geometric_forces)) in by.links.iter().zip(nodes).zip(forces) {
+        for ((link, (nodes, moved)), (linear, geometric_forces)) in by.model.links.iter().zip(nodes).zip(forces) {
             if !moved {
                 continue;
             }
-            let (columns, geometric) = (&operator[link.kind], &by.kinds[link.kind].geometric);
+            let (columns, geometric) = (&operator[link.kind], &by.model.kinds[link.kind].geometric);
             for body in 0..2 {
                 let sums = [load(&linear[body]), load(&geometric_forces[body])];
                 let dq = at_ends(nodes, 0, body);

@@ -235,14 +235,14 @@ impl Chain {
             let values = self.correction[unknowns].iter_mut().zip(residual);
             values.for_each(|(c, r)| *c = -r);
         }
-        let solved = self.instructions.run(SingleElimination {
+        let solved = self.model.instructions.run(SingleElimination {
             sweep: &mut self.single_sweep,
             operator: &self.operators[operator],
             additions: &self.single_additions,
-            nodes: &self.nodes.list,
+            nodes: &self.model.nodes.list,
             dependents: &self.dependents,
-            links: &self.links,
-            rows: &self.rows,
+            links: &self.model.links,
+            rows: &self.model.rows,
             windows: &mut self.active.windows,
             weights: self.limits.weights(self.accuracy),
             values: &mut self.correction,
@@ -260,19 +260,20 @@ impl Chain {
             .iter_mut()
             .zip(&self.residual)
             .for_each(|(c, r)| *c = -r);
-        self.instructions
+        self.model
+            .instructions
             .run(Elimination {
                 sweep: &mut self.sweep,
                 operator: &self.operators[operator],
                 additions: &self.additions,
-                nodes: &self.nodes.list,
+                nodes: &self.model.nodes.list,
                 dependents: &self.dependents,
-                links: &self.links,
-                rows: &self.rows,
+                links: &self.model.links,
+                rows: &self.model.rows,
                 values: &mut self.correction,
             })
             .map_err(|(node, pivot)| Singular {
-                station: self.nodes.list[node].station,
+                station: self.model.nodes.list[node].station,
                 pivot,
             })
     }
@@ -295,13 +296,17 @@ impl Chain {
         let mut additions = std::mem::take(&mut self.additions);
         additions.linearise(self, assembler, model, state, (conditions, factors));
         self.additions = additions;
-        let (sweep, of_joints) = (&mut self.sweep, &self.nodes.of_joints);
+        let (sweep, of_joints) = (&mut self.sweep, &self.model.nodes.of_joints);
         let lambda = |joint: usize| self.multipliers[joint];
+        let (dependents, spins) = (&mut self.dependents, self.model.one_row.then_some(&self.spins));
         assembler.joint_tangents(
             factors,
             lambda,
             |_| true,
             |joint, tangent| {
+                if let Some(spins) = spins {
+                    spins[joint / 8].put(joint % 8, model.moment_scale, &mut dependents[of_joints[joint]]);
+                }
                 for (l, column) in sweep.joints[of_joints[joint]].iter_mut().enumerate() {
                     for (k, x) in column.iter_mut().enumerate() {
                         *x = tangent.rotation(l, k);
@@ -329,9 +334,9 @@ impl Chain {
         self.single_additions = additions;
         let sweep = &mut self.single_sweep;
         let lambda = |joint: usize| self.multipliers[joint];
-        let (reached, of_joints) = (&self.active.nodes, &self.nodes.of_joints);
+        let (reached, of_joints) = (&self.active.nodes, &self.model.nodes.of_joints);
         let wanted = |joint: usize| reached[of_joints[joint]];
-        let (dependents, spins) = (&mut self.dependents, self.one_row.then_some(&self.spins));
+        let (dependents, spins) = (&mut self.dependents, self.model.one_row.then_some(&self.spins));
         assembler.joint_tangents(factors, lambda, wanted, |joint, tangent| {
             if let Some(spins) = spins {
                 spins[joint / 8].put(joint % 8, model.moment_scale, &mut dependents[of_joints[joint]]);
@@ -492,11 +497,11 @@ impl Equations for ChainEquations<'_> {
     }
 
     fn correction(&self) -> (&[f64], &[f64]) {
-        (&self.chain.correction, &self.chain.moving)
+        (&self.chain.correction, &self.chain.model.moving)
     }
 
     fn driven<'b>(&'b self, _: &'b Model) -> &'b [usize] {
-        &self.chain.driven
+        &self.chain.model.driven
     }
 
     fn out_of_range(&self, _: &Model, state: &State) -> Option<(usize, f64)> {
@@ -512,7 +517,7 @@ impl Equations for ChainEquations<'_> {
     }
 
     fn instructions(&self) -> Instructions {
-        self.chain.instructions
+        self.chain.model.instructions
     }
 
     fn locate(&self, _: &Model, unknown: usize) -> (usize, Body) {

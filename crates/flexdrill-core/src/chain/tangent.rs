@@ -93,16 +93,16 @@ impl<S: Precision> Additions<S> {
     ) {
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
-        chain.instructions.run(Contacts {
+        chain.model.instructions.run(Contacts {
             to: self,
             chain,
             assembler,
             factors,
         });
-        let spin = chain.places.bit_spin;
+        let spin = chain.model.places.bit_spin;
         self.block(spin / NODE, Touching::Both)[spin % NODE][spin % NODE] +=
             S::of(factors.damping * assembler.bit.slope);
-        for (point, places) in model.masses.iter().zip(&chain.places.masses) {
+        for (point, places) in model.masses.iter().zip(&chain.model.places.masses) {
             if !point.body.is_coupled() {
                 continue;
             }
@@ -137,11 +137,11 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
         let mut on_guide = OnGuide::<S>::new();
         let layers = [(&self.assembler.inner, true), (&self.assembler.outer, false)];
         for (layer, inner) in layers {
-            let (nodes, spans) = (&self.chain.nodes, &self.chain.active.spans);
+            let (nodes, spans) = (&self.chain.model.nodes, &self.chain.active.spans);
             let stations = &nodes.stations;
             for (station, touch) in layer.among(|station| spans[stations[station].0]) {
                 let (l, i) = stations[station];
-                let on_nodes = &S::on_nodes(&self.chain.kinds[self.chain.links[l].kind])[i];
+                let on_nodes = &S::on_nodes(&self.chain.model.kinds[self.chain.model.links[l].kind])[i];
                 let place = Place {
                     l,
                     at: [i == 0, i == nodes.elements(l)],

@@ -84,7 +84,7 @@ fn lively(chain: &Chain, seed: u64) -> State {
         }
         node[TIE] = 1e-4 * random(&mut seed);
     }
-    for (k, node) in chain.nodes.list.iter().enumerate() {
+    for (k, node) in chain.model.nodes.list.iter().enumerate() {
         if node.joint.is_none() {
             for values in [&mut state.q, &mut state.v, &mut state.a] {
                 values.copy_within(NODE * k..NODE * k + 3, NODE * k + 6);
@@ -98,10 +98,10 @@ fn lively(chain: &Chain, seed: u64) -> State {
 fn clean(chain: &Chain, state: &mut State) {
     for (unknown, weight) in chain.limits.weights(Accuracy::Rest).iter().enumerate() {
         let node = unknown / NODE * NODE;
-        if *weight == 0.0 && Some(unknown) != chain.places.driven {
+        if *weight == 0.0 && Some(unknown) != chain.model.places.driven {
             (state.q[unknown], state.v[unknown], state.a[unknown]) = (0.0, 0.0, 0.0);
         }
-        if chain.nodes.list[unknown / NODE].joint.is_none() {
+        if chain.model.nodes.list[unknown / NODE].joint.is_none() {
             for values in [&mut state.q, &mut state.v, &mut state.a] {
                 values.copy_within(node..node + 3, node + 6);
             }
@@ -126,7 +126,7 @@ fn slaving(chain: &Chain, model: &Model) -> DMatrix<f64> {
     let (mut unit, mut full) = (chain.state(), State::at_rest(model));
     for j in 0..n {
         // Where the pipe passes a node in one piece, the rotations below are those above.
-        let one_piece = chain.nodes.list[j / NODE].joint.is_none();
+        let one_piece = chain.model.nodes.list[j / NODE].joint.is_none();
         let (above, below) = ((0..3).contains(&(j % NODE)), (6..9).contains(&(j % NODE)));
         let with = if one_piece && above { j + 6 } else { j };
         (unit.q[j], unit.q[with]) = (1.0, 1.0);
@@ -212,7 +212,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
                 "{instructions}: {what} is {got} against {expected}, scale {scale:e}"
             );
         };
-        for (joint, node) in chain.nodes.of_joints.iter().enumerate() {
+        for (joint, node) in chain.model.nodes.of_joints.iter().enumerate() {
             for dependent in chain.dependents[*node].iter() {
                 near(
                     0.0,
@@ -270,13 +270,13 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
                 chain.solve(&mut assembler, &model, &state, by).unwrap();
             }
             let got = DVector::from_column_slice(&chain.correction);
-            for (k, node) in chain.nodes.list.iter().enumerate() {
+            for (k, node) in chain.model.nodes.list.iter().enumerate() {
                 if node.joint.is_none() {
                     let first = NODE * k;
                     assert_eq!(got.rows(first, 3), got.rows(first + 6, 3), "node {k} is in one piece");
                 }
             }
-            let one_piece = |i: usize| chain.nodes.list[i / NODE].joint.is_none() && (6..9).contains(&(i % NODE));
+            let one_piece = |i: usize| chain.model.nodes.list[i / NODE].joint.is_none() && (6..9).contains(&(i % NODE));
             let got = DVector::from_fn(n, |i, _| if one_piece(i) { 0.0 } else { got[i] });
             let (expected, sizes) = (x.rows(0, n).clone_owned(), sizes.rows(0, n).clone_owned());
             // In the units that make the matrix of one size.
@@ -522,7 +522,7 @@ fn spans_bow_as_the_whole_tool_does_with_its_joints_held() {
     let mut whole = DMatrix::zeros(model.unknowns(), model.unknowns());
     system.for_each_entry(|row, column, value| whole[(row, column)] += value);
     for (l, i, local) in [(0, 1, 1), (1, 2, 2), (3, 4, 4), (2, 3, 5)] {
-        let (first, per) = (chain.nodes.first(l), chain.nodes.elements(l));
+        let (first, per) = (chain.model.nodes.first(l), chain.model.nodes.elements(l));
         for body in 0..2 {
             let at = |i: usize| {
                 let station = &model.stations[first + i];
@@ -547,7 +547,7 @@ fn spans_bow_as_the_whole_tool_does_with_its_joints_held() {
                 force[place + local] = if body == 0 { station.pipe_radius } else { 1.0 };
             }
             let bowed = stiffness.cholesky().unwrap().solve(&force);
-            let got = &chain.kinds[chain.links[l].kind].deflection[i - 1][body][local];
+            let got = &chain.model.kinds[chain.model.links[l].kind].deflection[i - 1][body][local];
             let scale = got.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             assert!(scale > 0.0);
             for other in 1..per {

@@ -227,7 +227,7 @@ impl Stepper {
                     above = at.lower.tr_mul(&(at.upper * above));
                 }
                 let at_bottom = chain.pipe_translation(&state.a, last);
-                let spin = chain.places.bit_spin;
+                let spin = chain.model.places.bit_spin;
                 BottomMotion::new([state.v[spin], state.a[spin]], at_bottom.x, above)
             }
             None => {
@@ -506,7 +506,7 @@ impl Stepper {
             newton.assembler.stopwatch.lap(Phase::Assembly);
             iterations = made?;
             chain.energy(energy, model, to, &conditions, &newton.assembler);
-            (&chain.places, &chain.weight)
+            (&chain.model.places, &chain.model.weight)
         } else {
             let made = newton::step(newton, model, stride, &conditions, from, to);
             newton.assembler.stopwatch.lap(Phase::Assembly);
