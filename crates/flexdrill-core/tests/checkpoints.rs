@@ -132,7 +132,7 @@ fn other_formats_say_so() {
         assert!(
             error
                 .to_string()
-                .contains(&format!("format {format}, this build reads format 8")),
+                .contains(&format!("format {format}, this build reads format 9")),
             "{error}"
         );
     }
