@@ -111,3 +111,10 @@ fn a_step_that_cannot_converge_is_reported_and_changes_nothing_but_counters() {
     }
     panic!("no step failed");
 }
+
+/// A simulation can move to another thread and be looked at from several.
+#[test]
+fn a_simulation_is_send_and_sync() {
+    fn check<T: Send + Sync>() {}
+    check::<Simulation>();
+}

@@ -36,6 +36,7 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/rolling_rotor.yaml"),
     ),
     ("sliding_mass", include_str!("../../../config/verify/sliding_mass.yaml")),
+    ("tied_rods", include_str!("../../../config/verify/tied_rods.yaml")),
     (
         "torque_buckling",
         include_str!("../../../config/verify/torque_buckling.yaml"),

@@ -153,6 +153,11 @@ pub const CASES: &[Case] = &[
         run: pipes::axial_rod,
     },
     Case {
+        name: "tied_rods",
+        shows: "pipe with joints and sliding guide share a force",
+        run: pipes::tied_rods,
+    },
+    Case {
         name: "torsion_rod",
         shows: "twist at rest and its swing",
         run: pipes::torsion_rod,

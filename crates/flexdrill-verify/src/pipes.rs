@@ -9,6 +9,8 @@ use flexdrill_core::tool::{Body, Direction};
 
 /// Statics of a linear beam: rounding of the solve.
 const STATICS: f64 = 1e-9;
+/// Two rods: what Newton's iteration may leave of their forces in motion, 0.1 N of 100 kN.
+const SHARED: f64 = 1e-6;
 /// Frequencies.
 const FREQUENCY: f64 = 1e-3;
 
@@ -47,6 +49,37 @@ pub(super) fn axial_rod() -> Result<Vec<Row>, VerifyError> {
         100e3 * l / s.axial,
         (s.axial / s.mass).sqrt() / (4.0 * l),
     )
+}
+
+/// Two rods in parallel share a force by their stiffness; the guide slides, the pipe has joints.
+pub(super) fn tied_rods() -> Result<Vec<Row>, VerifyError> {
+    let case = "tied_rods";
+    let mut bench = Bench::new(case)?;
+    let tool = bench.config.tool();
+    let pipe = section(&bench).axial;
+    let guide = SectionProperties::of(tool.guide_section, tool.material, 1.0).axial;
+    let (force, l) = (100e3, bench.config.well.length());
+    // A hundred steps at rest: the answer is the steps' as much as the start's.
+    bench.run_to(0.05)?;
+    let joints = bench.simulation.joints();
+    let carried = joints.axial_force.iter().fold(0.0, |sum, force| sum + force) / joints.axial_force.len() as f64;
+    let end = bench.displacement(bench.last(), Body::Guide, Direction::U);
+    Ok(vec![
+        Row::relative(
+            case,
+            "end of both, F L / (E A_pipe + E A_guide) (m)",
+            force * l / (pipe + guide),
+            end,
+            SHARED,
+        ),
+        Row::relative(
+            case,
+            "the pipe's share of the force at its joints (N)",
+            force * pipe / (pipe + guide),
+            carried,
+            SHARED,
+        ),
+    ])
 }
 
 pub(super) fn torsion_rod() -> Result<Vec<Row>, VerifyError> {

@@ -251,6 +251,11 @@ impl Chain {
         NODE * self.model.nodes.list.len()
     }
 
+    /// Number of nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        self.model.nodes.list.len()
+    }
+
     /// Number of spans.
     pub(crate) fn spans(&self) -> usize {
         self.model.links.len()

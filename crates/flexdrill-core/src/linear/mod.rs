@@ -31,7 +31,7 @@ pub struct Singular {
 }
 
 /// Solves the block system of one Newton iteration.
-pub trait LinearSolver: Send {
+pub trait LinearSolver: Send + Sync {
     /// Solves `system x = rhs`; `rhs` becomes x.
     ///
     /// # Errors

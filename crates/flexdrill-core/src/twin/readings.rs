@@ -188,6 +188,11 @@ impl Simulation {
         self.stepper().state()
     }
 
+    /// Nodes of the chain that steps are taken over; `None` over all stations ([`Stations`](crate::dynamics::SolverKind::Stations)).
+    pub fn chain_nodes(&self) -> Option<usize> {
+        self.stepper().chain_nodes()
+    }
+
     /// Most Newton iterations that one [`Simulation::advance`] can make, whatever happens.
     pub fn most_iterations(&self) -> u64 {
         self.stepper().most_iterations()

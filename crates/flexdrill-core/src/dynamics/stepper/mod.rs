@@ -252,6 +252,11 @@ impl Stepper {
         &self.counters
     }
 
+    /// Nodes of the chain, if steps are taken over one.
+    pub fn chain_nodes(&self) -> Option<usize> {
+        self.chain.as_ref().map(Chain::nodes)
+    }
+
     /// Most Newton corrections (each an assembly and a solution) that one [`Stepper::advance`] can make, whatever
     /// happens.
     pub fn most_iterations(&self) -> u64 {
