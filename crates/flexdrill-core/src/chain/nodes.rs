@@ -55,11 +55,10 @@ impl Nodes {
         }
         let (mut ends, mut spans) = (vec![0], Vec::new());
         let mut top = 0;
-        for bottom in 1..=last {
-            if attached[bottom] {
-                split(model, h, [top, bottom], &mut ends, &mut spans);
-                top = bottom;
-            }
+        let bottoms = (1..).zip(&attached[1..]).filter(|(_, attached)| **attached);
+        for (bottom, _) in bottoms {
+            split(model, h, [top, bottom], &mut ends, &mut spans);
+            top = bottom;
         }
         (Self::at(model, &ends), spans)
     }

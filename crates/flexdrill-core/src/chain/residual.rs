@@ -9,7 +9,7 @@ use super::{Chain, EndColumn, Ends, GUIDE, NODE, U, at_ends, ends};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::phases::Phase;
-use crate::dynamics::residual::mass_forces;
+use crate::dynamics::residual::{end_forces, mass_forces};
 use crate::dynamics::state::State;
 use crate::model::Model;
 use crate::simd::Kernel;
@@ -70,11 +70,10 @@ impl Chain {
         self.find_contacts(assembler, model, to, conditions);
         instructions.run(Gather { by: self, state: to });
         assembler.stopwatch.lap(Phase::Contact);
-        let mut residual = std::mem::take(&mut self.residual);
+        let (residual, places) = (&mut self.residual, &self.model.places);
         let affected = |unknown: usize| self.active.affected[unknown / NODE];
-        mass_forces(&mut residual, &self.model.places, model, (to, conditions), affected);
-        assembler.end_forces(&mut residual, &self.model.places, model, (to, conditions), affected);
-        self.residual = residual;
+        mass_forces(residual, places, model, (to, conditions), affected);
+        end_forces(&mut assembler.bit, residual, places, model, (to, conditions), affected);
         self.balance_dependents(assembler, to, model.moment_scale);
     }
 }

@@ -293,9 +293,9 @@ impl Chain {
             return Err(Singular { station: 0, pivot: 0.0 });
         };
         self.active.set_whole();
-        let mut additions = std::mem::take(&mut self.additions);
-        additions.linearise(self, assembler, model, state, (conditions, factors));
-        self.additions = additions;
+        let by = (conditions, factors);
+        self.additions
+            .linearise(&self.model, &self.active, assembler, model, state, by);
         let (sweep, of_joints) = (&mut self.sweep, &self.model.nodes.of_joints);
         let lambda = |joint: usize| self.multipliers[joint];
         let (dependents, spins) = (&mut self.dependents, self.model.one_row.then_some(&self.spins));
@@ -329,9 +329,9 @@ impl Chain {
         let Some(operator) = self.operator(factors, conditions) else {
             return false;
         };
-        let mut additions = std::mem::take(&mut self.single_additions);
-        additions.linearise(self, assembler, model, state, (conditions, factors));
-        self.single_additions = additions;
+        let by = (conditions, factors);
+        self.single_additions
+            .linearise(&self.model, &self.active, assembler, model, state, by);
         let sweep = &mut self.single_sweep;
         let lambda = |joint: usize| self.multipliers[joint];
         let (reached, of_joints) = (&self.active.nodes, &self.model.nodes.of_joints);

@@ -1,8 +1,9 @@
-//! What contacts, the bit and point masses add to the chain tangent in an iteration. A contact inside a span adds to
+//! What contacts, the bit and point masses add to the tangent in an iteration. A contact inside a span adds to
 //! the blocks of both its ends and to what couples them.
 
+use super::active::Active;
 use super::precision::{Lanes, Precision};
-use super::{BOTTOM, Chain, GUIDE, NODE, TIE, TOP};
+use super::{BOTTOM, ChainModel, GUIDE, NODE, TIE, TOP};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
@@ -82,10 +83,12 @@ impl<S: Precision> Additions<S> {
         coupling
     }
 
-    /// Fills the additions, joints left out, from what was linearised by the last residual of `chain` at `state`.
+    /// Fills the additions, joints left out, from what was linearised by the last residual at `state`, where it is
+    /// `active`.
     pub(super) fn linearise(
         &mut self,
-        chain: &Chain,
+        chain: &ChainModel,
+        active: &Active,
         assembler: &Assembler,
         model: &Model,
         state: &State,
@@ -93,16 +96,17 @@ impl<S: Precision> Additions<S> {
     ) {
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
-        chain.model.instructions.run(Contacts {
+        chain.instructions.run(Contacts {
             to: self,
             chain,
+            active,
             assembler,
             factors,
         });
-        let spin = chain.model.places.bit_spin;
+        let spin = chain.places.bit_spin;
         self.block(spin / NODE, Touching::Both)[spin % NODE][spin % NODE] +=
             S::of(factors.damping * assembler.bit.slope);
-        for (point, places) in model.masses.iter().zip(&chain.model.places.masses) {
+        for (point, places) in model.masses.iter().zip(&chain.places.masses) {
             if !point.body.is_coupled() {
                 continue;
             }
@@ -124,7 +128,8 @@ impl<S: Precision> Additions<S> {
 
 struct Contacts<'a, S> {
     to: &'a mut Additions<S>,
-    chain: &'a Chain,
+    chain: &'a ChainModel,
+    active: &'a Active,
     assembler: &'a Assembler,
     factors: TangentFactors,
 }
@@ -137,11 +142,11 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
         let mut on_guide = OnGuide::<S>::new();
         let layers = [(&self.assembler.inner, true), (&self.assembler.outer, false)];
         for (layer, inner) in layers {
-            let (nodes, spans) = (&self.chain.model.nodes, &self.chain.active.spans);
+            let (nodes, spans) = (&self.chain.nodes, &self.active.spans);
             let stations = &nodes.stations;
             for (station, touch) in layer.among(|station| spans[stations[station].0]) {
                 let (l, i) = stations[station];
-                let on_nodes = &S::on_nodes(&self.chain.model.kinds[self.chain.model.links[l].kind])[i];
+                let on_nodes = &S::on_nodes(&self.chain.kinds[self.chain.links[l].kind])[i];
                 let place = Place {
                     l,
                     at: [i == 0, i == nodes.elements(l)],

@@ -14,45 +14,25 @@ impl Assembler {
     /// linearises the rotational rows and stops.
     pub(super) fn joint_forces(&mut self, model: &Model, state: &State) {
         self.translational_rows(model, state);
-        let mut residual = std::mem::take(&mut self.residual);
-        let lambda = |joint: usize| rotational_multipliers(model, state, joint);
-        self.linearise_joints(
-            &model.places.joints,
+        let residual = &mut self.residual;
+        self.instructions.run(LineariseJoints {
+            groups: &mut self.groups,
+            places: &model.places.joints,
             state,
-            |_| true,
-            |joint, at| {
-                let lambda = lambda(joint);
+            take: |joint: usize, at: &JointLinearisation<'_>| {
+                let lambda = rotational_multipliers(model, state, joint);
                 let places = &model.places.joints[joint];
                 let stop = at.stop_moments().unwrap_or_default();
-                for k in 0..6 {
-                    let place = if k < 3 { places.above + k } else { places.below + k - 3 };
+                let rotations = (places.above..places.above + 3).chain(places.below..places.below + 3);
+                for (k, (place, stop)) in rotations.zip(stop).enumerate() {
                     let of_rows = (0..at.rows()).map(|row| lambda[row] * at.gradient(row)[k]);
-                    residual[place] += stop[k] + of_rows.sum::<f64>();
+                    residual[place] += stop + of_rows.sum::<f64>();
                 }
                 let first = model.multipliers(joint) + 3;
                 for row in 0..at.rows() {
                     residual[first + row] = model.moment_scale * at.value(row);
                 }
             },
-        );
-        self.residual = residual;
-    }
-
-    /// Linearises rotational rows and stops at `state`, in the numbering of `places`, and hands every joint that is
-    /// `wanted` with its number to `take`.
-    pub(crate) fn linearise_joints(
-        &mut self,
-        places: &[JointPlaces],
-        state: &State,
-        wanted: impl Fn(usize) -> bool,
-        take: impl FnMut(usize, &JointLinearisation<'_>),
-    ) {
-        self.instructions.run(LineariseJoints {
-            groups: &mut self.groups,
-            places,
-            state,
-            wanted,
-            take,
         });
     }
 
@@ -75,13 +55,14 @@ impl Assembler {
 
     /// Fills the joints' part of the tangent increment.
     pub(crate) fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
-        let mut joints = std::mem::take(&mut self.increment.joints);
-        let lambda = |joint: usize| rotational_multipliers(model, state, joint);
-        self.joint_tangents(
+        let joints = &mut self.increment.joints;
+        self.instructions.run(JointTangents {
+            groups: &self.groups,
+            joints: self.joints,
             factors,
-            lambda,
-            |_| true,
-            |joint, tangent| {
+            lambda: |joint: usize| rotational_multipliers(model, state, joint),
+            wanted: |_| true,
+            take: |joint: usize, tangent: &JointTangent<'_>| {
                 let to = &mut joints[joint];
                 for (l, column) in to.rotations.iter_mut().enumerate() {
                     for (k, x) in column.iter_mut().enumerate() {
@@ -94,8 +75,7 @@ impl Assembler {
                     }
                 }
             },
-        );
-        self.increment.joints = joints;
+        });
     }
 
     /// Hands the tangent of every joint that is `wanted` with its number to `take`; `lambda` gives the multipliers (N m)
@@ -181,8 +161,7 @@ impl JointTangent<'_> {
 #[inline(always)]
 fn lanes_of(lambda: impl Fn(usize) -> [f64; 2], first: usize, count: usize) -> [Lane; 2] {
     let mut lanes = [Lane::default(); 2];
-    for lane in 0..count {
-        let of = lambda(first + lane);
+    for (lane, of) in (first..first + count).map(lambda).enumerate() {
         (lanes[0][lane], lanes[1][lane]) = (of[0], of[1]);
     }
     lanes
@@ -240,15 +219,14 @@ pub(crate) fn rotations(places: &[JointPlaces], state: &State) -> ([Lane; 6], [L
 }
 
 /// Rotational rows and stops, eight joints at a time.
-struct LineariseJoints<'a, W, F> {
+struct LineariseJoints<'a, F> {
     groups: &'a mut [JointGroup],
     places: &'a [JointPlaces],
     state: &'a State,
-    wanted: W,
     take: F,
 }
 
-impl<W: Fn(usize) -> bool, F: FnMut(usize, &JointLinearisation<'_>)> Kernel for LineariseJoints<'_, W, F> {
+impl<F: FnMut(usize, &JointLinearisation<'_>)> Kernel for LineariseJoints<'_, F> {
     type Output = ();
 
     #[inline(always)]
@@ -257,22 +235,16 @@ impl<W: Fn(usize) -> bool, F: FnMut(usize, &JointLinearisation<'_>)> Kernel for 
             groups,
             places,
             state,
-            wanted,
             mut take,
         } = self;
         for (g, group) in groups.iter_mut().enumerate() {
             let first = 8 * g;
             let places = &places[first..];
             let count = places.len().min(8);
-            if !(first..first + count).any(&wanted) {
-                continue;
-            }
             let (q, rate) = rotations(&places[..count], state);
             group.linearise::<V>(&q, &rate);
             for lane in 0..count {
-                if wanted(first + lane) {
-                    take(first + lane, &JointLinearisation { group, lane });
-                }
+                take(first + lane, &JointLinearisation { group, lane });
             }
         }
     }

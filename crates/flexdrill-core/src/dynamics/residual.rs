@@ -4,6 +4,7 @@ use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::{State, motion};
+use crate::elements::bit::BitTorque;
 use crate::elements::element_form::{add, load};
 use crate::model::{Model, Places};
 use crate::simd::Kernel;
@@ -26,47 +27,52 @@ impl Assembler {
         self.contact_forces(model, state, conditions);
         self.stopwatch.lap(Phase::Contact);
         self.joint_forces(model, state);
-        let mut residual = std::mem::take(&mut self.residual);
-        self.end_forces(&mut residual, &model.places, model, (state, conditions), |_| true);
-        self.residual = residual;
-    }
-
-    /// Axial tie, weight on bit, the rock's torque and loads, in the numbering of `places`, on nodes whose unknowns are
-    /// `wanted`.
-    pub(crate) fn end_forces(
-        &mut self,
-        residual: &mut [f64],
-        places: &Places,
-        model: &Model,
-        (state, conditions): (&State, &Conditions),
-        wanted: impl Fn(usize) -> bool,
-    ) {
-        if let Some(tie) = places.tie.filter(|&tie| wanted(tie)) {
-            let scale = model.force_scale;
-            residual[places.pipe_end] += scale * state.q[tie];
-            residual[places.guide_end] -= scale * state.q[tie];
-            residual[tie] = scale * (state.q[places.pipe_end] - state.q[places.guide_end]);
-        }
-        if wanted(places.guide_end) {
-            residual[places.guide_end] += conditions.weight_on_bit;
-        }
-        let spin = places.bit_spin;
-        if wanted(spin) {
-            self.bit
-                .evaluate(conditions.bit_torque, state.v[spin], conditions.bit_slip_rate);
-            residual[spin] += self.bit.torque;
-        }
-        for (load, &unknown) in model.loads.iter().zip(&places.loads) {
-            if wanted(unknown) {
-                residual[unknown] -= load.load.history.at(conditions.time);
-            }
-        }
+        let residual = &mut self.residual;
+        end_forces(
+            &mut self.bit,
+            residual,
+            &model.places,
+            model,
+            (state, conditions),
+            |_| true,
+        );
     }
 
     /// Sets the residual of unknowns without an equation to zero. Reactions are read before this.
     pub fn drop_reactions(&mut self, model: &Model) {
         for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
             self.residual[unknown] = 0.0;
+        }
+    }
+}
+
+/// Axial tie, weight on bit, the rock's torque and loads, in the numbering of `places`, on nodes whose unknowns are
+/// `wanted`.
+pub(crate) fn end_forces(
+    bit: &mut BitTorque,
+    residual: &mut [f64],
+    places: &Places,
+    model: &Model,
+    (state, conditions): (&State, &Conditions),
+    wanted: impl Fn(usize) -> bool,
+) {
+    if let Some(tie) = places.tie.filter(|&tie| wanted(tie)) {
+        let scale = model.force_scale;
+        residual[places.pipe_end] += scale * state.q[tie];
+        residual[places.guide_end] -= scale * state.q[tie];
+        residual[tie] = scale * (state.q[places.pipe_end] - state.q[places.guide_end]);
+    }
+    if wanted(places.guide_end) {
+        residual[places.guide_end] += conditions.weight_on_bit;
+    }
+    let spin = places.bit_spin;
+    if wanted(spin) {
+        bit.evaluate(conditions.bit_torque, state.v[spin], conditions.bit_slip_rate);
+        residual[spin] += bit.torque;
+    }
+    for (load, &unknown) in model.loads.iter().zip(&places.loads) {
+        if wanted(unknown) {
+            residual[unknown] -= load.load.history.at(conditions.time);
         }
     }
 }

@@ -76,7 +76,8 @@ impl State {
     /// Sets the axial forces for a step of size `h` (s) to those that the velocities of `from` lead to at its end.
     /// Forces of the step before would make the step one of first order.
     pub(crate) fn predict_axial(&mut self, model: &Model, from: &Self, h: f64) {
-        self.set_axial(model, |unknown| from.q[unknown] + h * from.v[unknown]);
+        let q = |unknown: usize| from.q[unknown] + h * from.v[unknown];
+        set_axial(model, [&mut self.pipe_axial, &mut self.guide_axial], q);
     }
 
     /// Sets the axial forces to those of the displacements but for a part of the difference to `foreseen` ones, (pipe,
@@ -91,25 +92,29 @@ impl State {
 
     /// Sets the axial forces to those of the displacements.
     pub(crate) fn update_axial(&mut self, model: &Model) {
-        let q = std::mem::take(&mut self.q);
-        self.set_axial(model, |unknown| q[unknown]);
-        self.q = q;
+        let Self {
+            q,
+            pipe_axial,
+            guide_axial,
+            ..
+        } = self;
+        set_axial(model, [pipe_axial, guide_axial], |unknown| q[unknown]);
     }
+}
 
-    /// Sets the axial forces to those of the displacements `q`, by unknown.
-    fn set_axial(&mut self, model: &Model, q: impl Fn(usize) -> f64) {
-        let ends = model.stations.windows(2);
-        for ((tension, element), ends) in self.pipe_axial.iter_mut().zip(&model.pipe).zip(ends.clone()) {
-            *tension = element.beam.tension(q(ends[1].pipe_above) - q(ends[0].pipe_below));
-        }
-        for ((tension, element), ends) in self.guide_axial.iter_mut().zip(&model.guide).zip(ends) {
-            // Displacement along the chord, from those along and across in the node's frame.
-            let along = |n: usize| {
-                let (r, node) = (&element.rotation[n], ends[n].guide);
-                r[(0, 0)] * q(node) + r[(0, 2)] * q(node + 2)
-            };
-            *tension = element.beam.tension(along(1) - along(0));
-        }
+/// Sets the axial forces of `pipe` and `guide` to those of the displacements `q`, by unknown.
+fn set_axial(model: &Model, [pipe, guide]: [&mut [f64]; 2], q: impl Fn(usize) -> f64) {
+    let ends = model.stations.windows(2);
+    for ((tension, element), ends) in pipe.iter_mut().zip(&model.pipe).zip(ends.clone()) {
+        *tension = element.beam.tension(q(ends[1].pipe_above) - q(ends[0].pipe_below));
+    }
+    for ((tension, element), ends) in guide.iter_mut().zip(&model.guide).zip(ends) {
+        // Displacement along the chord, from those along and across in the node's frame.
+        let along = |n: usize| {
+            let (r, node) = (&element.rotation[n], ends[n].guide);
+            r[(0, 0)] * q(node) + r[(0, 2)] * q(node + 2)
+        };
+        *tension = element.beam.tension(along(1) - along(0));
     }
 }
 
