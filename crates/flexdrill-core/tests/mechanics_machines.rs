@@ -35,7 +35,7 @@ fn machines_agree_to_the_bit() {
         guide_bending_factor: 0.05,
         ..default.clone()
     };
-    // Rotational rows and stops one joint at a time, stations without condensing.
+    // Joints with two rotational rows.
     let hinged = hinged();
     for (name, tool) in [("default", &default), ("soft guide", &soft), ("hinged", &hinged)] {
         let (plain, _) = run(tool, Instructions::PORTABLE, 100);

@@ -1,4 +1,4 @@
-//! The tool over its joints moves as the tool over all stations does.
+//! The chain of nodes moves as the tool over all stations does.
 
 mod support;
 

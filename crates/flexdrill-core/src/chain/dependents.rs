@@ -18,7 +18,7 @@ use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
 
-/// Place in a node of the residual of a joint's first row: that of the spin below, which has no residual of its own.
+/// Place in a node of the residual of a joint's first row: the place of the spin below, whose moment is always in balance.
 pub(super) const FIRST_ROW: usize = 6;
 /// Place in a node of the residual of its second row.
 pub(super) const SECOND_ROW: usize = 15;
@@ -87,7 +87,7 @@ impl Dependents {
     /// Of a joint with one row: the spin below follows the other five rotations by these coefficients, and what stands on
     /// the right of the row by `by_row`.
     #[inline(always)]
-    pub(super) fn set_spin(&mut self, by: [f64; 5], by_row: f64) {
+    fn set_spin(&mut self, by: [f64; 5], by_row: f64) {
         let spin = &mut self.list[0];
         for (place, by) in OTHERS.into_iter().zip(by) {
             spin.by[place] = by;
@@ -191,7 +191,7 @@ impl Dependent {
         let offset = self.by_rows[0] * rows[0] + self.by_rows[1] * rows[1];
         let (by, only) = (L::round(&self.by), L::load(S::only(SLOT)));
         let column = L::load(&a[SLOT]);
-        // The right-hand side gives what its change by itself puts on all rows, and keeps that change.
+        // x_slot changes by the offset whatever the others do: what that puts on all rows goes to the right-hand side.
         let mut lanes = Aligned([S::ZERO; NODE]);
         right.plus_product(column, L::splat(S::of(-offset))).store(&mut lanes);
         let right = L::load(&lanes)
@@ -231,15 +231,21 @@ pub(super) struct Spins {
     by_row: Lane,
 }
 
-impl Spins {
-    /// Of one joint, whose row stands in the equations times `scale`.
-    #[inline(always)]
-    pub(super) fn put(&self, lane: usize, scale: f64, to: &mut Dependents) {
-        to.set_spin(self.by.map(|by| by[lane]), self.by_row[lane] / scale);
-    }
-}
-
 impl Chain {
+    /// Hands the spins of the joints that are solved for from the lanes to their nodes. A residual is evaluated more often
+    /// than a tangent, so that it leaves them in the lanes. The rows stand in the equations times `scale`.
+    pub(super) fn set_spins(&mut self, scale: f64) {
+        if !self.model.one_row {
+            return;
+        }
+        for (joint, &k) in self.model.nodes.of_joints.iter().enumerate() {
+            if self.active.nodes[k] {
+                let (spins, lane) = (&self.spins[joint / 8], joint % 8);
+                self.dependents[k].set_spin(spins.by.map(|by| by[lane]), spins.by_row[lane] / scale);
+            }
+        }
+    }
+
     /// Adds the moments of the joints' stops, linearises the rotations that follow from others, and takes the moments on
     /// them over to those: with the multipliers of the joints' rows they are in balance. Their places are taken by the
     /// rows themselves, times `scale`.

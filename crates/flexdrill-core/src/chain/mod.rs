@@ -1,20 +1,21 @@
 //! The chain of nodes that every step is taken over: pipe and guide between two nodes move as their ends do.
 //!
-//! A span is the pipe with the guide beside it between two nodes. Its inner stations are slaved statically: x_i = -K_ii^-1 K_ie x_e (Guyan),
-//! so that stiffness, mass and geometric stiffness of a span are matrices over its two ends. The displacement of a
+//! A span is the part of pipe and guide between two nodes. Its inner stations are slaved statically,
+//! x_i = -K_ii^-1 K_ie x_e (Guyan), so that stiffness, mass and geometric stiffness of a span are matrices over its two
+//! ends. The displacement of a
 //! joint's start below follows from that of the end above, u_b = E_b^T E_a u_a, so that the translational rows are kept
-//! exactly and have no multipliers. What is left is 16 unknowns per node:
+//! exactly and have no multipliers. A node has 16 places:
 //!
 //! | place | unknown |
 //! |---|---|
 //! | 0..3 | rotations above |
 //! | 3..6 | displacement of the pipe |
-//! | 6..9 | rotations below: the spin and, at a revolute joint, one tilt follow from the others, all three where there is no joint |
+//! | 6..9 | rotations below, of which some or all follow from the others ([`dependents`]) |
 //! | 9..15 | guide |
 //! | 15 | multiplier of the axial tie, in the last node |
 //!
-//! All stations keep their contacts: one inside a span moves, and acts on, both ends through the slaving. It holds where
-//! inner stations vibrate faster than a step can follow, so that [`nodes`] are placed by that.
+//! All stations keep their contacts: one inside a span moves with both ends, and acts on both, through the slaving. Slaving
+//! holds where inner stations vibrate faster than a step can follow; [`nodes`] places the nodes so that it does.
 
 mod active;
 mod contacts;
@@ -30,6 +31,7 @@ mod residual;
 mod single;
 mod slaving;
 mod solve;
+mod start;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -76,8 +78,8 @@ type EndForces = [EndColumn; 2];
 /// is slower than 1 / h; inner stations answer it quasi-statically to 1 / 8^2.
 const LEAST_FREQUENCY: f64 = 8.0;
 /// Largest deflection of a span between its ends under what its contacts push back with when all its inner stations are
-/// displaced by 1: the largest row sum of K_ii^-1 times the contacts' stiffness. As spans are bowed by the forces of the
-/// step before, an error of the deflection shrinks by this from step to step, and would grow above 1.
+/// displaced by 1: the largest row sum of K_ii^-1 times the contacts' stiffness. As spans are deflected by the forces of
+/// the step before, an error of the deflection shrinks by this from step to step, and would grow above 1.
 const MOST_COMPLIANCE: f64 = 0.25;
 
 /// Corrections of a step that are solved in single precision; a step that needs more is solved in double from there on.
@@ -129,7 +131,7 @@ pub(crate) struct Chain {
     foreseen_part: f64,
     /// Forces of the spans on their ends: elastic, damping and inertia forces.
     linear: Vec<Aligned<EndForces>>,
-    /// Those of geometric stiffness per axial force, with the axial force of the displacements beside them.
+    /// Those of geometric stiffness per axial force, and in a lane of its own the axial force of the displacements.
     geometric_forces: Vec<Aligned<EndForces>>,
     /// Those of contacts, and whether there are any.
     contact_forces: Vec<Aligned<EndForces>>,

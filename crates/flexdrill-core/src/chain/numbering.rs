@@ -1,4 +1,4 @@
-//! The chain numbering beside the model's: from one to the other.
+//! From the model's numbering to the chain's, and back.
 
 use nalgebra::Vector3;
 
@@ -48,7 +48,7 @@ impl Numbering {
         held.chain(driven).collect()
     }
 
-    /// Takes what `full` holds for the unknowns of `chain`.
+    /// Takes the unknowns of `chain` from `full`.
     fn gather(&self, full: &State, chain: &mut State) {
         let pairs = [
             (&full.q, &mut chain.q),
@@ -122,7 +122,7 @@ impl Chain {
         (0..self.model.nodes.list.len()).flat_map(|k| [NODE * k, NODE * k + 6])
     }
 
-    /// Station and whether it is the guide's, of a chain unknown.
+    /// Station and whether it is the guide's, of an unknown of the chain.
     pub(super) fn locate(&self, unknown: usize) -> (usize, bool) {
         (
             self.model.nodes.list[unknown / NODE].station,
@@ -130,7 +130,7 @@ impl Chain {
         )
     }
 
-    /// Sum in the world of what `values`, per chain unknown, and the `spans` on their ends put on the displacements.
+    /// Sum in the world of what `values`, per unknown of the chain, and the `spans` on their ends put on the displacements.
     pub(crate) fn sum_in_world<'a>(
         &self,
         model: &Model,
@@ -154,7 +154,7 @@ impl Chain {
         sum
     }
 
-    /// Shows the chain state in the model's numbering: inner stations as they are slaved, and the force
+    /// Shows the chain's state in the model's numbering: inner stations as they are slaved, and the force
     /// and moment of each joint as its multipliers. Lagged accelerations stay as they are.
     pub(crate) fn show(&self, model: &Model, chain: &State, forces: &JointForces, full: &mut State) {
         self.model.instructions.run(Show {
@@ -192,7 +192,7 @@ impl Chain {
             .sum()
     }
 
-    /// What `values` in the chain numbering mean for the translation of the pipe at `station`, in the pipe's own axes;
+    /// What `values` in the chain's numbering mean for the translation of the pipe at `station`, in the pipe's own axes;
     /// at a joint of the end above.
     pub(crate) fn pipe_translation(&self, values: &[f64], station: usize) -> Vector3<f64> {
         let (l, i) = self.model.nodes.stations[station];

@@ -1,4 +1,4 @@
-//! The step-constant part of the chain tangent: elastic, damping and inertia terms, made once per step size.
+//! The step-constant part of the chain's tangent: elastic, damping and inertia terms, made once per step size.
 
 use super::single::SingleOperator;
 use super::slaving::row;

@@ -88,7 +88,7 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
     (kinds, links)
 }
 
-/// Consistent forces of gravity in the chain numbering.
+/// Consistent forces of gravity in the chain's numbering.
 pub(super) fn weights(
     model: &Model,
     nodes: &Nodes,

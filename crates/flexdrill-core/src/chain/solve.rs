@@ -13,7 +13,7 @@ use super::{BOTTOM, Chain, GUIDE, Link, NODE, SINGLE_CORRECTIONS, TIE, TOP};
 use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{Equations, LARGEST_DISPLACEMENT, Stride, correct, worst};
+use crate::dynamics::newton::{Equations, LARGEST_DISPLACEMENT, Stride};
 use crate::dynamics::phases::Phase;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
@@ -26,10 +26,6 @@ use crate::tool::description::Body;
 
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
-
-/// Most corrections of a state at rest, and the part of the limits at rest at which they end.
-const MOST_STATIC_CORRECTIONS: u32 = 20;
-const SETTLED: f64 = 0.1;
 
 /// Room for an elimination.
 pub(super) struct Sweep {
@@ -296,17 +292,14 @@ impl Chain {
         let by = (conditions, factors);
         self.additions
             .linearise(&self.model, &self.active, assembler, model, state, by);
+        self.set_spins(model.moment_scale);
         let (sweep, of_joints) = (&mut self.sweep, &self.model.nodes.of_joints);
         let lambda = |joint: usize| self.multipliers[joint];
-        let (dependents, spins) = (&mut self.dependents, self.model.one_row.then_some(&self.spins));
         assembler.joint_tangents(
             factors,
             lambda,
             |_| true,
             |joint, tangent| {
-                if let Some(spins) = spins {
-                    spins[joint / 8].put(joint % 8, model.moment_scale, &mut dependents[of_joints[joint]]);
-                }
                 for (l, column) in sweep.joints[of_joints[joint]].iter_mut().enumerate() {
                     for (k, x) in column.iter_mut().enumerate() {
                         *x = tangent.rotation(l, k);
@@ -332,15 +325,12 @@ impl Chain {
         let by = (conditions, factors);
         self.single_additions
             .linearise(&self.model, &self.active, assembler, model, state, by);
+        self.set_spins(model.moment_scale);
         let sweep = &mut self.single_sweep;
         let lambda = |joint: usize| self.multipliers[joint];
         let (reached, of_joints) = (&self.active.nodes, &self.model.nodes.of_joints);
         let wanted = |joint: usize| reached[of_joints[joint]];
-        let (dependents, spins) = (&mut self.dependents, self.model.one_row.then_some(&self.spins));
         assembler.joint_tangents(factors, lambda, wanted, |joint, tangent| {
-            if let Some(spins) = spins {
-                spins[joint / 8].put(joint % 8, model.moment_scale, &mut dependents[of_joints[joint]]);
-            }
             sweep.join(of_joints[joint], tangent);
         });
         assembler.stopwatch.lap(Phase::Assembly);
@@ -348,7 +338,7 @@ impl Chain {
     }
 }
 
-/// The chain equations, with the assembler that evaluates joints and holds the contacts.
+/// The chain's equations, with the assembler that evaluates joints and holds the contacts.
 pub(crate) struct ChainEquations<'a> {
     pub(super) chain: &'a mut Chain,
     pub(super) assembler: &'a mut Assembler,
@@ -361,83 +351,6 @@ impl ChainEquations<'_> {
         self.chain.foreseen_part = 0.0;
         self.chain
             .evaluate(self.assembler, model, to, conditions, (None, keep_axial));
-    }
-
-    /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where the
-    /// static tangent has no inverse, the state stays as it is.
-    pub(crate) fn polish_rest(
-        &mut self,
-        model: &Model,
-        state: &mut State,
-        scratch: &mut State,
-        conditions: &Conditions,
-    ) {
-        let still = TangentFactors {
-            stiffness: 1.0,
-            damping: 0.0,
-            mass: 0.0,
-        };
-        // The tangent has no geometric stiffness, and without it neither a joint that touches nothing nor the guide's turn
-        // about its own axis has any: they move by no more than their inertia lets them in 5 ms.
-        let factors = TangentFactors { mass: 4e4, ..still };
-        self.chain.prepare(model, conditions, factors);
-        self.chain.iterations = SINGLE_CORRECTIONS;
-        self.assembler.begin();
-        self.evaluate(model, state, conditions, false);
-        let mut best = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
-        for _ in 0..MOST_STATIC_CORRECTIONS {
-            if best <= SETTLED {
-                return;
-            }
-            scratch.copy_from(state);
-            if self.solve(model, scratch, conditions, factors).is_err() {
-                return;
-            }
-            correct(self, scratch, still);
-            self.evaluate(model, scratch, conditions, false);
-            let ratio = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
-            if ratio.is_nan() || ratio >= best {
-                return;
-            }
-            best = ratio;
-            state.copy_from(scratch);
-        }
-    }
-
-    /// Accelerations in balance with the forces at `state`, as far as steps of size `h` (s) can follow them.
-    ///
-    /// # Errors
-    /// When the mass matrix with the constraints is singular.
-    pub(crate) fn balance_accelerations(
-        &mut self,
-        model: &Model,
-        state: &mut State,
-        conditions: &Conditions,
-        h: f64,
-    ) -> Result<(), Singular> {
-        state.a.fill(0.0);
-        let factors = TangentFactors {
-            stiffness: h * h,
-            damping: h,
-            mass: 1.0,
-        };
-        self.chain.prepare(model, conditions, factors);
-        self.chain.iterations = SINGLE_CORRECTIONS;
-        self.assembler.begin();
-        self.evaluate(model, state, conditions, false);
-        // The rows hold already; what is asked for is how their second derivatives can be zero.
-        for residual in self.chain.residual.chunks_exact_mut(NODE) {
-            (residual[FIRST_ROW], residual[SECOND_ROW]) = (0.0, 0.0);
-        }
-        self.solve(model, state, conditions, factors)?;
-        for (i, &x) in self.chain.correction.iter().enumerate() {
-            if i % NODE == TIE {
-                state.q[i] += x;
-            } else {
-                state.a[i] = x;
-            }
-        }
-        Ok(())
     }
 }
 

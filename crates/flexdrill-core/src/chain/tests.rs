@@ -1,4 +1,4 @@
-//! The chain equations are those of the whole tool seen through the slaving: residual, tangent and solution.
+//! The chain's equations are those of the whole tool seen through the slaving: residual, tangent and solution.
 
 use faer::prelude::Solve;
 use nalgebra::{DMatrix, DVector, Matrix3};
@@ -117,7 +117,7 @@ fn no_forces(chain: &Chain) -> JointForces {
     }
 }
 
-/// What the whole tool's unknowns are by each chain one and, in further columns, by the multiplier of each rotational
+/// What the whole tool's unknowns are by each of the chain's and, in further columns, by the multiplier of each rotational
 /// row.
 fn slaving(chain: &Chain, model: &Model) -> DMatrix<f64> {
     let n = chain.unknowns();
@@ -587,7 +587,7 @@ fn turning_as_a_whole_changes_no_energy() {
             Assembler::new(&model, instructions),
         );
         let mut full = State::at_rest(&model);
-        // Over the joints, and station by station.
+        // Over the chain, and station by station.
         let mut stored = |state: &mut State| {
             equations(&mut chain, &mut assembler).evaluate(&model, state, &conditions, true);
             let mut point = EnergyPoint::new(&model, chain.unknowns(), chain.spans());

@@ -193,7 +193,7 @@ impl JointLinearisation<'_> {
         [0, 1, 2, 3, 4, 5].map(|k| gradient[k][self.lane])
     }
 
-    /// Moments of the stop on the six rotations (N m); `None` where no stop of the joints beside it is shut either.
+    /// Moments of the stop on the six rotations (N m); `None` where no stop of its group of eight is shut.
     #[inline(always)]
     pub fn stop_moments(&self) -> Option<[f64; 6]> {
         let (stop, lane) = (self.group.shut_stop()?, self.lane);

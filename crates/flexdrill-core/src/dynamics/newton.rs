@@ -1,4 +1,5 @@
-//! Newton-Raphson on displacements and multipliers together, Eq. 40 to 44, for one (sub-)step.
+//! Newton-Raphson, Eq. 40 to 44, for one (sub-)step: on the unknowns of the chain, or on displacements and multipliers of
+//! all stations.
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;

@@ -14,7 +14,7 @@ use crate::linear::Singular;
 pub enum StartError {
     /// The mass matrix with the constraints is singular.
     #[error("station {}: the accelerations at the start have no solution (pivot {:e}); \
-         a body without mass, or a joint whose nodes are both held?", .0.station, .0.pivot)]
+         is there a body without mass?", .0.station, .0.pivot)]
     Singular(Singular),
     /// No step size brought the tool closer to rest.
     #[error("the tool did not come to rest: {} after {:.3} s of settling", .0, .0.time)]

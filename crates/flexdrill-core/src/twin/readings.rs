@@ -188,7 +188,8 @@ impl Simulation {
         self.stepper().state()
     }
 
-    /// Nodes of the chain that steps are taken over; `None` over all stations ([`Stations`](crate::dynamics::SolverKind::Stations)).
+    /// Nodes of the chain that steps are taken over; `None` with
+    /// [`SolverKind::Stations`](crate::dynamics::SolverKind::Stations), which takes them over all stations.
     pub fn chain_nodes(&self) -> Option<usize> {
         self.stepper().chain_nodes()
     }
