@@ -28,7 +28,7 @@ command -v node >/dev/null && command -v npm >/dev/null || need_packages nodejs 
     fail "Node.js $(node --version) is too old, 18 or newer is needed"
 # A relative path is that of the caller.
 [ -z "${FLEXDRILL_BINARY:-}" ] || FLEXDRILL_BINARY=$(realpath "$FLEXDRILL_BINARY")
-page=$root/src/dashboard/page
+page=$root/crates/flexdrill-dashboard/web
 cd "$page"
 say "step 1 of 3: packages of the page, as package-lock.json has them"
 timeout 600 npm ci --no-fund --no-audit --loglevel=error ||

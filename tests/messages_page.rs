@@ -19,7 +19,7 @@ use flexdrill::messages::{
 use serde::Serialize;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, SeqAccess, Visitor, value::Error};
 
-const REFERENCE: &str = "src/dashboard/page/test/reference.json";
+const REFERENCE: &str = "crates/flexdrill-dashboard/web/test/reference.json";
 
 /// Makes up a value of any message: every field another one, strings and sequences of changing length, a NaN here and
 /// there. All numbers are exact in JSON.

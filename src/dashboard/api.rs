@@ -15,11 +15,11 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-use super::assets;
 use super::board::Board;
 use super::control::{Ask, Control, Refused};
 use super::snapshots::Snapshots;
 use crate::live::{Gateway, WrongTokens, host_is_ours};
+use flexdrill_dashboard::assets;
 
 /// Longest body of a request (bytes): names and reasons.
 const LONGEST_BODY: usize = 16 << 10;

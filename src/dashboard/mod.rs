@@ -12,7 +12,6 @@
 //! `session`, `history`. `control`: steering. `api`, `assets`, `token`: HTTP.
 
 mod api;
-mod assets;
 mod board;
 mod control;
 mod history;

@@ -19,7 +19,7 @@ pub use catalogue::Catalogue;
 pub const OUTPUT: &str = "src/messages/generated.rs";
 
 /// The generated file of the rig page, from the repository's root.
-pub const PAGE_OUTPUT: &str = "src/dashboard/page/src/messages.ts";
+pub const PAGE_OUTPUT: &str = "crates/flexdrill-dashboard/web/src/messages.ts";
 
 /// The member that ROS 2 gives a message without fields, since DDS cannot carry an empty struct.
 const EMPTY_STRUCT_MEMBER: &str = "structure_needs_at_least_one_member";

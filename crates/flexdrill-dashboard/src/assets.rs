@@ -1,4 +1,4 @@
-//! The page, built from `src/dashboard/page/` and embedded: the browser needs nothing from a network.
+//! The page, built from `web/` and embedded in the program: the browser loads nothing from another network.
 
 use axum::Router;
 use axum::extract::Request;
@@ -9,16 +9,20 @@ use tower_http::compression::CompressionLayer;
 
 /// Path, kind and bytes of each.
 const ASSETS: [(&str, &str, &[u8]); 3] = [
-    ("/", "text/html; charset=utf-8", include_bytes!("page/dist/index.html")),
+    (
+        "/",
+        "text/html; charset=utf-8",
+        include_bytes!("../web/dist/index.html"),
+    ),
     (
         "/page.js",
         "text/javascript; charset=utf-8",
-        include_bytes!("page/dist/page.js"),
+        include_bytes!("../web/dist/page.js"),
     ),
     (
         "/page.css",
         "text/css; charset=utf-8",
-        include_bytes!("page/dist/page.css"),
+        include_bytes!("../web/dist/page.css"),
     ),
 ];
 
@@ -28,7 +32,7 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'u
                       frame-ancestors 'none'";
 
 /// The page and what belongs to it, compressed.
-pub(super) fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
+pub fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
     let mut router = Router::new();
     for (path, kind, bytes) in ASSETS {
         let tag = format!("\"{:08x}-{}\"", crc32fast::hash(bytes), bytes.len());
@@ -61,7 +65,7 @@ fn asset(request: &Request, kind: &'static str, bytes: &'static [u8], tag: &str)
 }
 
 /// What every answer of the server says to the browser.
-pub(super) async fn guard(mut response: Response) -> Response {
+pub async fn guard(mut response: Response) -> Response {
     const SAID: [(HeaderName, &str); 4] = [
         (header::CONTENT_SECURITY_POLICY, POLICY),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
