@@ -15,10 +15,9 @@
 //! - [`bag`]: recordings; the only module that knows MCAP and SQLite. [`field_log`]: CSV logs of a rig.
 //! - [`rig_inputs`]: who sends the rig's inputs, when they were measured, and what is refused.
 //! - [`dds`]: RustDDS and ros2-client's DDS side, in a process of their own.
-//! - [`messages`]: message types generated from `msg/*.msg`, and how they are filled from a snapshot.
-//! - [`told`]: text of others that is shown and not run, and log lines that do not flood.
 //!
-//! Below them, as crates of their own: `flexdrill-paper`, `flexdrill-plot`, `flexdrill-verify`, `flexdrill-alarms`,
+//! Below them, as crates of their own: [`flexdrill_messages`] (the ROS 2 messages, here also as `messages`),
+//! [`flexdrill_text`], `flexdrill-paper`, `flexdrill-plot`, `flexdrill-verify`, `flexdrill-alarms`,
 //! [`flexdrill_config`], [`flexdrill_realtime`] and [`flexdrill_core`], the mechanics. `docs/architecture.md` draws the house.
 
 pub mod alarms;
@@ -29,8 +28,8 @@ pub mod dds;
 pub mod field_log;
 pub mod health;
 pub mod live;
-pub mod messages;
 pub mod report;
 pub mod rig_inputs;
 pub mod ros;
-pub mod told;
+
+pub use flexdrill_messages as messages;

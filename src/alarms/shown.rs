@@ -4,8 +4,8 @@
 
 use super::finding::Finding;
 use super::sentence::capitalized;
-use crate::told::time_of_day;
 use flexdrill_alarms::{Priority, Standing, Time};
+use flexdrill_text::time_of_day;
 
 /// Between a worst moment and the newest observation, from which on the text names the moment (ns): what is newer is
 /// "now" to a person.

@@ -31,7 +31,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use crate::cli::output::{tell, tell_text};
 use crate::dds::side;
 use crate::ros::args;
-use crate::told::{printable, printable_lines};
+use flexdrill_text::{printable, printable_lines};
 
 /// Real-time digital twin of a flexible drilling tool, as a ROS 2 node.
 #[derive(Debug, Parser)]

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::told::instant_in_a_name;
+use flexdrill_text::compact_date_time;
 
 /// What stands for the time of the start.
 const START: &str = "{start}";
@@ -15,8 +15,8 @@ pub(super) fn at_start(path: &Path, now: SystemTime) -> PathBuf {
         return path.to_owned();
     };
     let since = now.duration_since(UNIX_EPOCH).unwrap_or_default();
-    let seconds = i64::try_from(since.as_secs()).unwrap_or_default();
-    text.replace(START, &instant_in_a_name(seconds)).into()
+    let nanoseconds = i64::try_from(since.as_nanos()).unwrap_or_default();
+    text.replace(START, &compact_date_time(nanoseconds)).into()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::bag;
 use crate::cli::output::{say, tell};
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Make a whole bag of one that was cut short or damaged.
 #[derive(Debug, clap::Args)]

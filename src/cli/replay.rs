@@ -21,7 +21,7 @@ use super::{WrongUse, numbers, source};
 use crate::bag;
 use crate::cli::output::{say, say_text, tell};
 use crate::messages::topics;
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Run a bag or a field log through the model as fast as it goes, into a bag.
 ///

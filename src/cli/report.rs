@@ -7,7 +7,7 @@ use clap::Args;
 use super::progress::Progress;
 use crate::cli::output::{say, tell};
 use crate::report;
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Make one HTML page of a recording: inputs, alarms, worst places with orbits, forces along the tool, health.
 ///

@@ -18,7 +18,7 @@ use crate::messages::{
     AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus,
     WhirlState, WhirlWarning, from_cdr_body,
 };
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Events kept for a page that is opened late.
 const MOST_EVENTS: usize = 2000;

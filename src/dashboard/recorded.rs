@@ -11,7 +11,7 @@ use super::listen::CDR_HEADER;
 use crate::bag::{self, Bag, BagMessage};
 use crate::live::{self, Hub, Player, Playing, States};
 use crate::messages::topics::{self, TopicInfo};
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// A bag that is shown.
 pub(super) struct Recorded {

@@ -13,7 +13,7 @@ use foxglove::ws_protocol::server::{MessageData, Time};
 use tokio::sync::Notify;
 use tokio_tungstenite::tungstenite::Message;
 
-use crate::told::Throttle;
+use flexdrill_text::Throttle;
 
 /// Most data messages that wait for a viewer: about a second of all topics of the default tool.
 pub(super) const MOST_DATA: usize = 256;

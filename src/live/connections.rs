@@ -21,7 +21,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::task::{AbortHandle, Id, JoinSet};
 use tokio::time::Sleep;
 
-use crate::told::Throttle;
+use flexdrill_text::Throttle;
 
 /// Most connections that are not WebSockets: a page uses up to six.
 const MOST: usize = 64;

@@ -21,7 +21,7 @@ use super::hub::Hub;
 use super::session::{Session, Subprotocol, next_number};
 use super::steering::{Pilot, Steering, Viewer};
 use super::{Token, WrongTokens};
-use crate::told::{Throttles, printable};
+use flexdrill_text::{Throttles, printable};
 
 /// Most viewers at once. Each costs one file handle and, when slow, some megabytes.
 pub(super) const MOST_VIEWERS: usize = 32;

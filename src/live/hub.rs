@@ -16,7 +16,7 @@ use tokio_tungstenite::tungstenite::{Message, Utf8Bytes};
 use super::backlog::{Backlog, Data};
 use super::player::Player;
 use crate::bag::Topic;
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// A viewer's subscription to a topic.
 struct Subscriber {

@@ -13,7 +13,7 @@ use super::backlog::Backlog;
 use super::hub::Hub;
 use crate::bag::{Bag, BagMessage};
 use crate::messages::{AlarmList, Message as _};
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// After a jump, what stands there is told: of each topic the newest message of so long before (ns). Every topic of the
 /// node that is not latched comes at least each second.

@@ -15,7 +15,7 @@ use super::gateway::Gateway;
 use super::hub::Hub;
 use super::steering::Steering;
 use super::{LiveError, Token};
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Bytes that wait for the live thread; then the oldest message goes: some seconds of all outputs of the default tool.
 const MOST_BYTES: usize = 8 << 20;

@@ -23,7 +23,7 @@ use tokio_tungstenite::tungstenite::{self, Bytes, Message};
 use super::backlog::{Backlog, Closed};
 use super::hub::Hub;
 use super::steering::{ClientChannel, ENCODING, Pilot};
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Longest message of a viewer (bytes), whole or in fragments: far above all that the node accepts. A longer one is
 /// refused by its announced length, before any of it is stored.

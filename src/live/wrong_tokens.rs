@@ -7,7 +7,7 @@ use std::time::Duration;
 use flexdrill_realtime::monotonic;
 use tokio::sync::Semaphore;
 
-use crate::told::Throttle;
+use flexdrill_text::Throttle;
 
 /// Pause before a refusal. The right token is accepted at once, whoever tries wrong ones meanwhile.
 const PAUSE: Duration = Duration::from_secs(1);

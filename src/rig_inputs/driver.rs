@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Bytes of an id that tell the process; the others tell the writer in it.
 const PROCESS: usize = 12;

@@ -16,7 +16,7 @@ use super::args::RosArgs;
 use crate::dds::plan::{Offer, dds_type_name};
 use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::messages::to_cdr_body;
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// RustDDS warns of every datagram above 1500 bytes and of peers that go; ros2-client of every plain DDS client; foxglove calls
 /// a viewer that is closed an error.

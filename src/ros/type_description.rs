@@ -12,7 +12,7 @@ use crate::messages::type_description_interfaces::{
     TypeDescription, TypeSource,
 };
 use crate::messages::{find_service, find_type, generated};
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Why a type is not described.
 #[derive(Debug, thiserror::Error)]

@@ -9,7 +9,7 @@ use clap::Parser;
 #[derive(Debug, Parser)]
 #[command(name = "xtask")]
 enum Task {
-    /// Writes src/messages/generated.rs and the rig page's messages.ts from msg/ and src/messages/external/.
+    /// Writes crates/flexdrill-messages/src/generated.rs and the rig page's messages.ts from msg/ and crates/flexdrill-messages/external/.
     Messages {
         /// Root of the repository.
         #[arg(long, default_value = ".")]

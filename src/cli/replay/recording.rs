@@ -14,9 +14,9 @@ use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{AppliedInputs, JointDeflections, Message, SessionInfo, TwinStatus};
-use crate::told::printable;
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
+use flexdrill_text::printable;
 
 /// How a replay can differ from what was recorded.
 #[derive(Debug, Default)]

@@ -10,7 +10,7 @@ use crate::cli::signals;
 use crate::live::{self, Gateway, Hub, Player, States};
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
-use crate::told::printable;
+use flexdrill_text::printable;
 
 /// Plays a bag at `address` until the process is asked to end.
 pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyhow::Result<()> {

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use super::profile::HeldPeaks;
 use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
-use crate::told::printable;
 use flexdrill_core::units::rad_per_s_to_rpm;
+use flexdrill_text::printable;
 
 /// A heart that has not beaten for this long is lost: ten beats at the default 5 Hz.
 const HEARTBEAT_LOST: Duration = Duration::from_secs(2);

@@ -26,8 +26,8 @@ use self::taken::{Arrival, TakenRequests, Verdict};
 use super::frames::{Peer, Peers, ToSide};
 use super::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan, service_topics};
 use crate::dds::network::Network;
-use crate::told::Throttle;
 use flexdrill_realtime::monotonic;
+use flexdrill_text::Throttle;
 
 /// Samples that wait for a part of the node that is busy.
 const SAMPLES: usize = 256;

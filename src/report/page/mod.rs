@@ -12,8 +12,8 @@ use self::text::{capital, duration, number, percent, times};
 use super::ReportError;
 use super::reading::Summary;
 use crate::messages::{Alarm, TwinStatus, words};
-use crate::told::instant;
 use flexdrill_plot::{Figure, svg};
+use flexdrill_text::date_time;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -64,8 +64,8 @@ fn facts(summary: &Summary) -> Markup {
     let session = summary.session.as_ref();
     html! {
         dl.facts {
-            dt { "From" } dd { (instant(summary.start)) }
-            dt { "To" } dd { (instant(summary.end)) " (" (duration(summary.seconds())) ")" }
+            dt { "From" } dd { (date_time(summary.start)) }
+            dt { "To" } dd { (date_time(summary.end)) " (" (duration(summary.seconds())) ")" }
             dt { "Twin" } dd {
                 @if let Some(session) = session {
                     "flexdrill " (session.version) ", frame " code { (session.header.frame_id) } ", namespace "

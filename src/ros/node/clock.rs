@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::rig::{RigInputs, decode};
 use crate::dds::port::{Inbox, Sample};
 use crate::messages::rosgraph_msgs::Clock;
-use crate::told::Throttle;
 use flexdrill_realtime::clock::LEAP;
 use flexdrill_realtime::monotonic;
+use flexdrill_text::Throttle;
 
 /// Wall time for which ticks must agree on another time before it is believed (ns).
 const AGREED_FOR: u64 = 2_000_000_000;

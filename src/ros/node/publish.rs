@@ -24,12 +24,12 @@ use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
 use crate::rig_inputs::Intake;
-use crate::told::{Throttle, Throttles};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Conditioner;
 use flexdrill_core::twin::{Output, RunInputs};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::monotonic;
+use flexdrill_text::{Throttle, Throttles};
 
 /// How often the rings are polled: the delay that publishing adds.
 const POLL: Duration = Duration::from_millis(1);

@@ -14,11 +14,11 @@ use crate::messages::std_msgs::Float64;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{Message, from_cdr_body};
 use crate::rig_inputs::{Announcement, Driver, DriverId, Intake, RigSample, SampleRefused, Sent, stamped};
-use crate::told::{Throttle, Throttles};
 use flexdrill_config::InputsConfig;
 use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
 use flexdrill_realtime::link::Targets;
 use flexdrill_realtime::monotonic;
+use flexdrill_text::{Throttle, Throttles};
 
 /// How often the targets follow the ages of the inputs.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(10);

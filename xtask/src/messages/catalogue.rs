@@ -1,5 +1,5 @@
 //! All definitions of the repository: our own messages and services in `msg/`, the foreign ones that we use in
-//! `src/messages/external/`.
+//! `crates/flexdrill-messages/external/`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use super::{GenerateError, parser};
 /// Folder of our own messages and services, from the repository's root.
 const OWN: &str = "msg";
 /// Folder of the foreign messages, from the repository's root.
-const EXTERNAL: &str = "src/messages/external";
+const EXTERNAL: &str = "crates/flexdrill-messages/external";
 /// Our package.
 const PACKAGE: &str = "flexdrill";
 

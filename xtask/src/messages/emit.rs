@@ -20,7 +20,7 @@ const KEYWORDS: &[&str] = &[
 /// The whole file: one module per package, then the table of all types.
 pub(super) fn source(catalogue: &Catalogue) -> Result<String, GenerateError> {
     let mut out = String::from(concat!(
-        "//! Generated from `msg/` and `src/messages/external/` by `cargo xtask messages`. Do not edit.\n\n",
+        "//! Generated from `msg/` and `crates/flexdrill-messages/external/` by `cargo xtask messages`. Do not edit.\n\n",
         "use super::{ServiceInfo, TypeInfo};\n",
     ));
     let mut table = String::new();
@@ -34,7 +34,7 @@ pub(super) fn source(catalogue: &Catalogue) -> Result<String, GenerateError> {
             let _ = write!(
                 out,
                 "\n/// Messages of the ROS package `{package}`.\npub mod {package} {{\n    use serde::{{Deserialize, \
-                 Serialize}};\n\n    use crate::messages::Message;\n"
+                 Serialize}};\n\n    use crate::Message;\n"
             );
         }
         message(&mut out, definition, catalogue)?;
@@ -109,7 +109,7 @@ fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> 
     for field in &definition.fields {
         docs(out, "        ", &field.docs);
         if matches!(field.kind.array, Array::Fixed(size) if size > LARGEST_PLAIN_ARRAY) {
-            out.push_str("        #[serde(with = \"crate::messages::large_array\")]\n");
+            out.push_str("        #[serde(with = \"crate::large_array\")]\n");
         }
         let _ = writeln!(
             out,
@@ -190,7 +190,7 @@ fn schema_expression(definition: &Definition, catalogue: &Catalogue) -> Result<S
 /// The text of a definition as an expression.
 fn own_text(definition: &Definition) -> String {
     match &definition.source {
-        Source::File(path) => format!("include_str!(\"../../{path}\")"),
+        Source::File(path) => format!("include_str!(\"../../../{path}\")"),
         Source::Text => format!("{:?}", definition.text),
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn source(catalogue: &Catalogue) -> Result<String, GenerateError> {
         }
     }
     let mut out = String::from(concat!(
-        "// Generated from `msg/` and `src/messages/external/` by `cargo xtask messages`. Do not edit.\n\n",
+        "// Generated from `msg/` and `crates/flexdrill-messages/external/` by `cargo xtask messages`. Do not edit.\n\n",
         "import { CdrReader } from \"./cdr\";\n",
     ));
     for definition in &wanted {

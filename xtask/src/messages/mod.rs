@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 pub use catalogue::Catalogue;
 
 /// The generated file, from the repository's root.
-pub const OUTPUT: &str = "src/messages/generated.rs";
+pub const OUTPUT: &str = "crates/flexdrill-messages/src/generated.rs";
 
 /// The generated file of the rig page, from the repository's root.
 pub const PAGE_OUTPUT: &str = "crates/flexdrill-dashboard/web/src/messages.ts";
@@ -54,7 +54,7 @@ pub enum GenerateError {
         source: parser::ParseError,
     },
     /// A definition names a message that is nowhere.
-    #[error("{used_in} uses {name}, which is defined neither in msg/ nor in src/messages/external/")]
+    #[error("{used_in} uses {name}, which is defined neither in msg/ nor in crates/flexdrill-messages/external/")]
     UnknownType {
         /// The message that is missing.
         name: String,

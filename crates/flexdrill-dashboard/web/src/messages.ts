@@ -1,4 +1,4 @@
-// Generated from `msg/` and `src/messages/external/` by `cargo xtask messages`. Do not edit.
+// Generated from `msg/` and `crates/flexdrill-messages/external/` by `cargo xtask messages`. Do not edit.
 
 import { CdrReader } from "./cdr";
 

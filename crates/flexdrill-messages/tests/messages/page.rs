@@ -1,18 +1,12 @@
-//! The rig page's decoders are tested against bytes of our own encoder. Those bytes, with what they mean, are checked in
-//! beside the page; this holds them to what the encoder gives.
+//! The tests of the rig page decode bytes that our own encoder wrote. Those bytes and their meaning are checked in with
+//! the page; this test compares them with what the encoder gives now.
 //!
-//! `FLEXDRILL_WRITE_REFERENCE=1 cargo test --release --test messages_page` writes them anew after a change in msg/.
-
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
+//! `FLEXDRILL_WRITE_REFERENCE=1 cargo test --release -p flexdrill-messages` writes them again after a change in msg/.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
-use flexdrill::messages::{
+use flexdrill_messages::{
     Ageing, Alarm, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions,
     RigInputs, SessionInfo, TwinStatus, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
 };
@@ -168,13 +162,13 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<MarkerArray>(&mut maker),
     ];
     let fresh = format!("[\n{}\n]\n", lines.join(",\n"));
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(REFERENCE);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(REFERENCE);
     if std::env::var_os("FLEXDRILL_WRITE_REFERENCE").is_some() {
         std::fs::write(&path, &fresh).unwrap();
     }
     let checked_in = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         fresh == checked_in,
-        "{REFERENCE} is old: run FLEXDRILL_WRITE_REFERENCE=1 cargo test --release --test messages_page"
+        "{REFERENCE} is old: run FLEXDRILL_WRITE_REFERENCE=1 cargo test --release -p flexdrill-messages"
     );
 }

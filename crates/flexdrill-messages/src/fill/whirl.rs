@@ -1,8 +1,8 @@
 //! [`WhirlState`] and [`WhirlWarning`].
 
 use super::copy;
-use crate::messages::std_msgs::Header;
-use crate::messages::{WhirlState, WhirlWarning};
+use crate::std_msgs::Header;
+use crate::{WhirlState, WhirlWarning};
 use flexdrill_core::motion::{DriveState, Severity, WhirlKind, WhirlWarningLevel};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;

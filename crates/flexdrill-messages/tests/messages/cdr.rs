@@ -1,14 +1,8 @@
 //! CDR bytes of the messages: layout where it is easy to get wrong, and that no bytes whatever make the decoder panic.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
-use flexdrill::messages::std_msgs::{Float64, Header};
-use flexdrill::messages::std_srvs::TriggerRequest;
-use flexdrill::messages::{
+use flexdrill_messages::std_msgs::{Float64, Header};
+use flexdrill_messages::std_srvs::TriggerRequest;
+use flexdrill_messages::{
     AlarmList, AppliedInputs, ContactForces, Message, TwinStatus, diagnostic_msgs, from_cdr, large_array,
     rcl_interfaces, to_cdr, visualization_msgs,
 };

@@ -1,13 +1,13 @@
 //! Messages made from a snapshot say what the snapshot says.
 
-use flexdrill::messages::builtin_interfaces::Time;
-use flexdrill::messages::fill::{self, ShapeStyle};
-use flexdrill::messages::std_msgs::Header;
-use flexdrill::messages::visualization_msgs::{Marker, MarkerArray};
-use flexdrill::messages::{Ageing, BitState, ContactForces, JointDeflections, Reactions, WhirlWarning, sensor_msgs};
 use flexdrill_core::motion::{DriveState, Severity, ShockLevel, WhirlKind};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ContactLayer, Snapshot};
+use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::fill::{self, ShapeStyle};
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::visualization_msgs::{Marker, MarkerArray};
+use flexdrill_messages::{Ageing, BitState, ContactForces, JointDeflections, Reactions, WhirlWarning, sensor_msgs};
 
 fn header() -> Header {
     Header {

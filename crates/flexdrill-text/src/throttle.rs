@@ -1,9 +1,9 @@
-//! Log lines that come too often.
+//! Rate limits for log lines.
 
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Lets a line through once per interval and counts those between.
+/// Passes one line per interval and counts the lines that it held back.
 #[derive(Debug, Clone)]
 pub struct Throttle {
     interval: f64,
@@ -21,7 +21,7 @@ impl Throttle {
         }
     }
 
-    /// Whether a line may be said at `now` (s, any steady clock): then how many were not since the last one.
+    /// How many lines were held back since the last one, if a line may be logged at `now` (s, any steady clock).
     pub fn pass(&mut self, now: f64) -> Option<u64> {
         if self.last.is_some_and(|last| now - last < self.interval) {
             self.skipped += 1;
@@ -31,7 +31,7 @@ impl Throttle {
         Some(std::mem::take(&mut self.skipped))
     }
 
-    /// The same, as an ending for the line: empty, or ` (3 more since the last line)`.
+    /// As [`Throttle::pass`], as an ending for the line: empty, or ` (3 more since the last line)`.
     pub fn ending(&mut self, now: f64) -> Option<String> {
         self.pass(now).map(|skipped| match skipped {
             0 => String::new(),
@@ -40,7 +40,7 @@ impl Throttle {
     }
 }
 
-/// A throttle for each of a few causes.
+/// One [`Throttle`] per cause.
 #[derive(Debug, Clone)]
 pub struct Throttles<K> {
     interval: f64,
@@ -56,7 +56,7 @@ impl<K: Eq + Hash> Throttles<K> {
         }
     }
 
-    /// As [`Throttle::ending`], for a cause.
+    /// As [`Throttle::ending`], for one cause.
     pub fn ending(&mut self, cause: K, now: f64) -> Option<String> {
         let interval = self.interval;
         self.each

@@ -1,8 +1,8 @@
 //! [`Ageing`].
 
 use super::copy;
-use crate::messages::Ageing;
-use crate::messages::std_msgs::Header;
+use crate::Ageing;
+use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
 
 /// Seconds in an hour.

@@ -1,9 +1,9 @@
 //! [`JointDeflections`] and the stock [`JointState`].
 
 use super::{copy, largest};
-use crate::messages::JointDeflections;
-use crate::messages::sensor_msgs::JointState;
-use crate::messages::std_msgs::Header;
+use crate::JointDeflections;
+use crate::sensor_msgs::JointState;
+use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
 
 /// Fills `out`.

@@ -1,8 +1,8 @@
 //! [`ContactForces`].
 
 use super::{copy, largest};
-use crate::messages::ContactForces;
-use crate::messages::std_msgs::Header;
+use crate::ContactForces;
+use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
 
 /// Fills `out`. The largest forces are those of the publishing interval, not of the instant.

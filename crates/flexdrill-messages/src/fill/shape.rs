@@ -4,9 +4,9 @@
 //! from the bore axis are drawn larger than they are, the bore itself is not.
 
 use super::arrows::{POINTS_PER_ARROW, colour, push_arrow};
-use crate::messages::geometry_msgs::{Point, Pose, Quaternion, Vector3};
-use crate::messages::std_msgs::{ColorRGBA, Header};
-use crate::messages::visualization_msgs::{Marker, MarkerArray};
+use crate::geometry_msgs::{Point, Pose, Quaternion, Vector3};
+use crate::std_msgs::{ColorRGBA, Header};
+use crate::visualization_msgs::{Marker, MarkerArray};
 use flexdrill_core::twin::{ContactLayer, Snapshot};
 
 /// How the tool is drawn.

@@ -1,8 +1,8 @@
 //! [`Reactions`].
 
 use super::copy;
-use crate::messages::Reactions;
-use crate::messages::std_msgs::Header;
+use crate::Reactions;
+use crate::std_msgs::Header;
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
 

@@ -1,30 +1,29 @@
-//! Text of others, shown and not run.
+//! Foreign text made safe for a terminal.
 //!
-//! Names, reasons and topics come from the network, from bags and from logs. A terminal takes control characters in
-//! them for commands: they can rewrite what stands above, hide an alarm, or turn the text around. So they are shown as
-//! escapes.
+//! Names, reasons and topics come from the network, from bags and from logs. A terminal executes control characters in
+//! them: they can rewrite earlier lines, hide an alarm or reverse the text. These functions print them as escapes.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// A text on one line, with whatever a terminal could act on as an escape such as `\u{1b}`.
+/// A text on one line, with every character that a terminal would execute as an escape such as `\u{1b}`.
 pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, false)
 }
 
-/// The same of a text of several lines, which stay lines.
+/// As [`printable`], for a text of several lines: its line breaks remain.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, true)
 }
 
 fn escaped(text: &str, lines: bool) -> Cow<'_, str> {
-    let shown = |c: char| (lines && c == '\n') || !acts(c);
-    if text.chars().all(shown) {
+    let is_harmless = |c: char| (lines && c == '\n') || !is_executed(c);
+    if text.chars().all(is_harmless) {
         return Cow::Borrowed(text);
     }
     let mut out = String::with_capacity(text.len() + 16);
     for c in text.chars() {
-        if shown(c) {
+        if is_harmless(c) {
             out.push(c);
         } else {
             // Writing to a string does not fail.
@@ -34,12 +33,12 @@ fn escaped(text: &str, lines: bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// Whether a terminal does something else than showing the character.
-fn acts(c: char) -> bool {
+/// Whether a terminal acts on the character instead of printing it.
+fn is_executed(c: char) -> bool {
     c.is_control()
         || matches!(
             c,
-            // Direction marks, embeddings, overrides and isolates; line and paragraph separators; what takes no room.
+            // Direction marks, embeddings, overrides and isolates; line and paragraph separators; zero-width characters.
             '\u{061c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}'
                 | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}'
         )
@@ -50,14 +49,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn plain_text_stays_as_it_is() {
+    fn plain_text_is_unchanged() {
         for text in ["", "rig_7/weight_on_bit", "Bohrgestänge 40 r/min ± 2 °, 钻柱"] {
             assert!(matches!(printable(text), Cow::Borrowed(same) if same == text));
         }
     }
 
     #[test]
-    fn what_a_terminal_would_act_on_is_shown() {
+    fn control_characters_become_escapes() {
         // Clears the screen, sets the title, hides a line, C1 control sequence, right-to-left override.
         assert_eq!(printable("a\x1b[2Jb"), "a\\u{1b}[2Jb");
         assert_eq!(printable("\x1b]0;owned\x07"), "\\u{1b}]0;owned\\u{7}");

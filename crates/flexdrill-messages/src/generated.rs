@@ -1,4 +1,4 @@
-//! Generated from `msg/` and `src/messages/external/` by `cargo xtask messages`. Do not edit.
+//! Generated from `msg/` and `crates/flexdrill-messages/external/` by `cargo xtask messages`. Do not edit.
 
 use super::{ServiceInfo, TypeInfo};
 
@@ -6,7 +6,7 @@ use super::{ServiceInfo, TypeInfo};
 pub mod builtin_interfaces {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `builtin_interfaces/msg/Duration`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -21,7 +21,7 @@ pub mod builtin_interfaces {
         const ROS_TYPE: &'static str = "builtin_interfaces/msg/Duration";
         const DDS_TYPE: &'static str = "builtin_interfaces::msg::dds_::Duration_";
         const RIHS01: &'static str = "RIHS01_e8d009f659816f758b75334ee1a9ca5b5c0b859843261f14c7f937349599d93b";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/builtin_interfaces/msg/Duration.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Duration.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "builtin_interfaces/msg/Duration", "fields": [{"name": "sec", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nanosec", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -38,7 +38,7 @@ pub mod builtin_interfaces {
         const ROS_TYPE: &'static str = "builtin_interfaces/msg/Time";
         const DDS_TYPE: &'static str = "builtin_interfaces::msg::dds_::Time_";
         const RIHS01: &'static str = "RIHS01_b106235e25a4c5ed35098aa0a61a3ee9c9b18d197f398b0e4206cea9acf9c197";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "builtin_interfaces/msg/Time", "fields": [{"name": "sec", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nanosec", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
@@ -47,7 +47,7 @@ pub mod builtin_interfaces {
 pub mod diagnostic_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `diagnostic_msgs/msg/DiagnosticArray`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -63,15 +63,15 @@ pub mod diagnostic_msgs {
         const DDS_TYPE: &'static str = "diagnostic_msgs::msg::dds_::DiagnosticArray_";
         const RIHS01: &'static str = "RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/diagnostic_msgs/msg/DiagnosticArray.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/diagnostic_msgs/msg/DiagnosticArray.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
             "================================================================================\nMSG: diagnostic_msgs/DiagnosticStatus\n",
-            include_str!("../../src/messages/external/diagnostic_msgs/msg/DiagnosticStatus.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/diagnostic_msgs/msg/DiagnosticStatus.msg"),
             "================================================================================\nMSG: diagnostic_msgs/KeyValue\n",
-            include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/diagnostic_msgs/msg/KeyValue.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "diagnostic_msgs/msg/DiagnosticArray", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "status", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "diagnostic_msgs/msg/DiagnosticStatus"}}]}"#;
     }
@@ -100,9 +100,9 @@ pub mod diagnostic_msgs {
         const DDS_TYPE: &'static str = "diagnostic_msgs::msg::dds_::DiagnosticStatus_";
         const RIHS01: &'static str = "RIHS01_b0e3e692ea2d54a8af2f4ef1930e81556a2db55216b771f8a7d2724ed47bf0e4";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/diagnostic_msgs/msg/DiagnosticStatus.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/diagnostic_msgs/msg/DiagnosticStatus.msg"),
             "================================================================================\nMSG: diagnostic_msgs/KeyValue\n",
-            include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/diagnostic_msgs/msg/KeyValue.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "diagnostic_msgs/msg/DiagnosticStatus", "fields": [{"name": "level", "type": {"type_id": 16, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hardware_id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "values", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "diagnostic_msgs/msg/KeyValue"}}]}"#;
     }
@@ -120,7 +120,7 @@ pub mod diagnostic_msgs {
         const ROS_TYPE: &'static str = "diagnostic_msgs/msg/KeyValue";
         const DDS_TYPE: &'static str = "diagnostic_msgs::msg::dds_::KeyValue_";
         const RIHS01: &'static str = "RIHS01_d68081eaa540288c5440753baecef0c4e16e81a5f78ad68902ded5100413bb42";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/diagnostic_msgs/msg/KeyValue.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/diagnostic_msgs/msg/KeyValue.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "diagnostic_msgs/msg/KeyValue", "fields": [{"name": "key", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
@@ -129,7 +129,7 @@ pub mod diagnostic_msgs {
 pub mod flexdrill {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// What has aged since the start or the last reset, to compare joints and stations with each other and ways of drilling. No
     /// absolute life follows from it.
@@ -170,11 +170,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Ageing_";
         const RIHS01: &'static str = "RIHS01_72c5f2871b8731f13692cacc928acc8a85285e08ee9a77a264a6f3ab903f6a25";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/Ageing.msg"),
+            include_str!("../../../msg/Ageing.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Ageing", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "woehler_slope", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rated_moment", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bending_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "relative_damage", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -286,9 +286,9 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Alarm_";
         const RIHS01: &'static str = "RIHS01_af7fe187f61a9259cd2569b9a713c43604fc79a6e95dbf3e4ff969bfc20df3b9";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/Alarm.msg"),
+            include_str!("../../../msg/Alarm.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Alarm", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "active", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "acknowledged", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "threshold", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "consequence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_minute", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_earlier_run", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_the_engineer_can_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "worst_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "ended", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "ended_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
@@ -376,11 +376,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmEvent_";
         const RIHS01: &'static str = "RIHS01_c0c9aabb7fe1268e4fe0a988513548a12d8cffd51b24f64700801fd8c860e9c2";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/AlarmEvent.msg"),
+            include_str!("../../../msg/AlarmEvent.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmEvent", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "change", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciates", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_the_engineer_can_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "worst_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "ended_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
@@ -416,13 +416,13 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmList_";
         const RIHS01: &'static str = "RIHS01_702959c2a1c6c3890dee3f560beb6996c2a4ac7ff868e0ee8a48f6dcb53b4963";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/AlarmList.msg"),
+            include_str!("../../../msg/AlarmList.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
             "================================================================================\nMSG: flexdrill/Alarm\n",
-            include_str!("../../msg/Alarm.msg"),
+            include_str!("../../../msg/Alarm.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmList", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/Alarm"}}, {"name": "unacknowledged", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_ten_minutes", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "flood", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_per_hour", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "flood_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -486,11 +486,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AppliedInputs_";
         const RIHS01: &'static str = "RIHS01_1c82816f859bebe6dc1a7f3241f352f0a9eadcdf18327edfd5871298a6be51f3";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/AppliedInputs.msg"),
+            include_str!("../../../msg/AppliedInputs.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AppliedInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "skipped_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reset", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inner_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "outer_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_value", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_asked_by", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "refinement", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -541,11 +541,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::BitState_";
         const RIHS01: &'static str = "RIHS01_689e5e56898732a1224f82b9c4b2e861660c3263671dbebf76d104ecca570b25";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/BitState.msg"),
+            include_str!("../../../msg/BitState.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/BitState", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stick_slip_index", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "tangential_acceleration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_acceleration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_acceleration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_acceleration_peak", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_impulse", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stick_slip_severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -635,11 +635,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::ContactForces_";
         const RIHS01: &'static str = "RIHS01_e57eb3ac0cfce2e19834ef628c2c524459b4322030fac85664ff561df40ee3bc";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/ContactForces.msg"),
+            include_str!("../../../msg/ContactForces.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/ContactForces", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "max_pipe_guide_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_pipe_guide_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_guide_wall_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_guide_wall_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_gap", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_tangential", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_axial", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal_peak", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal_rms", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_gap", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_tangential", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_axial", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal_peak", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal_rms", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_shock", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_shock", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_impulse", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_layer", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -690,11 +690,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::JointDeflections_";
         const RIHS01: &'static str = "RIHS01_0cbbe142f2c40f82a157ed05b518531c55256d8c6b5212d55b61a70e92292388";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/JointDeflections.msg"),
+            include_str!("../../../msg/JointDeflections.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/JointDeflections", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "max_bend_angle", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_bend_joint", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joints_at_limit", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bend_angle", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bend_direction", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "limit_angle", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_moment", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "spin_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_force", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shear_force", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -760,11 +760,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Reactions_";
         const RIHS01: &'static str = "RIHS01_4ccf4ad06f5c354eb83a5ec31e99219185cbced1737213ed22a25db08357f9cd";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/Reactions.msg"),
+            include_str!("../../../msg/Reactions.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Reactions", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "drive_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "support_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "wall_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "load_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inertia_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "damping_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unbalanced_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -801,11 +801,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::RigInputs_";
         const RIHS01: &'static str = "RIHS01_2c72cf99edd4f28f8dc259cc4421f48494a0cb51aeae5c7a0580529132a032ac";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/RigInputs.msg"),
+            include_str!("../../../msg/RigInputs.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -834,11 +834,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::SessionInfo_";
         const RIHS01: &'static str = "RIHS01_0a3eff65416a497c5640cf09c4b8823cc1454df0723a6441ab160a5110ef22b9";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/SessionInfo.msg"),
+            include_str!("../../../msg/SessionInfo.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/SessionInfo", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "start", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "configuration", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -1033,11 +1033,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::TwinStatus_";
         const RIHS01: &'static str = "RIHS01_5f8e917c0e46f0bc49dc9c55904a6799d7e3e714613fc424ba412a5d5c880835";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/TwinStatus.msg"),
+            include_str!("../../../msg/TwinStatus.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/TwinStatus", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_time", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_count", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "real_time_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateness", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "deadline_misses", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_skipped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p50", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p99", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_max", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "newton_iterations_mean", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rejected_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "halved_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_path", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_messages", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_age", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_received", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_applied", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_rejected", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_topic", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_sent", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_dropped", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_time", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_up", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restarts", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restart_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_stalled_reader", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "namesake", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clock_set_by", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_driver", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_publishers", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_several_drivers", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_not_driving", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_unreadable", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_safe", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_source", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_suspect", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "frames_dropped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "events_lost", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_overrun", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_in_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_wanted", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pace", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pace_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_stood_still", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -1110,11 +1110,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhirlState_";
         const RIHS01: &'static str = "RIHS01_ea41454404d7eff1b674ed7b75695a83fd62ec22970962b84c28b38ade72a441";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/WhirlState.msg"),
+            include_str!("../../../msg/WhirlState.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhirlState", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kind", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_ratio", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "orbit_radius", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clearance_ratio", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_duty", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "severity", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rolling_share", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "gap_turns", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bending_cycles", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "impulse", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "impact_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_power", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -1204,11 +1204,11 @@ pub mod flexdrill {
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhirlWarning_";
         const RIHS01: &'static str = "RIHS01_e126acd535b1644030bb7451f1304582f3337b6805bc5350c2870b8d9639324a";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../msg/WhirlWarning.msg"),
+            include_str!("../../../msg/WhirlWarning.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhirlWarning", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kind", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clearance_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_duty", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "window", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "peak_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rolling_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -1342,7 +1342,7 @@ pub mod flexdrill {
 pub mod geometry_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `geometry_msgs/msg/Point`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -1358,7 +1358,7 @@ pub mod geometry_msgs {
         const ROS_TYPE: &'static str = "geometry_msgs/msg/Point";
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Point_";
         const RIHS01: &'static str = "RIHS01_6963084842a9b04494d6b2941d11444708d892da2f4b09843b9c43f42a7f6881";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Point.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Point", "fields": [{"name": "x", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "y", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "z", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -1376,11 +1376,11 @@ pub mod geometry_msgs {
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Pose_";
         const RIHS01: &'static str = "RIHS01_d501954e9476cea2996984e812054b68026ae0bfae789d9a10b23daf35cc90fa";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/geometry_msgs/msg/Pose.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Pose.msg"),
             "================================================================================\nMSG: geometry_msgs/Point\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Point.msg"),
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Quaternion.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Pose", "fields": [{"name": "position", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Point"}}, {"name": "orientation", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Quaternion"}}]}"#;
     }
@@ -1400,7 +1400,7 @@ pub mod geometry_msgs {
         const ROS_TYPE: &'static str = "geometry_msgs/msg/Quaternion";
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Quaternion_";
         const RIHS01: &'static str = "RIHS01_8a765f66778c8ff7c8ab94afcc590a2ed5325a1d9a076ffff38fbce36f458684";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Quaternion.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Quaternion", "fields": [{"name": "x", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "y", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "z", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "w", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -1418,11 +1418,11 @@ pub mod geometry_msgs {
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Transform_";
         const RIHS01: &'static str = "RIHS01_beb83fbe698636351461f6f35d1abb20010c43d55374d81bd041f1ba2581fddc";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/geometry_msgs/msg/Transform.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Transform.msg"),
             "================================================================================\nMSG: geometry_msgs/Vector3\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Vector3.msg"),
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Quaternion.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Transform", "fields": [{"name": "translation", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Vector3"}}, {"name": "rotation", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Quaternion"}}]}"#;
     }
@@ -1442,17 +1442,17 @@ pub mod geometry_msgs {
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::TransformStamped_";
         const RIHS01: &'static str = "RIHS01_0a241f87d04668d94099cbb5ba11691d5ad32c2f29682e4eb5653424bd275206";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/geometry_msgs/msg/TransformStamped.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/TransformStamped.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
             "================================================================================\nMSG: geometry_msgs/Transform\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Transform.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Transform.msg"),
             "================================================================================\nMSG: geometry_msgs/Vector3\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Vector3.msg"),
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Quaternion.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/TransformStamped", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "child_frame_id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "transform", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Transform"}}]}"#;
     }
@@ -1471,7 +1471,7 @@ pub mod geometry_msgs {
         const ROS_TYPE: &'static str = "geometry_msgs/msg/Vector3";
         const DDS_TYPE: &'static str = "geometry_msgs::msg::dds_::Vector3_";
         const RIHS01: &'static str = "RIHS01_cc12fe83e4c02719f1ce8070bfd14aecd40f75a96696a67a2a1f37f7dbb0765d";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Vector3.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "geometry_msgs/msg/Vector3", "fields": [{"name": "x", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "y", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "z", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
@@ -1480,7 +1480,7 @@ pub mod geometry_msgs {
 pub mod lifecycle_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `lifecycle_msgs/msg/State`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -1509,7 +1509,7 @@ pub mod lifecycle_msgs {
         const ROS_TYPE: &'static str = "lifecycle_msgs/msg/State";
         const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::State_";
         const RIHS01: &'static str = "RIHS01_dd2d02b82f3ebc858e53c431b1e6e91f3ffc71436fc81d0715214ac6ee2107a0";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/State.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/msg/State", "fields": [{"name": "id", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "label", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -1559,7 +1559,7 @@ pub mod lifecycle_msgs {
         const ROS_TYPE: &'static str = "lifecycle_msgs/msg/Transition";
         const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::Transition_";
         const RIHS01: &'static str = "RIHS01_c65d7b31ea134cba4f54fc867b817979be799f7452035cd35fac9b7421fb3424";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/Transition.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/msg/Transition", "fields": [{"name": "id", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "label", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -1578,11 +1578,11 @@ pub mod lifecycle_msgs {
         const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::TransitionDescription_";
         const RIHS01: &'static str = "RIHS01_c5f1cd4bb1ad2ba0e3329d4ac7015c52a674a72c1faf7974c37a33f4f6048b28";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/TransitionDescription.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/TransitionDescription.msg"),
             "================================================================================\nMSG: lifecycle_msgs/Transition\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/Transition.msg"),
             "================================================================================\nMSG: lifecycle_msgs/State\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/State.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/msg/TransitionDescription", "fields": [{"name": "transition", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/Transition"}}, {"name": "start_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}, {"name": "goal_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}]}"#;
     }
@@ -1603,11 +1603,11 @@ pub mod lifecycle_msgs {
         const DDS_TYPE: &'static str = "lifecycle_msgs::msg::dds_::TransitionEvent_";
         const RIHS01: &'static str = "RIHS01_d5f8873a2f0146498f812d7885c7327ce27e463d36811d8792f35ee38c0d6c38";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/TransitionEvent.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/TransitionEvent.msg"),
             "================================================================================\nMSG: lifecycle_msgs/Transition\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/Transition.msg"),
             "================================================================================\nMSG: lifecycle_msgs/State\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/State.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/msg/TransitionEvent", "fields": [{"name": "timestamp", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "transition", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/Transition"}}, {"name": "start_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}, {"name": "goal_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}]}"#;
     }
@@ -1627,7 +1627,7 @@ pub mod lifecycle_msgs {
         const SCHEMA: &'static str = concat!(
             "Transition transition\n",
             "================================================================================\nMSG: lifecycle_msgs/Transition\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/Transition.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/ChangeState_Request", "fields": [{"name": "transition", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/Transition"}}]}"#;
     }
@@ -1680,7 +1680,7 @@ pub mod lifecycle_msgs {
         const SCHEMA: &'static str = concat!(
             "State[] available_states\n",
             "================================================================================\nMSG: lifecycle_msgs/State\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/State.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetAvailableStates_Response", "fields": [{"name": "available_states", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}]}"#;
     }
@@ -1717,11 +1717,11 @@ pub mod lifecycle_msgs {
         const SCHEMA: &'static str = concat!(
             "TransitionDescription[] available_transitions\n",
             "================================================================================\nMSG: lifecycle_msgs/TransitionDescription\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/TransitionDescription.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/TransitionDescription.msg"),
             "================================================================================\nMSG: lifecycle_msgs/Transition\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/Transition.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/Transition.msg"),
             "================================================================================\nMSG: lifecycle_msgs/State\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/State.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Response", "fields": [{"name": "available_transitions", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/TransitionDescription"}}]}"#;
     }
@@ -1758,7 +1758,7 @@ pub mod lifecycle_msgs {
         const SCHEMA: &'static str = concat!(
             "State current_state\n",
             "================================================================================\nMSG: lifecycle_msgs/State\n",
-            include_str!("../../src/messages/external/lifecycle_msgs/msg/State.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/msg/State.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "lifecycle_msgs/srv/GetState_Response", "fields": [{"name": "current_state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/msg/State"}}]}"#;
     }
@@ -1768,7 +1768,7 @@ pub mod lifecycle_msgs {
 pub mod rcl_interfaces {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `rcl_interfaces/msg/FloatingPointRange`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -1784,7 +1784,7 @@ pub mod rcl_interfaces {
         const ROS_TYPE: &'static str = "rcl_interfaces/msg/FloatingPointRange";
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::FloatingPointRange_";
         const RIHS01: &'static str = "RIHS01_e6af23a23c177fee5f3075c8b1e435162a9b63c863d78c06017460b49684262d";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/FloatingPointRange.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/FloatingPointRange.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/FloatingPointRange", "fields": [{"name": "from_value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -1802,7 +1802,7 @@ pub mod rcl_interfaces {
         const ROS_TYPE: &'static str = "rcl_interfaces/msg/IntegerRange";
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::IntegerRange_";
         const RIHS01: &'static str = "RIHS01_f7b7fdc0f65f07702e099218e13288c3963bcb9345bde78b560e6cd19800fc5a";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/IntegerRange.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/IntegerRange", "fields": [{"name": "from_value", "type": {"type_id": 8, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_value", "type": {"type_id": 8, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -1819,7 +1819,7 @@ pub mod rcl_interfaces {
         const ROS_TYPE: &'static str = "rcl_interfaces/msg/ListParametersResult";
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ListParametersResult_";
         const RIHS01: &'static str = "RIHS01_237ae3428413dcbcfb452b510c42355f3a2b021dc091afa3e18526d57022f1cd";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ListParametersResult.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ListParametersResult.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ListParametersResult", "fields": [{"name": "names", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "prefixes", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -1850,9 +1850,9 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::Log_";
         const RIHS01: &'static str = "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/rcl_interfaces/msg/Log.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/Log.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/Log", "fields": [{"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "level", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "msg", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "file", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "function", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "line", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -1880,7 +1880,7 @@ pub mod rcl_interfaces {
         const ROS_TYPE: &'static str = "rcl_interfaces/msg/LoggerLevel";
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::LoggerLevel_";
         const RIHS01: &'static str = "RIHS01_95785cc42f048ab4f395af65035aeaf2181d8e1c7a44edb8ad4558445fdb43c0";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/LoggerLevel.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/LoggerLevel", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "level", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -1898,9 +1898,9 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::Parameter_";
         const RIHS01: &'static str = "RIHS01_ddfe6442cffc462317adb5c92536a7b6dd55858c5c3e1e328165a6b73c2831af";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/rcl_interfaces/msg/Parameter.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/Parameter.msg"),
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/Parameter", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/ParameterValue"}}]}"#;
     }
@@ -1925,11 +1925,11 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterDescriptor_";
         const RIHS01: &'static str = "RIHS01_52175dbfda6c51153101d33d2a9da05743f66f02d5ab2ca9ec4709b46b73d704";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterDescriptor.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterDescriptor.msg"),
             "================================================================================\nMSG: rcl_interfaces/FloatingPointRange\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/FloatingPointRange.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/FloatingPointRange.msg"),
             "================================================================================\nMSG: rcl_interfaces/IntegerRange\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/IntegerRange.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ParameterDescriptor", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "description", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "additional_constraints", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "read_only", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dynamic_typing", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "floating_point_range", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/FloatingPointRange"}}, {"name": "integer_range", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/IntegerRange"}}]}"#;
     }
@@ -1951,13 +1951,13 @@ pub mod rcl_interfaces {
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterEvent_";
         const RIHS01: &'static str = "RIHS01_043e627780fcad87a22d225bc2a037361dba713fca6a6b9f4b869a5aa0393204";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterEvent.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterEvent.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
             "================================================================================\nMSG: rcl_interfaces/Parameter\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/Parameter.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/Parameter.msg"),
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ParameterEvent", "fields": [{"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "node", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "new_parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}, {"name": "changed_parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}, {"name": "deleted_parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}]}"#;
     }
@@ -1988,7 +1988,7 @@ pub mod rcl_interfaces {
         const ROS_TYPE: &'static str = "rcl_interfaces/msg/ParameterType";
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterType_";
         const RIHS01: &'static str = "RIHS01_df29ed057a834862187be24dd187d981790ff3ea6502f4cd27b432cbc42c6d46";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterType.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterType.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ParameterType", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -2013,7 +2013,7 @@ pub mod rcl_interfaces {
         const ROS_TYPE: &'static str = "rcl_interfaces/msg/ParameterValue";
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::ParameterValue_";
         const RIHS01: &'static str = "RIHS01_115fc089a387e23c7ecd3525c9189c379109119d6ab82e8dfbde0fdf6a7f9b68";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterValue.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/ParameterValue", "fields": [{"name": "type", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bool_value", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "integer_value", "type": {"type_id": 8, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "double_value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_value", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "byte_array_value", "type": {"type_id": 160, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bool_array_value", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "integer_array_value", "type": {"type_id": 152, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "double_array_value", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_array_value", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -2030,7 +2030,7 @@ pub mod rcl_interfaces {
         const ROS_TYPE: &'static str = "rcl_interfaces/msg/SetLoggerLevelsResult";
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::SetLoggerLevelsResult_";
         const RIHS01: &'static str = "RIHS01_9316e5e679a5b72d2dd7fd80c539bae9e106fa0890a06dc5da3a8177a3ff6909";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/SetLoggerLevelsResult.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/SetLoggerLevelsResult.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/SetLoggerLevelsResult", "fields": [{"name": "successful", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -2047,7 +2047,7 @@ pub mod rcl_interfaces {
         const ROS_TYPE: &'static str = "rcl_interfaces/msg/SetParametersResult";
         const DDS_TYPE: &'static str = "rcl_interfaces::msg::dds_::SetParametersResult_";
         const RIHS01: &'static str = "RIHS01_cfcc0fb0371ee5159b403960ef4300f8f9d2f1fd6117c8666b7f9654d528a9b1";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/SetParametersResult.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/msg/SetParametersResult", "fields": [{"name": "successful", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -2082,11 +2082,11 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "ParameterDescriptor[] descriptors\n",
             "================================================================================\nMSG: rcl_interfaces/ParameterDescriptor\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterDescriptor.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterDescriptor.msg"),
             "================================================================================\nMSG: rcl_interfaces/FloatingPointRange\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/FloatingPointRange.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/FloatingPointRange.msg"),
             "================================================================================\nMSG: rcl_interfaces/IntegerRange\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/IntegerRange.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/IntegerRange.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/DescribeParameters_Response", "fields": [{"name": "descriptors", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/ParameterDescriptor"}}]}"#;
     }
@@ -2122,7 +2122,7 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "rcl_interfaces/LoggerLevel[] levels\n",
             "================================================================================\nMSG: rcl_interfaces/LoggerLevel\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/LoggerLevel.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/GetLoggerLevels_Response", "fields": [{"name": "levels", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/LoggerLevel"}}]}"#;
     }
@@ -2190,7 +2190,7 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "ParameterValue[] values\n",
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/GetParameters_Response", "fields": [{"name": "values", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/ParameterValue"}}]}"#;
     }
@@ -2231,7 +2231,7 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "ListParametersResult result\n",
             "================================================================================\nMSG: rcl_interfaces/ListParametersResult\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ListParametersResult.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ListParametersResult.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/ListParameters_Response", "fields": [{"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/ListParametersResult"}}]}"#;
     }
@@ -2251,7 +2251,7 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "rcl_interfaces/LoggerLevel[] levels\n",
             "================================================================================\nMSG: rcl_interfaces/LoggerLevel\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/LoggerLevel.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/LoggerLevel.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetLoggerLevels_Request", "fields": [{"name": "levels", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/LoggerLevel"}}]}"#;
     }
@@ -2271,7 +2271,7 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "rcl_interfaces/SetLoggerLevelsResult[] results\n",
             "================================================================================\nMSG: rcl_interfaces/SetLoggerLevelsResult\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/SetLoggerLevelsResult.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/SetLoggerLevelsResult.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetLoggerLevels_Response", "fields": [{"name": "results", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/SetLoggerLevelsResult"}}]}"#;
     }
@@ -2291,9 +2291,9 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "Parameter[] parameters\n",
             "================================================================================\nMSG: rcl_interfaces/Parameter\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/Parameter.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/Parameter.msg"),
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically_Request", "fields": [{"name": "parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}]}"#;
     }
@@ -2313,7 +2313,7 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "SetParametersResult result\n",
             "================================================================================\nMSG: rcl_interfaces/SetParametersResult\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/SetParametersResult.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically_Response", "fields": [{"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/SetParametersResult"}}]}"#;
     }
@@ -2333,9 +2333,9 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "Parameter[] parameters\n",
             "================================================================================\nMSG: rcl_interfaces/Parameter\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/Parameter.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/Parameter.msg"),
             "================================================================================\nMSG: rcl_interfaces/ParameterValue\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/ParameterValue.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/ParameterValue.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetParameters_Request", "fields": [{"name": "parameters", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/Parameter"}}]}"#;
     }
@@ -2355,7 +2355,7 @@ pub mod rcl_interfaces {
         const SCHEMA: &'static str = concat!(
             "SetParametersResult[] results\n",
             "================================================================================\nMSG: rcl_interfaces/SetParametersResult\n",
-            include_str!("../../src/messages/external/rcl_interfaces/msg/SetParametersResult.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/msg/SetParametersResult.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rcl_interfaces/srv/SetParameters_Response", "fields": [{"name": "results", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/msg/SetParametersResult"}}]}"#;
     }
@@ -2365,7 +2365,7 @@ pub mod rcl_interfaces {
 pub mod rosgraph_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `rosgraph_msgs/msg/Clock`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2380,9 +2380,9 @@ pub mod rosgraph_msgs {
         const DDS_TYPE: &'static str = "rosgraph_msgs::msg::dds_::Clock_";
         const RIHS01: &'static str = "RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/rosgraph_msgs/msg/Clock.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/rosgraph_msgs/msg/Clock.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "rosgraph_msgs/msg/Clock", "fields": [{"name": "clock", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
@@ -2392,7 +2392,7 @@ pub mod rosgraph_msgs {
 pub mod sensor_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `sensor_msgs/msg/CompressedImage`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2409,11 +2409,11 @@ pub mod sensor_msgs {
         const DDS_TYPE: &'static str = "sensor_msgs::msg::dds_::CompressedImage_";
         const RIHS01: &'static str = "RIHS01_15640771531571185e2efc8a100baf923961a4d15d5569652e6cb6691e8e371a";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/sensor_msgs/msg/CompressedImage.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/sensor_msgs/msg/CompressedImage.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "sensor_msgs/msg/CompressedImage", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "format", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "data", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -2435,11 +2435,11 @@ pub mod sensor_msgs {
         const DDS_TYPE: &'static str = "sensor_msgs::msg::dds_::JointState_";
         const RIHS01: &'static str = "RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/sensor_msgs/msg/JointState.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/sensor_msgs/msg/JointState.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "sensor_msgs/msg/JointState", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "position", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "velocity", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "effort", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -2449,7 +2449,7 @@ pub mod sensor_msgs {
 pub mod service_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// What every event of a service carries.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2478,9 +2478,9 @@ pub mod service_msgs {
         const DDS_TYPE: &'static str = "service_msgs::msg::dds_::ServiceEventInfo_";
         const RIHS01: &'static str = "RIHS01_41bcbbe07a75c9b52bc96bfd5c24d7f0fc0a08c0cb7921b3373c5732345a6f45";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/service_msgs/msg/ServiceEventInfo.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/service_msgs/msg/ServiceEventInfo.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "service_msgs/msg/ServiceEventInfo", "fields": [{"name": "event_type", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "client_gid", "type": {"type_id": 51, "capacity": 16, "string_capacity": 0, "nested_type_name": ""}}, {"name": "sequence_number", "type": {"type_id": 8, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -2490,7 +2490,7 @@ pub mod service_msgs {
 pub mod std_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `std_msgs/msg/ColorRGBA`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2507,7 +2507,7 @@ pub mod std_msgs {
         const ROS_TYPE: &'static str = "std_msgs/msg/ColorRGBA";
         const DDS_TYPE: &'static str = "std_msgs::msg::dds_::ColorRGBA_";
         const RIHS01: &'static str = "RIHS01_77a7a5b9ae477306097665106e0413ba74440245b1f3d0c6d6405fe5c7813fe8";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/ColorRGBA.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/ColorRGBA.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "std_msgs/msg/ColorRGBA", "fields": [{"name": "r", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "g", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "b", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "a", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -2523,7 +2523,7 @@ pub mod std_msgs {
         const ROS_TYPE: &'static str = "std_msgs/msg/Float64";
         const DDS_TYPE: &'static str = "std_msgs::msg::dds_::Float64_";
         const RIHS01: &'static str = "RIHS01_705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/Float64.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Float64.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "std_msgs/msg/Float64", "fields": [{"name": "data", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -2541,9 +2541,9 @@ pub mod std_msgs {
         const DDS_TYPE: &'static str = "std_msgs::msg::dds_::Header_";
         const RIHS01: &'static str = "RIHS01_f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "std_msgs/msg/Header", "fields": [{"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "frame_id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -2560,7 +2560,7 @@ pub mod std_msgs {
         const ROS_TYPE: &'static str = "std_msgs/msg/String";
         const DDS_TYPE: &'static str = "std_msgs::msg::dds_::String_";
         const RIHS01: &'static str = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/std_msgs/msg/String.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/String.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "std_msgs/msg/String", "fields": [{"name": "data", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
@@ -2569,7 +2569,7 @@ pub mod std_msgs {
 pub mod std_srvs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `std_srvs/srv/SetBool_Request`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2643,7 +2643,7 @@ pub mod std_srvs {
 pub mod tf2_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `tf2_msgs/msg/TFMessage`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2658,19 +2658,19 @@ pub mod tf2_msgs {
         const DDS_TYPE: &'static str = "tf2_msgs::msg::dds_::TFMessage_";
         const RIHS01: &'static str = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/tf2_msgs/msg/TFMessage.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/tf2_msgs/msg/TFMessage.msg"),
             "================================================================================\nMSG: geometry_msgs/TransformStamped\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/TransformStamped.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/TransformStamped.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
             "================================================================================\nMSG: geometry_msgs/Transform\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Transform.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Transform.msg"),
             "================================================================================\nMSG: geometry_msgs/Vector3\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Vector3.msg"),
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Quaternion.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "tf2_msgs/msg/TFMessage", "fields": [{"name": "transforms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/TransformStamped"}}]}"#;
     }
@@ -2680,7 +2680,7 @@ pub mod tf2_msgs {
 pub mod type_description_interfaces {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `type_description_interfaces/msg/Field`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2699,9 +2699,9 @@ pub mod type_description_interfaces {
         const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::Field_";
         const RIHS01: &'static str = "RIHS01_c0b01379cd4226281285ccaf6be46653968f855f7c5e41614ff5d7a854efef7c";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/type_description_interfaces/msg/Field.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/Field.msg"),
             "================================================================================\nMSG: type_description_interfaces/FieldType\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/FieldType.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/Field", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/FieldType"}}, {"name": "default_value", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -2726,7 +2726,7 @@ pub mod type_description_interfaces {
         const ROS_TYPE: &'static str = "type_description_interfaces/msg/FieldType";
         const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::FieldType_";
         const RIHS01: &'static str = "RIHS01_a70b6dd919645a03a3586f7f821defbc886ea3e531a1d95cc0f380a3973ccaa6";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/FieldType.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/FieldType", "fields": [{"name": "type_id", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "capacity", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_capacity", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nested_type_name", "type": {"type_id": 21, "capacity": 0, "string_capacity": 255, "nested_type_name": ""}}]}"#;
     }
 
@@ -2745,11 +2745,11 @@ pub mod type_description_interfaces {
         const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::IndividualTypeDescription_";
         const RIHS01: &'static str = "RIHS01_55c827d86c3c141bdd318fe6c22e11190e4d3b37c8f4f9751a084aa05ce96560";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
             "================================================================================\nMSG: type_description_interfaces/Field\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/Field.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/Field.msg"),
             "================================================================================\nMSG: type_description_interfaces/FieldType\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/FieldType.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/IndividualTypeDescription", "fields": [{"name": "type_name", "type": {"type_id": 21, "capacity": 0, "string_capacity": 255, "nested_type_name": ""}}, {"name": "fields", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/Field"}}]}"#;
     }
@@ -2767,7 +2767,7 @@ pub mod type_description_interfaces {
         const ROS_TYPE: &'static str = "type_description_interfaces/msg/KeyValue";
         const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::KeyValue_";
         const RIHS01: &'static str = "RIHS01_274fe56bf14f33c7512e34c646a37579ee36779f745f049a9760763e817f0c42";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/type_description_interfaces/msg/KeyValue.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/KeyValue.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/KeyValue", "fields": [{"name": "key", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -2787,13 +2787,13 @@ pub mod type_description_interfaces {
         const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::TypeDescription_";
         const RIHS01: &'static str = "RIHS01_739f2508c9fa3a6f330913ff5b9d25fb74159a077da71e1087f51a60c12a080b";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/type_description_interfaces/msg/TypeDescription.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/TypeDescription.msg"),
             "================================================================================\nMSG: type_description_interfaces/IndividualTypeDescription\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
             "================================================================================\nMSG: type_description_interfaces/Field\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/Field.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/Field.msg"),
             "================================================================================\nMSG: type_description_interfaces/FieldType\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/FieldType.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/TypeDescription", "fields": [{"name": "type_description", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/IndividualTypeDescription"}}, {"name": "referenced_type_descriptions", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/IndividualTypeDescription"}}]}"#;
     }
@@ -2814,7 +2814,7 @@ pub mod type_description_interfaces {
         const ROS_TYPE: &'static str = "type_description_interfaces/msg/TypeSource";
         const DDS_TYPE: &'static str = "type_description_interfaces::msg::dds_::TypeSource_";
         const RIHS01: &'static str = "RIHS01_faeaec7596c04ecf5b6e99ad225e4c7cbb997ad5435f793526fb3984d011aae5";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/type_description_interfaces/msg/TypeSource.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/TypeSource.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/msg/TypeSource", "fields": [{"name": "type_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "encoding", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "raw_file_contents", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -2871,17 +2871,17 @@ pub mod type_description_interfaces {
         const SCHEMA: &'static str = concat!(
             "# Whether there is a description.\nbool successful\n# Why not; else empty.\nstring failure_reason\nTypeDescription type_description\n# The texts of the type and of those it is made of.\nTypeSource[] type_sources\nKeyValue[] extra_information\n",
             "================================================================================\nMSG: type_description_interfaces/TypeDescription\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/TypeDescription.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/TypeDescription.msg"),
             "================================================================================\nMSG: type_description_interfaces/IndividualTypeDescription\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/IndividualTypeDescription.msg"),
             "================================================================================\nMSG: type_description_interfaces/Field\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/Field.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/Field.msg"),
             "================================================================================\nMSG: type_description_interfaces/FieldType\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/FieldType.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/FieldType.msg"),
             "================================================================================\nMSG: type_description_interfaces/TypeSource\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/TypeSource.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/TypeSource.msg"),
             "================================================================================\nMSG: type_description_interfaces/KeyValue\n",
-            include_str!("../../src/messages/external/type_description_interfaces/msg/KeyValue.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/msg/KeyValue.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription_Response", "fields": [{"name": "successful", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure_reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type_description", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/TypeDescription"}}, {"name": "type_sources", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/TypeSource"}}, {"name": "extra_information", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/msg/KeyValue"}}]}"#;
     }
@@ -2891,7 +2891,7 @@ pub mod type_description_interfaces {
 pub mod visualization_msgs {
     use serde::{Deserialize, Serialize};
 
-    use crate::messages::Message;
+    use crate::Message;
 
     /// `visualization_msgs/msg/Marker`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -2944,29 +2944,29 @@ pub mod visualization_msgs {
         const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::Marker_";
         const RIHS01: &'static str = "RIHS01_45b13ccf791f225962bf74e746f9644518855d783a6f42ba0cc14fde2b4f3ce0";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/visualization_msgs/msg/Marker.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/Marker.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
             "================================================================================\nMSG: geometry_msgs/Pose\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Pose.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Pose.msg"),
             "================================================================================\nMSG: geometry_msgs/Point\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Point.msg"),
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Quaternion.msg"),
             "================================================================================\nMSG: geometry_msgs/Vector3\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Vector3.msg"),
             "================================================================================\nMSG: std_msgs/ColorRGBA\n",
-            include_str!("../../src/messages/external/std_msgs/msg/ColorRGBA.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/ColorRGBA.msg"),
             "================================================================================\nMSG: builtin_interfaces/Duration\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Duration.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Duration.msg"),
             "================================================================================\nMSG: sensor_msgs/CompressedImage\n",
-            include_str!("../../src/messages/external/sensor_msgs/msg/CompressedImage.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/sensor_msgs/msg/CompressedImage.msg"),
             "================================================================================\nMSG: visualization_msgs/UVCoordinate\n",
-            include_str!("../../src/messages/external/visualization_msgs/msg/UVCoordinate.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/UVCoordinate.msg"),
             "================================================================================\nMSG: visualization_msgs/MeshFile\n",
-            include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/MeshFile.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "visualization_msgs/msg/Marker", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "ns", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "type", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "action", "type": {"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pose", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Pose"}}, {"name": "scale", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Vector3"}}, {"name": "color", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/ColorRGBA"}}, {"name": "lifetime", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Duration"}}, {"name": "frame_locked", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "points", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "geometry_msgs/msg/Point"}}, {"name": "colors", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/ColorRGBA"}}, {"name": "texture_resource", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "texture", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "sensor_msgs/msg/CompressedImage"}}, {"name": "uv_coordinates", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "visualization_msgs/msg/UVCoordinate"}}, {"name": "text", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "mesh_resource", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "mesh_file", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "visualization_msgs/msg/MeshFile"}}, {"name": "mesh_use_embedded_materials", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
@@ -2984,31 +2984,31 @@ pub mod visualization_msgs {
         const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::MarkerArray_";
         const RIHS01: &'static str = "RIHS01_86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf";
         const SCHEMA: &'static str = concat!(
-            include_str!("../../src/messages/external/visualization_msgs/msg/MarkerArray.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/MarkerArray.msg"),
             "================================================================================\nMSG: visualization_msgs/Marker\n",
-            include_str!("../../src/messages/external/visualization_msgs/msg/Marker.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/Marker.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
-            include_str!("../../src/messages/external/std_msgs/msg/Header.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
             "================================================================================\nMSG: builtin_interfaces/Time\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Time.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
             "================================================================================\nMSG: geometry_msgs/Pose\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Pose.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Pose.msg"),
             "================================================================================\nMSG: geometry_msgs/Point\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Point.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Point.msg"),
             "================================================================================\nMSG: geometry_msgs/Quaternion\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Quaternion.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Quaternion.msg"),
             "================================================================================\nMSG: geometry_msgs/Vector3\n",
-            include_str!("../../src/messages/external/geometry_msgs/msg/Vector3.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/geometry_msgs/msg/Vector3.msg"),
             "================================================================================\nMSG: std_msgs/ColorRGBA\n",
-            include_str!("../../src/messages/external/std_msgs/msg/ColorRGBA.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/ColorRGBA.msg"),
             "================================================================================\nMSG: builtin_interfaces/Duration\n",
-            include_str!("../../src/messages/external/builtin_interfaces/msg/Duration.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Duration.msg"),
             "================================================================================\nMSG: sensor_msgs/CompressedImage\n",
-            include_str!("../../src/messages/external/sensor_msgs/msg/CompressedImage.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/sensor_msgs/msg/CompressedImage.msg"),
             "================================================================================\nMSG: visualization_msgs/UVCoordinate\n",
-            include_str!("../../src/messages/external/visualization_msgs/msg/UVCoordinate.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/UVCoordinate.msg"),
             "================================================================================\nMSG: visualization_msgs/MeshFile\n",
-            include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg"),
+            include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/MeshFile.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "visualization_msgs/msg/MarkerArray", "fields": [{"name": "markers", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "visualization_msgs/msg/Marker"}}]}"#;
     }
@@ -3026,7 +3026,7 @@ pub mod visualization_msgs {
         const ROS_TYPE: &'static str = "visualization_msgs/msg/MeshFile";
         const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::MeshFile_";
         const RIHS01: &'static str = "RIHS01_7710ece15a148fb7c9b546364cfb215bb06098087bd6394fe5b73a493508f8c4";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/visualization_msgs/msg/MeshFile.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/MeshFile.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "visualization_msgs/msg/MeshFile", "fields": [{"name": "filename", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "data", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
@@ -3043,7 +3043,7 @@ pub mod visualization_msgs {
         const ROS_TYPE: &'static str = "visualization_msgs/msg/UVCoordinate";
         const DDS_TYPE: &'static str = "visualization_msgs::msg::dds_::UVCoordinate_";
         const RIHS01: &'static str = "RIHS01_f27f7ed21fe360c6066944f856b801a0c0d1e94e815b6886444b42d90b196a26";
-        const SCHEMA: &'static str = include_str!("../../src/messages/external/visualization_msgs/msg/UVCoordinate.msg");
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/visualization_msgs/msg/UVCoordinate.msg");
         const DESCRIPTION: &'static str = r#"{"type_name": "visualization_msgs/msg/UVCoordinate", "fields": [{"name": "u", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "v", "type": {"type_id": 10, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }
@@ -3153,7 +3153,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "flexdrill/srv/AcknowledgeAlarm",
         rihs01: "RIHS01_edcf727feeabd4248a12a54fe946fb8c26e4cadd2265b4e0a1baef3c9966e439",
-        source: include_str!("../../msg/AcknowledgeAlarm.srv"),
+        source: include_str!("../../../msg/AcknowledgeAlarm.srv"),
         description: r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Event"}}]}"#,
         event_type: "flexdrill/srv/AcknowledgeAlarm_Event",
         event_description: r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Response"}}]}"#,
@@ -3161,7 +3161,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "flexdrill/srv/ShelveAlarm",
         rihs01: "RIHS01_29570b7a8b9ab744361c8012843cb5eee47200bfabcb280f74781652c7ffa248",
-        source: include_str!("../../msg/ShelveAlarm.srv"),
+        source: include_str!("../../../msg/ShelveAlarm.srv"),
         description: r#"{"type_name": "flexdrill/srv/ShelveAlarm", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Event"}}]}"#,
         event_type: "flexdrill/srv/ShelveAlarm_Event",
         event_description: r#"{"type_name": "flexdrill/srv/ShelveAlarm_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ShelveAlarm_Response"}}]}"#,
@@ -3169,7 +3169,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "flexdrill/srv/UnshelveAlarm",
         rihs01: "RIHS01_85221884fbd006fca85b8a3fe168225a1c01dac67955f57c7be88c275e02fc3b",
-        source: include_str!("../../msg/UnshelveAlarm.srv"),
+        source: include_str!("../../../msg/UnshelveAlarm.srv"),
         description: r#"{"type_name": "flexdrill/srv/UnshelveAlarm", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Event"}}]}"#,
         event_type: "flexdrill/srv/UnshelveAlarm_Event",
         event_description: r#"{"type_name": "flexdrill/srv/UnshelveAlarm_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/UnshelveAlarm_Response"}}]}"#,
@@ -3177,7 +3177,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "lifecycle_msgs/srv/ChangeState",
         rihs01: "RIHS01_356fe34f0475a43acf54542013af4167b0e729f77ea22ffb045c6ad8e20668e5",
-        source: include_str!("../../src/messages/external/lifecycle_msgs/srv/ChangeState.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/srv/ChangeState.srv"),
         description: r#"{"type_name": "lifecycle_msgs/srv/ChangeState", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Event"}}]}"#,
         event_type: "lifecycle_msgs/srv/ChangeState_Event",
         event_description: r#"{"type_name": "lifecycle_msgs/srv/ChangeState_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/ChangeState_Response"}}]}"#,
@@ -3185,7 +3185,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "lifecycle_msgs/srv/GetAvailableStates",
         rihs01: "RIHS01_00a07d79d2207d71e81a8cbc1880e5d924cc16d4688ea8e8e06e443dc8f8aa1d",
-        source: include_str!("../../src/messages/external/lifecycle_msgs/srv/GetAvailableStates.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/srv/GetAvailableStates.srv"),
         description: r#"{"type_name": "lifecycle_msgs/srv/GetAvailableStates", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Event"}}]}"#,
         event_type: "lifecycle_msgs/srv/GetAvailableStates_Event",
         event_description: r#"{"type_name": "lifecycle_msgs/srv/GetAvailableStates_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableStates_Response"}}]}"#,
@@ -3193,7 +3193,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "lifecycle_msgs/srv/GetAvailableTransitions",
         rihs01: "RIHS01_59b7ecefce0982a8a844b9f2c4f14764c1c4543cc55e72924e2aa4adad83e9bc",
-        source: include_str!("../../src/messages/external/lifecycle_msgs/srv/GetAvailableTransitions.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/srv/GetAvailableTransitions.srv"),
         description: r#"{"type_name": "lifecycle_msgs/srv/GetAvailableTransitions", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Event"}}]}"#,
         event_type: "lifecycle_msgs/srv/GetAvailableTransitions_Event",
         event_description: r#"{"type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetAvailableTransitions_Response"}}]}"#,
@@ -3201,7 +3201,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "lifecycle_msgs/srv/GetState",
         rihs01: "RIHS01_800a0a5aae599782b02932de0caf563f6dc4e7e94b794eadde075ba2cbef9795",
-        source: include_str!("../../src/messages/external/lifecycle_msgs/srv/GetState.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/lifecycle_msgs/srv/GetState.srv"),
         description: r#"{"type_name": "lifecycle_msgs/srv/GetState", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Event"}}]}"#,
         event_type: "lifecycle_msgs/srv/GetState_Event",
         event_description: r#"{"type_name": "lifecycle_msgs/srv/GetState_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "lifecycle_msgs/srv/GetState_Response"}}]}"#,
@@ -3209,7 +3209,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "rcl_interfaces/srv/DescribeParameters",
         rihs01: "RIHS01_845b484d71eb0673dae682f2e3ba3c4851a65a3dcfb97bddd82c5b57e91e4cff",
-        source: include_str!("../../src/messages/external/rcl_interfaces/srv/DescribeParameters.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/srv/DescribeParameters.srv"),
         description: r#"{"type_name": "rcl_interfaces/srv/DescribeParameters", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Event"}}]}"#,
         event_type: "rcl_interfaces/srv/DescribeParameters_Event",
         event_description: r#"{"type_name": "rcl_interfaces/srv/DescribeParameters_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/DescribeParameters_Response"}}]}"#,
@@ -3217,7 +3217,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "rcl_interfaces/srv/GetLoggerLevels",
         rihs01: "RIHS01_03bf1bebd0d6514c7ed0ba7c5e08dc9f2f39c759fe99e1e30ea4157d7674f72d",
-        source: include_str!("../../src/messages/external/rcl_interfaces/srv/GetLoggerLevels.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/srv/GetLoggerLevels.srv"),
         description: r#"{"type_name": "rcl_interfaces/srv/GetLoggerLevels", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Event"}}]}"#,
         event_type: "rcl_interfaces/srv/GetLoggerLevels_Event",
         event_description: r#"{"type_name": "rcl_interfaces/srv/GetLoggerLevels_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetLoggerLevels_Response"}}]}"#,
@@ -3225,7 +3225,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "rcl_interfaces/srv/GetParameterTypes",
         rihs01: "RIHS01_da199c878688b3e530bdfe3ca8f74cb9fa0c303101e980a9e8f260e25e1c80ca",
-        source: include_str!("../../src/messages/external/rcl_interfaces/srv/GetParameterTypes.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/srv/GetParameterTypes.srv"),
         description: r#"{"type_name": "rcl_interfaces/srv/GetParameterTypes", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Event"}}]}"#,
         event_type: "rcl_interfaces/srv/GetParameterTypes_Event",
         event_description: r#"{"type_name": "rcl_interfaces/srv/GetParameterTypes_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameterTypes_Response"}}]}"#,
@@ -3233,7 +3233,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "rcl_interfaces/srv/GetParameters",
         rihs01: "RIHS01_bf9803d5c74cf989a5de3e0c2e99444599a627c7ff75f97b8c05b01003675cbc",
-        source: include_str!("../../src/messages/external/rcl_interfaces/srv/GetParameters.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/srv/GetParameters.srv"),
         description: r#"{"type_name": "rcl_interfaces/srv/GetParameters", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Event"}}]}"#,
         event_type: "rcl_interfaces/srv/GetParameters_Event",
         event_description: r#"{"type_name": "rcl_interfaces/srv/GetParameters_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/GetParameters_Response"}}]}"#,
@@ -3241,7 +3241,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "rcl_interfaces/srv/ListParameters",
         rihs01: "RIHS01_3e6062bfbb27bfb8730d4cef2558221f51a11646d78e7bb30a1e83afac3aad9d",
-        source: include_str!("../../src/messages/external/rcl_interfaces/srv/ListParameters.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/srv/ListParameters.srv"),
         description: r#"{"type_name": "rcl_interfaces/srv/ListParameters", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Event"}}]}"#,
         event_type: "rcl_interfaces/srv/ListParameters_Event",
         event_description: r#"{"type_name": "rcl_interfaces/srv/ListParameters_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/ListParameters_Response"}}]}"#,
@@ -3249,7 +3249,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "rcl_interfaces/srv/SetLoggerLevels",
         rihs01: "RIHS01_3ff86cb4e91fbf9abae15c234ecc874448de6ece8e193401c077cf116e4f6d78",
-        source: include_str!("../../src/messages/external/rcl_interfaces/srv/SetLoggerLevels.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/srv/SetLoggerLevels.srv"),
         description: r#"{"type_name": "rcl_interfaces/srv/SetLoggerLevels", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Event"}}]}"#,
         event_type: "rcl_interfaces/srv/SetLoggerLevels_Event",
         event_description: r#"{"type_name": "rcl_interfaces/srv/SetLoggerLevels_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetLoggerLevels_Response"}}]}"#,
@@ -3257,7 +3257,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "rcl_interfaces/srv/SetParameters",
         rihs01: "RIHS01_56eed9a67e169f9cb6c1f987bc88f868c14a8fc9f743a263bc734c154015d7e0",
-        source: include_str!("../../src/messages/external/rcl_interfaces/srv/SetParameters.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/srv/SetParameters.srv"),
         description: r#"{"type_name": "rcl_interfaces/srv/SetParameters", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Event"}}]}"#,
         event_type: "rcl_interfaces/srv/SetParameters_Event",
         event_description: r#"{"type_name": "rcl_interfaces/srv/SetParameters_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParameters_Response"}}]}"#,
@@ -3265,7 +3265,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "rcl_interfaces/srv/SetParametersAtomically",
         rihs01: "RIHS01_0e192ef259c07fc3c07a13191d27002222e65e00ccec653ca05e856f79285fcd",
-        source: include_str!("../../src/messages/external/rcl_interfaces/srv/SetParametersAtomically.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/rcl_interfaces/srv/SetParametersAtomically.srv"),
         description: r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Event"}}]}"#,
         event_type: "rcl_interfaces/srv/SetParametersAtomically_Event",
         event_description: r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Response"}}]}"#,
@@ -3273,7 +3273,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "std_srvs/srv/SetBool",
         rihs01: "RIHS01_abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a",
-        source: include_str!("../../src/messages/external/std_srvs/srv/SetBool.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/std_srvs/srv/SetBool.srv"),
         description: r#"{"type_name": "std_srvs/srv/SetBool", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Event"}}]}"#,
         event_type: "std_srvs/srv/SetBool_Event",
         event_description: r#"{"type_name": "std_srvs/srv/SetBool_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "std_srvs/srv/SetBool_Response"}}]}"#,
@@ -3281,7 +3281,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "std_srvs/srv/Trigger",
         rihs01: "RIHS01_eeff2cd6fa5ad9d27cdf4dec64818317839b62f212a91e6b5304b634b2062c5f",
-        source: include_str!("../../src/messages/external/std_srvs/srv/Trigger.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/std_srvs/srv/Trigger.srv"),
         description: r#"{"type_name": "std_srvs/srv/Trigger", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Event"}}]}"#,
         event_type: "std_srvs/srv/Trigger_Event",
         event_description: r#"{"type_name": "std_srvs/srv/Trigger_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "std_srvs/srv/Trigger_Response"}}]}"#,
@@ -3289,7 +3289,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     ServiceInfo {
         ros_type: "type_description_interfaces/srv/GetTypeDescription",
         rihs01: "RIHS01_69b9c19c1021405984cc60dbbb1edceb147a6538b411d812ba6afabeed962cd5",
-        source: include_str!("../../src/messages/external/type_description_interfaces/srv/GetTypeDescription.srv"),
+        source: include_str!("../../../crates/flexdrill-messages/external/type_description_interfaces/srv/GetTypeDescription.srv"),
         description: r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Event"}}]}"#,
         event_type: "type_description_interfaces/srv/GetTypeDescription_Event",
         event_description: r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Response"}}]}"#,

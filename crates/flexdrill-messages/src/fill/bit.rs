@@ -1,7 +1,7 @@
 //! [`BitState`].
 
-use crate::messages::BitState;
-use crate::messages::std_msgs::Header;
+use crate::BitState;
+use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
 
 /// Fills `out`.

@@ -1,0 +1,12 @@
+//! The message types: generated code, CDR bytes, how snapshots fill them, and the reference of the rig page's decoders.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+mod cdr;
+mod fill;
+mod generated;
+mod page;

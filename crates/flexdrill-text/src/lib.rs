@@ -1,0 +1,11 @@
+//! Text for terminals and logs: escapes for text that others wrote, a rate limit for log lines, and dates.
+//!
+//! The crate knows nothing of the twin; every other crate that prints may use it.
+
+mod date;
+mod printable;
+mod throttle;
+
+pub use date::{compact_date_time, date_time, time_of_day};
+pub use printable::{printable, printable_lines};
+pub use throttle::{Throttle, Throttles};
