@@ -25,11 +25,11 @@ pub mod bag;
 pub mod cli;
 pub mod dashboard;
 pub mod dds;
-pub mod field_log;
 pub mod health;
 pub mod live;
 pub mod report;
 pub mod rig_inputs;
 pub mod ros;
 
+pub use flexdrill_field_log as field_log;
 pub use flexdrill_messages as messages;

@@ -72,7 +72,7 @@ fn the_demo_log_shows_everything() {
     assert_eq!(places(&report, IssueKind::Gap), [(140, 140, 1)]);
     assert_eq!(places(&report, IssueKind::Missing), [(146, 148, 3), (146, 148, 3)]);
     assert_eq!(places(&report, IssueKind::Spike), [(154, 154, 1)]);
-    assert_eq!(places(&report, IssueKind::TimeStandsStill), [(159, 159, 1)]);
+    assert_eq!(places(&report, IssueKind::TimeRepeats), [(159, 159, 1)]);
     assert!(places(&report, IssueKind::NoTare).is_empty());
     assert_eq!(report.rows, 173);
     assert!(
@@ -125,7 +125,7 @@ fn a_weight_column_is_scaled_and_said_so() {
     assert_eq!(sequence.inputs[2].time, 1.0);
     let table = report.to_string();
     assert!(table.contains("weight_on_bit IS SCALED, log x 0.5"), "{table}");
-    assert!(table.contains("rotary_speed is taken as it is"), "{table}");
+    assert!(table.contains("rotary_speed is used unchanged"), "{table}");
     assert!(table.contains("nothing wrong found"), "{table}");
 }
 
@@ -133,7 +133,7 @@ fn a_weight_column_is_scaled_and_said_so() {
 fn wrong_rows_are_left_out_and_named() {
     let text = b"t,rpm,wob\n0,40,1\n1,x,1\n1,40,1\n0.5,40,1\n2,40\n3,,1\n4,inf,1\nlunch,40,1\n5,40,\xff\n30,40,1\n";
     let (sequence, report) = read_text(text, &direct_mapping()).unwrap();
-    assert_eq!(places(&report, IssueKind::TimeStandsStill), [(4, 4, 1)]);
+    assert_eq!(places(&report, IssueKind::TimeRepeats), [(4, 4, 1)]);
     assert_eq!(places(&report, IssueKind::TimeBackwards), [(5, 5, 1)]);
     assert_eq!(places(&report, IssueKind::Missing), [(7, 7, 1)]);
     assert_eq!(places(&report, IssueKind::Gap), [(11, 11, 1)]);
@@ -177,7 +177,7 @@ fn left_out(report: &Report) -> u64 {
         .iter()
         .filter(|issue| match issue.kind {
             IssueKind::Unreadable => issue.column.is_empty() || issue.column == "t",
-            IssueKind::TimeStandsStill | IssueKind::TimeBackwards | IssueKind::TimeJumps => true,
+            IssueKind::TimeRepeats | IssueKind::TimeBackwards | IssueKind::TimeJumps => true,
             _ => false,
         })
         .map(|issue| issue.rows)
@@ -263,7 +263,7 @@ fn a_time_that_starts_anew_begins_a_part_with_its_own_report() {
     let text = over_midnight(|second| second.to_string()) + "soup\n";
     let (sequence, report) = read_text(text.as_bytes(), &direct_mapping()).unwrap();
     assert_eq!((report.rows, report.left_out), (3600, 1));
-    assert_eq!(places(&report, IssueKind::TimeStartsAnew), [(1802, 1802, 1)]);
+    assert_eq!(places(&report, IssueKind::TimeRestarts), [(1802, 1802, 1)]);
     let parts: Vec<_> = (report.parts.iter())
         .map(|part| (part.first_row, part.last_row, part.rows, part.left_out, part.duration))
         .collect();
@@ -274,7 +274,7 @@ fn a_time_that_starts_anew_begins_a_part_with_its_own_report() {
     assert_eq!(sequence.inputs.len(), 7200);
     let table = report.to_string();
     assert!(
-        table.contains("ITS TIME STARTS ANEW, 2 parts") && table.contains("part 2"),
+        table.contains("THE CLOCK RESTARTS, 2 parts") && table.contains("part 2"),
         "{table}"
     );
     // One part alone.
@@ -338,7 +338,7 @@ fn long_lines_are_left_out_and_a_long_header_is_refused() {
     );
     let error = error_of(long.as_bytes(), &direct_mapping());
     assert!(
-        error.contains("its first line has 1048577 bytes, at most 1048576 are read"),
+        error.contains("the first line has 1048577 bytes, at most 1048576 are read"),
         "{error}"
     );
     // A field is quoted in part.
@@ -360,7 +360,9 @@ fn a_log_in_utf_16_is_named_as_such() {
     ] {
         let error = error_of(&[mark, bytes].concat(), &direct_mapping());
         assert!(
-            error.contains(&format!("it is {name}, not UTF-8; save it as \"CSV UTF-8\"")),
+            error.contains(&format!(
+                "the encoding is {name}, not UTF-8; save the log as \"CSV UTF-8\""
+            )),
             "{error}"
         );
         assert!(error.contains(&format!("iconv -f {name} -t UTF-8")), "{error}");
@@ -417,7 +419,7 @@ fn decimal_commas_that_the_mapping_does_not_name_are_recognised() {
     let (_, report) = read_text(b"t,rpm,wob\n0,40,2\n1,5,40,2,2,5\n2,40,2\n", &commas).unwrap();
     let said = &report.issues[0].detail;
     assert!(
-        said.contains("6 fields instead of 3; decimal commas cannot be told from separators"),
+        said.contains("6 fields instead of 3; decimal commas cannot be distinguished from separators"),
         "{said}"
     );
     let error = error_of(b"t;rpm;wob\n0;40;2\n", &commas);
@@ -561,7 +563,7 @@ fn errors_name_file_and_column() {
         .unwrap_err()
         .to_string();
     assert!(
-        error.contains("nothing between row 5000 and its end; the log has rows 2 to 175"),
+        error.contains("no row lies between row 5000 and the log's end; the log has rows 2 to 175"),
         "{error}"
     );
     let error = Mapping::from_text("m.yaml", "columns:\n  time: {column: t}\n")
@@ -590,7 +592,7 @@ fn the_real_rig_log_reads_as_its_description_says() {
     let (sequence, report) = read(&path, &rig_mapping()).unwrap();
     println!("{report}");
     assert_eq!((report.first_row, report.last_row), (2, 50_001));
-    assert_eq!(places(&report, IssueKind::TimeStandsStill).len(), 2);
+    assert_eq!(places(&report, IssueKind::TimeRepeats).len(), 2);
     let missing = places(&report, IssueKind::Missing);
     assert!(missing.contains(&(38_001, 38_129, 129)), "{missing:?}");
     assert!(missing.contains(&(40_001, 41_329, 1329)), "{missing:?}");

@@ -1,36 +1,36 @@
-//! Weight on bit from the hookload: what is missing on the hook lies on the bit.
+//! Weight on bit from the hookload: the bit carries the weight that the hook no longer carries.
 
-use super::mapping::Hookload;
-use super::report::{IssueKind, Issues, Tare};
-use super::table::Row;
+use crate::mapping::Hookload;
+use crate::report::{IssueKind, Issues, Tare};
+use crate::table::Row;
 use flexdrill_core::inputs::InputKind;
 
 const SPEED: usize = InputKind::RotarySpeed.index();
 const WEIGHT: usize = InputKind::WeightOnBit.index();
 
-/// Turns hookloads into weights on bit, in place and before scaling; gives the tares that were used.
-pub(super) fn weigh(rows: &mut [Row], mapping: &Hookload, max_gap: f64, issues: &mut Issues) -> Vec<Tare> {
+/// Converts hookloads to weights on bit, in place and before scaling. Returns the tares that it used.
+pub(crate) fn weigh(rows: &mut [Row], mapping: &Hookload, max_gap: f64, issues: &mut Issues) -> Vec<Tare> {
     let mut tares: Vec<Tare> = Vec::new();
-    // Of the stretch that is off bottom and rotating now.
-    let mut stretch_start: Option<usize> = None;
+    // First row of the current interval off bottom and rotating.
+    let mut interval_start: Option<usize> = None;
     for index in 0..rows.len() {
         let row = rows[index];
         let follows = index > 0 && row.time - rows[index - 1].time <= max_gap;
-        let hangs_free = row.off_bottom == Some(true)
+        let off_bottom_and_rotating = row.off_bottom == Some(true)
             && row.drilling == Some(false)
             && row.values[WEIGHT].is_some()
             && row.values[SPEED].is_some_and(|speed| speed > mapping.rotating_above_rpm);
-        if let Some(start) = stretch_start
-            && (!hangs_free || !follows)
+        if let Some(start) = interval_start
+            && (!off_bottom_and_rotating || !follows)
         {
             tares.extend(tare(&rows[start..index], mapping));
-            stretch_start = None;
+            interval_start = None;
         }
-        if hangs_free && stretch_start.is_none() {
-            stretch_start = Some(index);
+        if off_bottom_and_rotating && interval_start.is_none() {
+            interval_start = Some(index);
         }
     }
-    // A second pass, because the stretches above need the hookloads that this one overwrites.
+    // A second pass is needed because the first reads the hookloads that this one overwrites.
     let mut next_tare = 0;
     for row in rows.iter_mut() {
         while tares.get(next_tare).is_some_and(|tare| tare.last_row < row.number) {
@@ -49,7 +49,7 @@ fn weight(row: &Row, tare: Option<&Tare>, mapping: &Hookload, issues: &mut Issue
     }
     let Some(tare) = tare else {
         issues.add(IssueKind::NoTare, &mapping.column, row.number, || {
-            "drilling before any stretch off bottom and rotating".to_string()
+            "drilling before any interval off bottom and rotating".to_string()
         });
         return None;
     };
@@ -69,13 +69,15 @@ fn weight(row: &Row, tare: Option<&Tare>, mapping: &Hookload, issues: &mut Issue
     Some(0.0)
 }
 
-/// Of a stretch; `None` when it is too short.
-fn tare(stretch: &[Row], mapping: &Hookload) -> Option<Tare> {
-    let last = stretch.last()?;
-    if stretch.len() < mapping.tare_min_rows {
+/// The tare of an interval; `None` when the interval has too few rows.
+fn tare(interval: &[Row], mapping: &Hookload) -> Option<Tare> {
+    let last = interval.last()?;
+    if interval.len() < mapping.tare_min_rows {
         return None;
     }
-    let window = stretch.iter().filter(|row| last.time - row.time <= mapping.tare_window);
+    let window = interval
+        .iter()
+        .filter(|row| last.time - row.time <= mapping.tare_window);
     let first_row = window.clone().next()?.number;
     let mut hookloads: Vec<f64> = window.filter_map(|row| row.values[WEIGHT]).collect();
     hookloads.sort_by(f64::total_cmp);

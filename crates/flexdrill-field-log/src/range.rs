@@ -3,9 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::FieldLogError;
+use crate::FieldLogError;
 
-/// A place in a log.
+/// A position in a log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Position {
     /// As an editor numbers rows, the header being row 1. Written `row:6345`.
@@ -23,7 +23,7 @@ impl FromStr for Position {
             return row.parse().map(Self::Row).map_err(|_| error());
         }
         let seconds: f64 = text.strip_suffix('s').unwrap_or(text).parse().map_err(|_| error())?;
-        // Neither comparison holds of NaN; a time this near to 0 and not 0 is a slip of the pen.
+        // NaN fails both comparisons; a time so close to 0, yet not 0, is a typing error.
         if seconds == 0.0 || (1e-9..=1e10).contains(&seconds) {
             Ok(Self::Time(seconds))
         } else {
@@ -41,7 +41,7 @@ impl fmt::Display for Position {
     }
 }
 
-/// From a place to a place, both included; `None` is the log's begin or end.
+/// An interval of a log, ends included; `None` is the log's begin or end.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Range {
     /// First.
@@ -54,8 +54,8 @@ impl Range {
     /// The whole log.
     pub const ALL: Self = Self { from: None, to: None };
 
-    /// The row itself, or the nearest one that is not outside by its number.
-    pub(super) fn nearest_row(&self, row: u64) -> u64 {
+    /// The row, clamped to the range's row numbers.
+    pub(crate) fn nearest_row(&self, row: u64) -> u64 {
         let first = match self.from {
             Some(Position::Row(first)) => first,
             _ => 0,
@@ -67,7 +67,7 @@ impl Range {
         row.min(last).max(first)
     }
 
-    pub(super) fn contains(&self, row: u64, time: f64) -> bool {
+    pub(crate) fn contains(&self, row: u64, time: f64) -> bool {
         let after = self.from.is_none_or(|from| match from {
             Position::Row(first) => row >= first,
             Position::Time(first) => time >= first,

@@ -1,11 +1,11 @@
-//! What was found in a log.
+//! The report of a log.
 
 use std::fmt;
 
-use super::InputSequence;
+use crate::InputSequence;
 use flexdrill_core::inputs::InputKind;
 
-/// Kinds of things in a log that are not as they should be.
+/// Kinds of problems in a log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum IssueKind {
     /// Not a number, not text, or the wrong number of fields.
@@ -13,24 +13,24 @@ pub enum IssueKind {
     /// Empty or a missing code.
     Missing,
     /// The same time as the row before.
-    TimeStandsStill,
+    TimeRepeats,
     /// Before the time of the row before, in a few rows.
     TimeBackwards,
-    /// Far after the time of the row before and of the row behind, in one row.
+    /// Far after the times of both the row before and the row after, in one row.
     TimeJumps,
-    /// The time goes back and runs on from there.
-    TimeStartsAnew,
+    /// The time steps back and continues from there.
+    TimeRestarts,
     /// A long time since the row before.
     Gap,
     /// A single sample far from both its neighbours.
     Spike,
     /// A value that does not change for long.
     Frozen,
-    /// Drilling, but nothing to hold the hookload against.
+    /// Drilling, but no tare to compare the hookload with.
     NoTare,
-    /// The hookload is so far above the tare that the tare must be wrong.
+    /// The hookload exceeds the tare by so much that the tare must be wrong.
     NegativeWeight,
-    /// The hookload is a little above the tare.
+    /// The hookload exceeds the tare by measurement noise.
     TareNoise,
 }
 
@@ -39,10 +39,10 @@ impl IssueKind {
     pub const ALL: [Self; 12] = [
         Self::Unreadable,
         Self::Missing,
-        Self::TimeStandsStill,
+        Self::TimeRepeats,
         Self::TimeBackwards,
         Self::TimeJumps,
-        Self::TimeStartsAnew,
+        Self::TimeRestarts,
         Self::Gap,
         Self::Spike,
         Self::Frozen,
@@ -56,10 +56,10 @@ impl IssueKind {
         match self {
             Self::Unreadable => "unreadable",
             Self::Missing => "missing value",
-            Self::TimeStandsStill => "time stands still",
+            Self::TimeRepeats => "time repeats",
             Self::TimeBackwards => "time goes backwards",
             Self::TimeJumps => "time jumps",
-            Self::TimeStartsAnew => "time starts anew",
+            Self::TimeRestarts => "time restarts",
             Self::Gap => "gap",
             Self::Spike => "spike",
             Self::Frozen => "frozen value",
@@ -69,13 +69,13 @@ impl IssueKind {
         }
     }
 
-    /// What was done about it.
+    /// How the reader treats the problem.
     pub const fn treatment(self) -> &'static str {
         match self {
             Self::Unreadable => "value left out, or the row where time or fields are wrong",
             Self::Missing | Self::Spike | Self::NoTare | Self::NegativeWeight => "value left out",
-            Self::TimeStandsStill | Self::TimeBackwards | Self::TimeJumps => "row left out",
-            Self::TimeStartsAnew => "a new part begins",
+            Self::TimeRepeats | Self::TimeBackwards | Self::TimeJumps => "row left out",
+            Self::TimeRestarts => "a new part begins",
             Self::Gap => "left as a gap",
             Self::Frozen => "kept",
             Self::TareNoise => "set to 0",
@@ -83,12 +83,12 @@ impl IssueKind {
     }
 }
 
-/// Something found in one row or in successive rows.
+/// A problem in one row or in successive rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Issue {
-    /// What is wrong with it.
+    /// Kind of problem.
     pub kind: IssueKind,
-    /// In which column; empty if the whole row.
+    /// The column; empty for the whole row.
     pub column: String,
     /// First row, as an editor numbers it.
     pub first_row: u64,
@@ -96,16 +96,16 @@ pub struct Issue {
     pub last_row: u64,
     /// How many rows.
     pub rows: u64,
-    /// Of the first row.
+    /// Detail of the first row.
     pub detail: String,
 }
 
-/// What a hookload is held against.
+/// The hookload off bottom, from which the weight on bit is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tare {
     /// First row of the window.
     pub first_row: u64,
-    /// Last row; it acts on the rows after it.
+    /// Last row; the tare applies to the rows after it.
     pub last_row: u64,
     /// Median hookload in the window (kN).
     pub hookload_kn: f64,
@@ -128,7 +128,7 @@ pub struct Summary {
     pub largest: f64,
 }
 
-/// The drive's torque in a log. The model has its own; this is what it can be held against.
+/// The drive's torque in a log. The model computes its own torque; this one is for comparison.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueSummary {
     /// How many rows have it.
@@ -143,7 +143,7 @@ pub struct TorqueSummary {
 
 impl TorqueSummary {
     /// None without samples.
-    pub(super) fn of(torques: impl Iterator<Item = f64>) -> Option<Self> {
+    pub(crate) fn of(torques: impl Iterator<Item = f64>) -> Option<Self> {
         let mut torques: Vec<f64> = torques.collect();
         torques.sort_by(f64::total_cmp);
         Some(Self {
@@ -156,7 +156,7 @@ impl TorqueSummary {
 }
 
 impl Summary {
-    pub(super) fn of(sequence: &InputSequence, kind: InputKind) -> Self {
+    pub(crate) fn of(sequence: &InputSequence, kind: InputKind) -> Self {
         let of_kind = sequence.inputs.iter().filter(|input| input.kind == kind);
         let mut values: Vec<f64> = of_kind.map(|input| input.value).collect();
         values.sort_by(f64::total_cmp);
@@ -171,7 +171,7 @@ impl Summary {
     }
 }
 
-/// What was found in a log. `Display` prints it as a table. Every row is either used or left out.
+/// The report of a log. `Display` prints a table. Every row is either used or left out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// Name of the log.
@@ -182,7 +182,7 @@ pub struct Report {
     pub last_row: u64,
     /// Rows with a usable time.
     pub rows: u64,
-    /// Rows without a usable time; each is in an issue.
+    /// Rows without a usable time; an issue names each.
     pub left_out: u64,
     /// Duration (s).
     pub duration: f64,
@@ -202,7 +202,7 @@ pub struct Report {
     pub tares: Vec<Tare>,
     /// Everything found, in order of rows.
     pub issues: Vec<Issue>,
-    /// Where the time of the log starts anew, a report of each part; else empty.
+    /// Where the log's clock restarts, a report of each part; otherwise empty.
     pub parts: Vec<Report>,
 }
 
@@ -234,10 +234,10 @@ impl fmt::Display for Report {
         if !self.parts.is_empty() {
             writeln!(
                 f,
-                "  NOTE: ITS TIME STARTS ANEW, {} parts; how long it was between them is not in the log. Each begins \
-                 {:.1} s after the last row of the one before; --from row:N --to row:M takes one alone",
+                "  NOTE: THE CLOCK RESTARTS, {} parts; the log does not give the time between them. Each part begins \
+                 {:.1} s after the last row of the part before; --from row:N --to row:M selects one part",
                 self.parts.len(),
-                super::parts::SEAM_IN_GAPS * self.max_gap
+                crate::parts::SEAM_IN_GAPS * self.max_gap
             )?;
             return self
                 .parts
@@ -260,13 +260,13 @@ impl fmt::Display for Report {
         if let Some(torque) = &self.torque {
             writeln!(
                 f,
-                "  {:<14} {:>6} samples, {:.2} to {:.2} kN m, median {:.2}; not used, the model has its own",
+                "  {:<14} {:>6} samples, {:.2} to {:.2} kN m, median {:.2}; for comparison, the model computes its own",
                 "torque", torque.samples, torque.smallest_kn_m, torque.largest_kn_m, torque.median_kn_m
             )?;
         }
         for (kind, scale) in InputKind::ALL.into_iter().zip([self.speed_scale, self.weight_scale]) {
             if scale == 1.0 {
-                writeln!(f, "  {} is taken as it is in the log (scale 1)", kind.name())?;
+                writeln!(f, "  {} is used unchanged (scale 1)", kind.name())?;
             } else {
                 writeln!(
                     f,
@@ -334,24 +334,24 @@ impl Report {
                 writeln!(f, ": {}", issue.detail)?;
             }
             if of_kind.len() > PRINTED {
-                writeln!(f, "    and {} more places", of_kind.len() - PRINTED)?;
+                writeln!(f, "    and {} more", of_kind.len() - PRINTED)?;
             }
         }
         Ok(())
     }
 }
 
-/// Collects issues, successive rows of one kind and column in one.
+/// Collects issues, and joins successive rows of one kind and column.
 #[derive(Debug, Default)]
-pub(super) struct Issues {
+pub(crate) struct Issues {
     list: Vec<Issue>,
 }
 
 impl Issues {
-    pub(super) fn add(&mut self, kind: IssueKind, column: &str, row: u64, detail: impl FnOnce() -> String) {
-        // Kinds and columns take turns within a row, so that the one to continue may lie a little back.
+    pub(crate) fn add(&mut self, kind: IssueKind, column: &str, row: u64, detail: impl FnOnce() -> String) {
+        // A row may have issues of several kinds and columns, so the one to extend is not always the last.
         let before = self.list.iter_mut().rev().take(16).find(|issue| {
-            let alone = matches!(kind, IssueKind::Gap | IssueKind::TimeStartsAnew);
+            let alone = matches!(kind, IssueKind::Gap | IssueKind::TimeRestarts);
             issue.kind == kind && issue.column == column && issue.last_row + 1 == row && !alone
         });
         match before {
@@ -363,7 +363,7 @@ impl Issues {
         }
     }
 
-    pub(super) fn add_span(
+    pub(crate) fn add_span(
         &mut self,
         kind: IssueKind,
         column: &str,
@@ -382,10 +382,10 @@ impl Issues {
         });
     }
 
-    /// Those that touch a range of rows, cut to it, in order of rows.
-    pub(super) fn between(&self, first: u64, last: u64) -> Vec<Issue> {
-        let touching = |issue: &&Issue| issue.last_row >= first && issue.first_row <= last;
-        let mut list: Vec<Issue> = self.list.iter().filter(touching).cloned().collect();
+    /// The issues that overlap a range of rows, clipped to the range, in order of rows.
+    pub(crate) fn between(&self, first: u64, last: u64) -> Vec<Issue> {
+        let overlapping = |issue: &&Issue| issue.last_row >= first && issue.first_row <= last;
+        let mut list: Vec<Issue> = self.list.iter().filter(overlapping).cloned().collect();
         for issue in &mut list {
             let (from, to) = (issue.first_row.max(first), issue.last_row.min(last));
             if (from, to) != (issue.first_row, issue.last_row) {

@@ -1,33 +1,34 @@
 //! The rows of the CSV file, as numbers.
 
-use super::mapping::{Mapping, WeightOnBitColumn};
-use super::parts::{Clock, Timed, order};
-use super::report::{IssueKind, Issues};
-use super::{Condition, FieldLogError};
+use crate::mapping::{Mapping, WeightOnBitColumn};
+use crate::parts::{TimeAxis, Timed, order};
+use crate::report::{IssueKind, Issues};
+use crate::{Condition, FieldLogError};
 #[cfg(doc)]
 use flexdrill_core::inputs::InputKind;
 
 /// One row with a readable, advancing time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
+pub(crate) struct Row {
     /// As an editor numbers it.
-    pub(super) number: u64,
+    pub(crate) number: u64,
     /// Since the log's first row (s).
-    pub(super) time: f64,
+    pub(crate) time: f64,
     /// By [`InputKind::index`]: speed (r/min); weight on bit or hookload (kN).
-    pub(super) values: [Option<f64>; 2],
-    /// Whether the bit drills, and whether it is off bottom; `None` when the log does not say.
-    pub(super) drilling: Option<bool>,
-    pub(super) off_bottom: Option<bool>,
-    /// Of the drive (kN m).
-    pub(super) torque: Option<f64>,
+    pub(crate) values: [Option<f64>; 2],
+    /// Whether the bit drills; `None` when the log does not say.
+    pub(crate) drilling: Option<bool>,
+    /// Whether the bit is off bottom; `None` when the log does not say.
+    pub(crate) off_bottom: Option<bool>,
+    /// Torque of the drive (kN m).
+    pub(crate) torque: Option<f64>,
 }
 
-/// Largest value (in the log's unit): none is nearly so large, and units and scales keep it a number.
+/// Largest value accepted (in the log's unit): far above any measurement, and finite after any unit and scale.
 const LARGEST: f64 = 1e15;
 
-/// Places of the columns in the header.
-struct Places {
+/// Indices of the mapped columns in the header.
+struct ColumnIndices {
     width: usize,
     time: usize,
     speed: usize,
@@ -38,18 +39,18 @@ struct Places {
 }
 
 /// The rows of a log.
-pub(super) struct Table {
+pub(crate) struct Table {
     /// At least one, in the order of time.
-    pub(super) rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
     /// First rows of the parts between which the time starts anew.
-    pub(super) parts: Vec<u64>,
+    pub(crate) parts: Vec<u64>,
     /// Every row of the file with anything in it, as an editor numbers them.
-    pub(super) written: Vec<u64>,
+    pub(crate) written: Vec<u64>,
 }
 
-/// Reads all rows; what is wrong with single ones goes to `issues`. Each line is read by itself, so that a stray quote
-/// costs the row that it is in.
-pub(super) fn read_table(
+/// Reads all rows and adds the problems of single rows to `issues`. Each line is parsed alone, so that a stray quote
+/// spoils its own row only.
+pub(crate) fn read_table(
     file: &str,
     content: &[u8],
     mapping: &Mapping,
@@ -72,11 +73,11 @@ pub(super) fn read_table(
         });
     }
     let header = reader.read(first);
-    let places = Places::find(file, &header, mapping)?;
+    let columns = ColumnIndices::find(file, &header, mapping)?;
     let time_column = &mapping.columns.time;
     let mut readable: Vec<(Timed, &[u8])> = Vec::new();
     let mut written = Vec::new();
-    // The first time that could not be read, for the error if none could.
+    // The first unreadable time, for the error when no row has a readable one.
     let mut unreadable = String::new();
     for (number, line) in lines {
         written.push(number);
@@ -86,19 +87,19 @@ pub(super) fn read_table(
             continue;
         }
         let record = reader.read(line);
-        if record.len() != places.width {
+        if record.len() != columns.width {
             let found = format!(
                 "{} fields instead of {}{}",
                 record.len(),
-                places.width,
-                too_many(&record, places.width, mapping)
+                columns.width,
+                too_many(&record, columns.width, mapping)
             );
             issues.add(IssueKind::Unreadable, "", number, || found);
             continue;
         }
-        let parsed = text(&record, places.time).and_then(|text| time_column.format.parse(text, mapping.decimal));
+        let parsed = text(&record, columns.time).and_then(|text| time_column.format.parse(text, mapping.decimal));
         let Some(time) = parsed else {
-            let found = text(&record, places.time).unwrap_or("not text");
+            let found = text(&record, columns.time).unwrap_or("not text");
             let wrong = format!("{} is not a time{}", quoted(found), mapping.decimal.hint(found));
             if unreadable.is_empty() {
                 unreadable = format!("; row {number}: {wrong}");
@@ -108,20 +109,20 @@ pub(super) fn read_table(
         };
         readable.push((Timed { number, time }, line));
     }
-    let clock = Clock {
+    let axis = TimeAxis {
         format: time_column.format,
         column: &time_column.column,
         max_gap: mapping.quality.max_gap,
     };
     let mut timed: Vec<Timed> = readable.iter().map(|(timed, _)| *timed).collect();
-    let parts = order(&mut timed, &clock, issues);
+    let parts = order(&mut timed, &axis, issues);
     let mut rows = Vec::with_capacity(timed.len());
     let mut of_file = readable.iter();
     for Timed { number, time } in timed {
         let Some((_, line)) = of_file.find(|(row, _)| row.number == number) else {
             continue;
         };
-        rows.push(places.row(&reader.read(line), number, time, mapping, issues));
+        rows.push(columns.row(&reader.read(line), number, time, mapping, issues));
     }
     if rows.is_empty() {
         return Err(FieldLogError::NoRows {
@@ -134,12 +135,12 @@ pub(super) fn read_table(
     Ok(Table { rows, parts, written })
 }
 
-/// Longest line that is read (bytes): a thousand columns of a thousand characters. What reads a line needs 18 times its
-/// length.
+/// Longest line that is read (bytes): a thousand columns of a thousand characters. Reading a line takes 18 times its
+/// length in memory.
 const LONGEST_LINE: usize = 1 << 20;
 
-/// The encoding of a text that is not UTF-8 and not read, by its byte order mark, or by the zero bytes that it has beside
-/// the letters of a header.
+/// The encoding of a text other than UTF-8, recognised by its byte order mark or by the zero bytes between the letters
+/// of its header.
 fn foreign_encoding(content: &[u8]) -> Option<&'static str> {
     match content {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("UTF-32"),
@@ -150,21 +151,21 @@ fn foreign_encoding(content: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// What may have made too many fields of a row: decimal commas between commas.
+/// A likely cause of too many fields in a row: decimal commas in a log separated by commas.
 fn too_many(record: &csv::ByteRecord, width: usize, mapping: &Mapping) -> &'static str {
     let whole = |field: &[u8]| {
         let digits = field.strip_prefix(b"-").unwrap_or(field);
         digits.iter().all(u8::is_ascii_digit)
     };
     if mapping.separator == ',' && record.len() > width && record.iter().all(whole) {
-        "; decimal commas cannot be told from separators: export the log with `;` between fields, and set `separator: \";\"` \
+        "; decimal commas cannot be distinguished from separators: export the log with `;` between fields, and set `separator: \";\"` \
          and `decimal: comma` in the mapping"
     } else {
         ""
     }
 }
 
-/// The separator that a header seems to have, where it is not that of the mapping.
+/// The separator that the header seems to use, when it differs from the mapping's.
 fn other_separator(header: &csv::ByteRecord, mapping: &Mapping) -> String {
     let Some(only) = header.get(0).filter(|_| header.len() == 1) else {
         return String::new();
@@ -174,11 +175,11 @@ fn other_separator(header: &csv::ByteRecord, mapping: &Mapping) -> String {
     });
     found.map_or_else(String::new, |separator| {
         let written = separator.escape_default();
-        format!("; its fields seem to be separated otherwise: set `separator: \"{written}\"` in the mapping")
+        format!("; the fields seem to have another separator: set `separator: \"{written}\"` in the mapping")
     })
 }
 
-/// Lines with anything in them, as an editor numbers them; they end with CR, LF or both.
+/// Non-blank lines with the numbers that an editor shows; a line ends with CR, LF or both.
 fn lines(content: &[u8]) -> impl Iterator<Item = (u64, &[u8])> {
     let content = content.strip_prefix(b"\xef\xbb\xbf").unwrap_or(content);
     let mut rest = content;
@@ -200,7 +201,7 @@ fn lines(content: &[u8]) -> impl Iterator<Item = (u64, &[u8])> {
     .filter(|(_, line)| !line.trim_ascii().is_empty())
 }
 
-/// Reads single lines. To build a parser takes as long as to read hundreds of lines, so that all share one.
+/// Parses single lines. Building a parser takes as long as parsing hundreds of lines, so all lines share one.
 struct LineReader {
     parser: csv_core::Reader,
     fields: Vec<u8>,
@@ -220,7 +221,7 @@ impl LineReader {
     /// The fields of a line.
     fn read(&mut self, line: &[u8]) -> csv::ByteRecord {
         self.parser.reset();
-        // Neither is ever longer than the line, its end included.
+        // Neither buffer needs more entries than the line has bytes, plus one for its end.
         if self.fields.len() <= line.len() {
             self.fields.resize(2 * line.len(), 0);
         }
@@ -249,17 +250,17 @@ impl LineReader {
     }
 }
 
-/// Room for a line at first (bytes).
+/// Initial size of the line buffer (bytes).
 const LINE: usize = 1024;
-/// Room for its fields at first.
+/// Initial number of fields.
 const FIELDS: usize = 64;
 
-/// Longest text of a field that is shown (characters).
-const SHOWN: usize = 60;
+/// Longest text of a field in a message (characters).
+const LONGEST_QUOTE: usize = 60;
 
-/// A field for a message, without what is beyond [`SHOWN`].
+/// A field in quotes for a message, cut at [`LONGEST_QUOTE`].
 fn quoted(text: &str) -> String {
-    match text.char_indices().nth(SHOWN) {
+    match text.char_indices().nth(LONGEST_QUOTE) {
         Some((end, _)) => format!("{:?}...", &text[..end]),
         None => format!("{text:?}"),
     }
@@ -281,19 +282,19 @@ fn names(header: &csv::ByteRecord) -> String {
     }
 }
 
-fn text(record: &csv::ByteRecord, place: usize) -> Option<&str> {
-    record.get(place).and_then(|bytes| std::str::from_utf8(bytes).ok())
+fn text(record: &csv::ByteRecord, index: usize) -> Option<&str> {
+    record.get(index).and_then(|bytes| std::str::from_utf8(bytes).ok())
 }
 
-impl Places {
+impl ColumnIndices {
     fn find(file: &str, header: &csv::ByteRecord, mapping: &Mapping) -> Result<Self, FieldLogError> {
         let find = |column: &str, key: &str| {
             let named = header.iter().enumerate();
-            let mut places = named
+            let mut indices = named
                 .filter(|(_, name)| *name == column.as_bytes())
-                .map(|(place, _)| place);
-            match (places.next(), places.next()) {
-                (Some(place), None) => Ok(place),
+                .map(|(index, _)| index);
+            match (indices.next(), indices.next()) {
+                (Some(index), None) => Ok(index),
                 (Some(first), Some(second)) => Err(FieldLogError::DuplicateColumn {
                     file: file.to_string(),
                     column: column.to_string(),
@@ -337,8 +338,8 @@ impl Places {
     }
 
     fn row(&self, record: &csv::ByteRecord, number: u64, time: f64, mapping: &Mapping, issues: &mut Issues) -> Row {
-        let mut value = |place: usize, column: &str| -> Option<f64> {
-            let Some(text) = text(record, place) else {
+        let mut value = |index: usize, column: &str| -> Option<f64> {
+            let Some(text) = text(record, index) else {
                 issues.add(IssueKind::Unreadable, column, number, || "not text".to_string());
                 return None;
             };
@@ -354,7 +355,7 @@ impl Places {
                 Some(value) if value.abs() <= LARGEST => Some(value),
                 Some(value) if value.is_finite() => {
                     issues.add(IssueKind::Unreadable, column, number, || {
-                        format!("{} is beyond {LARGEST:e}, which no sensor measures", quoted(text))
+                        format!("{} is beyond {LARGEST:e}, more than any sensor measures", quoted(text))
                     });
                     None
                 }
@@ -369,9 +370,9 @@ impl Places {
         let columns = &mapping.columns;
         let speed =
             value(self.speed, &columns.rotary_speed.column).map(|speed| columns.rotary_speed.unit.to_rpm(speed));
-        let mut condition = |place: Option<usize>, condition: &Condition| {
-            place
-                .and_then(|place| value(place, &condition.column))
+        let mut condition = |index: Option<usize>, condition: &Condition| {
+            index
+                .and_then(|index| value(index, &condition.column))
                 .map(|value| condition.holds(value))
         };
         let (weight_column, weight_unit, drilling, off_bottom) = match &columns.weight_on_bit {
@@ -386,7 +387,7 @@ impl Places {
         let weight = value(self.weight, weight_column).map(|weight| weight_unit.to_kn(weight));
         let torque = self.torque.zip(columns.torque.as_ref());
         let torque =
-            torque.and_then(|(place, torque)| value(place, &torque.column).map(|value| torque.unit.to_kn_m(value)));
+            torque.and_then(|(index, torque)| value(index, &torque.column).map(|value| torque.unit.to_kn_m(value)));
         Row {
             torque,
             number,

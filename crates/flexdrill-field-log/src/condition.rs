@@ -1,4 +1,4 @@
-//! When a row of the log means something.
+//! Conditions on a column, such as "drilling" or "off bottom".
 
 use serde::{Deserialize, Serialize};
 
@@ -22,14 +22,14 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// Whether it holds for a value of its column.
+    /// Whether the condition holds for this value of its column.
     pub fn holds(&self, value: f64) -> bool {
         self.values.contains(&value)
             || self.above.is_some_and(|bound| value > bound)
             || self.below.is_some_and(|bound| value < bound)
     }
 
-    pub(super) fn check(&self, c: &mut Checker) {
+    pub(crate) fn check(&self, c: &mut Checker) {
         let given = usize::from(!self.values.is_empty())
             + usize::from(self.above.is_some())
             + usize::from(self.below.is_some());

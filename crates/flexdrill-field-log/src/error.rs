@@ -1,4 +1,4 @@
-//! Why a field log could not be read at all. What is wrong with single rows stands in the [`super::Report`].
+//! Errors that prevent reading a log at all. Problems of single rows are in the [`crate::Report`].
 
 use std::path::PathBuf;
 
@@ -13,13 +13,13 @@ pub enum FieldLogError {
     /// The log could not be opened or read.
     #[error("{}: cannot be read: {reason}", path.display())]
     Read {
-        /// File or folder that it is about.
+        /// The log.
         path: PathBuf,
-        /// The system's reason.
+        /// The operating system's error.
         reason: String,
     },
-    /// The log is larger than a log can be.
-    #[error("{file}: {bytes} bytes, at most {most} are read; split the log")]
+    /// The log exceeds the size that is read into memory.
+    #[error("{file}: the log has {bytes} bytes, at most {most} are read; split it")]
     TooLarge {
         /// Name of the log.
         file: String,
@@ -28,9 +28,9 @@ pub enum FieldLogError {
         /// The largest size.
         most: u64,
     },
-    /// The log is text in an encoding that is not read.
+    /// The log is text in an encoding other than UTF-8.
     #[error(
-        "{file}: it is {encoding}, not UTF-8; save it as \"CSV UTF-8\", or convert it: iconv -f {encoding} -t UTF-8"
+        "{file}: the encoding is {encoding}, not UTF-8; save the log as \"CSV UTF-8\", or convert it: iconv -f {encoding} -t UTF-8"
     )]
     Encoding {
         /// Name of the log.
@@ -40,7 +40,7 @@ pub enum FieldLogError {
     },
     /// The first line is too long for a header.
     #[error(
-        "{file}: its first line has {bytes} bytes, at most {most} are read; a log has a header of column names, and one \
+        "{file}: the first line has {bytes} bytes, at most {most} are read; a log has a header of column names and one \
          row per line"
     )]
     LongHeader {
@@ -54,7 +54,7 @@ pub enum FieldLogError {
     /// A column that the mapping names is in the header twice.
     #[error(
         "{file}: column `{column}`, which {key} of the mapping names, is in the header twice, as field {first} and field \
-         {second}; rename one of them, for only the log's author knows which is meant"
+         {second}; rename the one that the mapping does not mean"
     )]
     DuplicateColumn {
         /// Name of the log.
@@ -63,9 +63,9 @@ pub enum FieldLogError {
         column: String,
         /// Key of the mapping.
         key: String,
-        /// First place in the header, counted from 1.
+        /// Number of the first field with that name, counted from 1.
         first: usize,
-        /// Second place.
+        /// Number of the second.
         second: usize,
     },
     /// The header lacks a column that the mapping names.
@@ -79,7 +79,7 @@ pub enum FieldLogError {
         key: String,
         /// The header.
         found: String,
-        /// What may be wrong in the mapping; empty if nothing is known.
+        /// A likely cause in the mapping; empty when none is known.
         hint: String,
     },
     /// No row has a readable time.
@@ -91,17 +91,17 @@ pub enum FieldLogError {
         column: String,
         /// The format of the mapping.
         format: &'static str,
-        /// What was found instead; empty if there was no row.
+        /// The first text that was not a time; empty when there was no row.
         hint: String,
     },
-    /// The range asked for is empty or outside the log.
-    #[error("{file}: nothing between {from} and {to}; the log has rows {first_row} to {last_row}, {length:.1} s")]
+    /// The requested range is empty or outside the log.
+    #[error("{file}: no row lies between {from} and {to}; the log has rows {first_row} to {last_row}, {length:.1} s")]
     EmptyRange {
         /// Name of the log.
         file: String,
-        /// Begin, as it was asked for.
+        /// Begin, as requested.
         from: String,
-        /// End, as it was asked for.
+        /// End, as requested.
         to: String,
         /// First row with a time.
         first_row: u64,
@@ -110,12 +110,13 @@ pub enum FieldLogError {
         /// Length (s).
         length: f64,
     },
-    /// A place in a log could not be understood.
+    /// A position in a log could not be parsed.
     #[error(
-        "`{text}` is not a place in a log: write seconds since the log's first row (90) or a row as an editor numbers it (row:6345)"
+        "`{text}` is not a position in a log: write seconds since the log's first row (90) or a row as an editor numbers it \
+         (row:6345)"
     )]
     Position {
-        /// Text, as it was given.
+        /// The text, as given.
         text: String,
     },
 }

@@ -1,8 +1,8 @@
-//! What comes out of a log.
+//! The timed inputs of a log.
 
 use flexdrill_core::inputs::InputKind;
 
-/// One sample as a topic would bring it.
+/// One sample, as the input's topic would carry it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimedInput {
     /// Since the first row of the range that was read (s).

@@ -1,12 +1,12 @@
-//! Single samples that cannot be, and values that do not change.
+//! Spikes (single implausible samples) and frozen values.
 
-use super::report::{IssueKind, Issues};
-use super::table::Row;
+use crate::report::{IssueKind, Issues};
+use crate::table::Row;
 use flexdrill_core::inputs::InputKind;
 
-/// Takes out single samples that are further than `limit` from both their neighbours, on the same side. Longer
-/// excursions stay: they may be true.
-pub(super) fn take_out_spikes(
+/// Removes single samples that are further than `limit` from both neighbours, on the same side. Longer excursions
+/// are kept, as they may be real.
+pub(crate) fn remove_spikes(
     rows: &mut [Row],
     kind: InputKind,
     limit: f64,
@@ -30,11 +30,11 @@ pub(super) fn take_out_spikes(
     }
 }
 
-/// Reports values other than 0 that do not change for longer than `after` (s). They stay: some values are steady.
-pub(super) fn report_frozen(rows: &[Row], kind: InputKind, after: f64, column: &str, issues: &mut Issues) {
+/// Reports non-zero values that do not change for longer than `after` (s). They are kept: some values are steady.
+pub(crate) fn report_frozen(rows: &[Row], kind: InputKind, after: f64, column: &str, issues: &mut Issues) {
     let alike = |a: &Row, b: &Row| a.values[kind.index()] == b.values[kind.index()];
-    for stretch in rows.chunk_by(alike) {
-        let ([from, ..], [.., to]) = (stretch, stretch) else {
+    for run in rows.chunk_by(alike) {
+        let ([from, ..], [.., to]) = (run, run) else {
             continue;
         };
         let length = to.time - from.time;
@@ -42,7 +42,7 @@ pub(super) fn report_frozen(rows: &[Row], kind: InputKind, after: f64, column: &
             && value != 0.0
             && length > after
         {
-            let count = stretch.len() as u64;
+            let count = run.len() as u64;
             issues.add_span(IssueKind::Frozen, column, from.number, to.number, count, || {
                 format!("{value} {} for {length:.0} s", kind.unit())
             });

@@ -1,14 +1,14 @@
-//! From a file to timed inputs and a report.
+//! Reads a log into timed inputs and a report.
 
 use std::io::Read as _;
 use std::path::Path;
 
-use super::hookload::weigh;
-use super::mapping::{Mapping, WeightOnBitColumn};
-use super::report::{Issues, Report, Summary, TorqueSummary};
-use super::spikes::{report_frozen, take_out_spikes};
-use super::table::{Row, read_table};
-use super::{FieldLogError, InputSequence, Range, Tare, TimedInput};
+use crate::hookload::weigh;
+use crate::mapping::{Mapping, WeightOnBitColumn};
+use crate::report::{Issues, Report, Summary, TorqueSummary};
+use crate::spikes::{remove_spikes, report_frozen};
+use crate::table::{Row, read_table};
+use crate::{FieldLogError, InputSequence, Range, Tare, TimedInput};
 use flexdrill_core::inputs::InputKind;
 
 /// Reads a whole log.
@@ -19,9 +19,9 @@ pub fn read(path: impl AsRef<Path>, mapping: &Mapping) -> Result<(InputSequence,
     read_range(path, mapping, &Range::ALL)
 }
 
-/// Reads a range of a log. Rows before it still count for the hookload's tare; times begin at 0 with its first row; the
-/// report is of the range only, with the rows at its ends that have no usable time. Where the time of the log starts
-/// anew, the parts follow each other with a gap between them.
+/// Reads a range of a log. Rows before the range also contribute to the hookload's tare. Times begin at 0 with the
+/// first row of the range. The report covers the range only, with the rows at its ends that have no usable time. Where
+/// the log's clock restarts, the parts follow each other with a gap between them.
 ///
 /// # Errors
 /// As [`read`], and when the range is empty.
@@ -40,33 +40,35 @@ pub fn read_range(
     let rows = &table.rows;
     let (first, last) = (rows[0], rows[rows.len() - 1]);
     let within = |row: &Row| range.contains(row.number, row.time);
-    // Rows and their times rise together, so those of a range lie side by side.
+    // Row numbers and times rise together, so the rows of a range are contiguous.
     let from = rows.iter().position(within);
     let (Some(from), Some(to)) = (from, rows.iter().rposition(within)) else {
         return Err(FieldLogError::EmptyRange {
             file: name,
             from: range
                 .from
-                .map_or_else(|| "its begin".to_string(), |from| from.to_string()),
-            to: range.to.map_or_else(|| "its end".to_string(), |to| to.to_string()),
+                .map_or_else(|| "the log's begin".to_string(), |from| from.to_string()),
+            to: range
+                .to
+                .map_or_else(|| "the log's end".to_string(), |to| to.to_string()),
             first_row: first.number,
             last_row: last.number,
             length: last.time,
         });
     };
     let part = &rows[from..=to];
-    // Rows without a usable time belong to the part that they stand in or beside, so that none is in no report.
+    // Rows without a usable time belong to the part around or before them, so that one report names each of them.
     let before = from.checked_sub(1).map_or(0, |index| rows[index].number);
     let after = rows.get(to + 1).map_or(u64::MAX, |row| row.number);
     let span = [before + 1, after - 1].map(|row| range.nearest_row(row));
-    let about = About {
+    let source = ReportSource {
         file: &name,
         mapping,
         tares: &tares,
         issues: &issues,
         written: &table.written,
     };
-    let mut report = about.report(part, span);
+    let mut report = source.report(part, span);
     let begins: Vec<usize> = table
         .parts
         .iter()
@@ -79,7 +81,7 @@ pub fn read_range(
         for end in ends {
             let first = if begin == 0 { span[0] } else { part[begin].number };
             let last = part.get(end).map_or(span[1], |row| row.number - 1);
-            report.parts.push(about.report(&part[begin..end], [first, last]));
+            report.parts.push(source.report(&part[begin..end], [first, last]));
             begin = end;
         }
     }
@@ -105,26 +107,26 @@ fn content_of(path: &Path, name: &str) -> Result<Vec<u8>, FieldLogError> {
         });
     }
     let mut content = Vec::new();
-    // A file that grows while it is read ends at the same bound.
+    // The same bound holds for a file that grows while it is read.
     file.take(LARGEST).read_to_end(&mut content).map_err(failed)?;
     Ok(content)
 }
 
-/// What reports are made from.
-struct About<'a> {
+/// The sources of a report.
+struct ReportSource<'a> {
     file: &'a str,
     mapping: &'a Mapping,
     tares: &'a [Tare],
     issues: &'a Issues,
-    /// Rows of the file.
+    /// Numbers of all rows of the file.
     written: &'a [u64],
 }
 
-impl About<'_> {
-    /// The report of rows that are used, at least one, and of those from row to row that are not.
+impl ReportSource<'_> {
+    /// The report of the rows used (`part`, at least one) and of the rows left out between `from` and `to`.
     fn report(&self, part: &[Row], [from, to]: [u64; 2]) -> Report {
         let (begin, end) = (part[0], part[part.len() - 1]);
-        // Only tares that act within the part: from the last one before it on.
+        // The tares that apply within the part begin with the last one before it.
         let acting = self
             .tares
             .partition_point(|tare| tare.last_row < begin.number)
@@ -152,7 +154,7 @@ impl About<'_> {
     }
 }
 
-/// Takes out what cannot be and turns hookloads into weights.
+/// Removes implausible samples and converts hookloads to weights on bit.
 fn clean_and_weigh(rows: &mut [Row], mapping: &Mapping, issues: &mut Issues) -> Vec<Tare> {
     let (columns, quality) = (&mapping.columns, &mapping.quality);
     let weight_column = match &columns.weight_on_bit {
@@ -164,7 +166,7 @@ fn clean_and_weigh(rows: &mut [Row], mapping: &Mapping, issues: &mut Issues) -> 
         (InputKind::WeightOnBit, weight_column, quality.spike_kn),
     ] {
         report_frozen(rows, kind, quality.frozen_after, column, issues);
-        take_out_spikes(rows, kind, spike, quality.max_gap, column, issues);
+        remove_spikes(rows, kind, spike, quality.max_gap, column, issues);
     }
     match &columns.weight_on_bit {
         WeightOnBitColumn::Direct(_) => Vec::new(),

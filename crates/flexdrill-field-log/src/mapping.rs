@@ -1,16 +1,16 @@
-//! The mapping file: which column is what.
+//! The mapping file: the meaning, unit and quality limits of a log's columns.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Condition, TimeFormat};
+use crate::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
 use flexdrill_config::reading;
 use flexdrill_core::units::{kft_lbf_to_kn_m, kgf_to_kn, klbf_to_kn, lbf_to_kn, n_to_kn, rad_per_s_to_rpm, tf_to_kn};
 
-/// Which column of a log is what.
+/// The meaning of a log's columns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mapping {
@@ -23,12 +23,12 @@ pub struct Mapping {
     /// `point` or `comma`, in numbers. Default point.
     #[serde(default)]
     pub decimal: Decimal,
-    /// Values that stand for "no value", beside an empty field. Default none.
+    /// Values that mean "no value", in addition to an empty field. Default none.
     #[serde(default)]
     pub missing: Vec<f64>,
     /// Required.
     pub columns: Columns,
-    /// What counts as wrong.
+    /// Limits beyond which a sample is reported.
     #[serde(default)]
     pub quality: Quality,
 }
@@ -37,7 +37,7 @@ fn comma() -> char {
     ','
 }
 
-/// What separates the whole part of a number from its fraction.
+/// The decimal separator.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Decimal {
@@ -49,8 +49,8 @@ pub enum Decimal {
 }
 
 impl Decimal {
-    /// A number of the log; `None` when it is none in this notation.
-    pub(super) fn parse(self, text: &str) -> Option<f64> {
+    /// Parses a number of the log; `None` when the text is no number in this notation.
+    pub(crate) fn parse(self, text: &str) -> Option<f64> {
         match self {
             Self::Point => text.parse().ok(),
             Self::Comma if text.contains('.') => None,
@@ -58,18 +58,18 @@ impl Decimal {
         }
     }
 
-    /// What to change in the mapping where `text` is a number in the other notation; empty where it is none.
-    pub(super) fn hint(self, text: &str) -> &'static str {
+    /// The change of the mapping that would make `text` a number; empty when the other notation does not help.
+    pub(crate) fn hint(self, text: &str) -> &'static str {
         let other = match self {
             Self::Point => Self::Comma,
             Self::Comma => Self::Point,
         };
         match self {
-            // What both can read, such as "inf", is wrong in another way.
+            // Text that both notations read, such as "inf", has another problem.
             _ if self.parse(text).is_some() || other.parse(text).is_none() => "",
             Self::Point => "; if its comma is a decimal comma, set `decimal: comma` in the mapping",
             Self::Comma => {
-                "; the mapping says `decimal: comma`, with which a point may separate thousands: remove it if this is a decimal point"
+                "; under `decimal: comma` a point may separate thousands: remove `decimal: comma` if this is a decimal point"
             }
         }
     }
@@ -118,7 +118,7 @@ pub enum TorqueUnit {
 }
 
 impl TorqueUnit {
-    pub(super) fn to_kn_m(self, value: f64) -> f64 {
+    pub(crate) fn to_kn_m(self, value: f64) -> f64 {
         match self {
             Self::NewtonMetre => n_to_kn(value),
             Self::KilonewtonMetre => value,
@@ -171,7 +171,7 @@ pub enum SpeedUnit {
 }
 
 impl SpeedUnit {
-    pub(super) fn to_rpm(self, value: f64) -> f64 {
+    pub(crate) fn to_rpm(self, value: f64) -> f64 {
         match self {
             Self::RevolutionsPerMinute => value,
             Self::RadiansPerSecond => rad_per_s_to_rpm(value),
@@ -188,7 +188,7 @@ pub enum WeightUnit {
     /// Kilonewton.
     #[serde(rename = "kN")]
     Kilonewton,
-    /// Ten newton times thousand.
+    /// Thousand decanewtons (10 kN).
     #[serde(rename = "kdaN")]
     Kilodecanewton,
     /// Kilogram-force.
@@ -206,7 +206,7 @@ pub enum WeightUnit {
 }
 
 impl WeightUnit {
-    pub(super) fn to_kn(self, value: f64) -> f64 {
+    pub(crate) fn to_kn(self, value: f64) -> f64 {
         match self {
             Self::N => n_to_kn(value),
             Self::Kilonewton => value,
@@ -225,7 +225,7 @@ impl WeightUnit {
 pub enum WeightOnBitColumn {
     /// The log has it.
     Direct(Direct),
-    /// It is the hookload that is missing on the hook while drilling.
+    /// It is the tare minus the hookload while drilling.
     Hookload(Hookload),
 }
 
@@ -243,7 +243,7 @@ pub struct Direct {
 }
 
 /// Weight on bit = (tare - hookload) x scale while drilling, 0 otherwise. The tare is the median hookload over the last
-/// `tare_window` of the last stretch that was off bottom and rotating.
+/// `tare_window` of the last interval off bottom and rotating.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Hookload {
@@ -261,10 +261,10 @@ pub struct Hookload {
     /// Tare window (s). Default 30.
     #[serde(default = "thirty")]
     pub tare_window: f64,
-    /// A stretch with fewer rows gives no tare. Default 20.
+    /// An interval with fewer rows gives no tare. Default 20.
     #[serde(default = "twenty")]
     pub tare_min_rows: usize,
-    /// A weight this little below zero counts as zero, one further below is left out. Before scaling. Default 5.
+    /// A weight down to this far below zero counts as zero; a lower one is left out. Before scaling. Default 5.
     #[serde(default = "five")]
     pub negative_band_kn: f64,
     /// Factor to the tool's range. Default 1.
@@ -288,13 +288,13 @@ fn twenty() -> usize {
     20
 }
 
-/// What counts as wrong.
+/// Limits beyond which samples are reported or left out.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Quality {
     /// A longer time between two rows is a gap (s). Default 5.
     pub max_gap: f64,
-    /// A single sample further than this from both its neighbours is a spike and left out. Default 50.
+    /// A single sample further than this from both neighbours is a spike and is left out. Default 50.
     pub spike_rpm: f64,
     /// The same for weight or hookload. Default 100.
     pub spike_kn: f64,
@@ -343,7 +343,7 @@ impl Mapping {
         Self::from_text(&name, &text)
     }
 
-    /// Reads and checks a text; `name` stands for the file in errors.
+    /// Reads and checks a mapping; errors name it `name`.
     ///
     /// # Errors
     /// When the text is not YAML of this schema, or does not make sense.
@@ -351,7 +351,7 @@ impl Mapping {
         reading::checked(name, text, REQUIRED, Self::check)
     }
 
-    /// Factor that the log's weight on bit is multiplied by.
+    /// Factor on the log's weight on bit.
     pub fn weight_scale(&self) -> f64 {
         match &self.columns.weight_on_bit {
             WeightOnBitColumn::Direct(direct) => direct.scale,
@@ -369,7 +369,7 @@ impl Mapping {
             "",
         );
         let scale = Bound::above(0.0, 1e3);
-        let scale_reason = "a factor to the tool's range; 1 takes the log as it is";
+        let scale_reason = "a factor to the tool's range; 1 leaves the log's values unchanged";
         c.below("columns", |c| {
             c.below("rotary_speed", |c| {
                 c.number("scale", self.columns.rotary_speed.scale, scale, "", scale_reason);
@@ -392,7 +392,7 @@ impl Hookload {
     fn check(&self, c: &mut Checker) {
         c.below("drilling", |c| self.drilling.check(c));
         c.below("off_bottom", |c| self.off_bottom.check(c));
-        let reason = "a string that stands still hangs with its friction";
+        let reason = "the hookload of a string that does not rotate includes friction";
         c.number(
             "rotating_above_rpm",
             self.rotating_above_rpm,
@@ -400,14 +400,14 @@ impl Hookload {
             "r/min",
             reason,
         );
-        let reason = "long enough for a median, short enough for the depth of the connection";
+        let reason = "long enough for a median, short enough to belong to one connection";
         c.number("tare_window", self.tare_window, Bound::above(0.0, 3600.0), "s", reason);
         c.count(
             "tare_min_rows",
             self.tare_min_rows,
             1,
             100_000,
-            "a median of too few is chance",
+            "a median of too few rows is chance",
         );
         let reason = "the noise of a hookload";
         c.number(
@@ -428,21 +428,21 @@ impl Quality {
             self.spike_rpm,
             Bound::above(0.0, 1e6),
             "r/min",
-            "1e6 switches it off",
+            "1e6 disables the check",
         );
         c.number(
             "spike_kn",
             self.spike_kn,
             Bound::above(0.0, 1e6),
             "kN",
-            "1e6 switches it off",
+            "1e6 disables the check",
         );
         c.number(
             "frozen_after",
             self.frozen_after,
             Bound::above(0.0, 1e9),
             "s",
-            "1e9 switches it off",
+            "1e9 disables the check",
         );
     }
 }

@@ -1,10 +1,12 @@
-//! How a log writes time.
+//! Notations of time in a log.
 
+use jiff::civil::{Date, Time};
+use jiff::tz::Offset;
 use serde::{Deserialize, Serialize};
 
-use super::Decimal;
+use crate::Decimal;
 
-/// How a log writes time. Only differences matter.
+/// Notation of time in a log. Only differences matter.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TimeFormat {
@@ -15,17 +17,17 @@ pub enum TimeFormat {
     Milliseconds,
     /// `2024-05-01T12:30:05.25Z`; also with a blank for the T, with or without the Z or an offset such as +02:00.
     Iso8601,
-    /// `23:59:58.5`, `23:59`, or a number of seconds since midnight. At midnight it begins anew, and goes on.
+    /// `23:59:58.5`, `23:59`, or a number of seconds since midnight. It restarts at midnight.
     TimeOfDay,
 }
 
-/// Latest time (s): far beyond milliseconds taken for seconds, and no sum of two is infinite.
+/// Latest time accepted (s): beyond any time in milliseconds read as seconds, and the sum of two is finite.
 const LATEST: f64 = 1e15;
 /// A day (s).
-pub(super) const DAY: f64 = 86_400.0;
+pub(crate) const DAY: f64 = 86_400.0;
 
 impl TimeFormat {
-    /// For people.
+    /// The name in a mapping file.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Seconds => "seconds",
@@ -35,7 +37,7 @@ impl TimeFormat {
         }
     }
 
-    /// Seconds, from some epoch; `None` when the text is not of this format.
+    /// Time since the format's epoch (s); `None` when the text is not of this format.
     pub fn parse(self, text: &str, decimal: Decimal) -> Option<f64> {
         let clock = || match decimal {
             Decimal::Point => text.to_owned(),
@@ -51,21 +53,24 @@ impl TimeFormat {
     }
 }
 
-/// Seconds since 1970-01-01.
+/// Seconds since 1970-01-01, UTC.
 fn iso8601(text: &str) -> Option<f64> {
     let (date, time) = text.split_once(['T', ' '])?;
     let mut parts = date.split('-');
-    let year = whole(parts.next()?, 4)?;
-    let month = whole(parts.next()?, 2).filter(|month| (1..=12).contains(month))?;
-    let day = whole(parts.next()?, 2).filter(|day| (1..=31).contains(day))?;
+    let year = i16::try_from(whole(parts.next()?, 4)?).ok()?;
+    let month = i8::try_from(whole(parts.next()?, 2)?).ok()?;
+    let day = i8::try_from(whole(parts.next()?, 2)?).ok()?;
     if parts.next().is_some() {
         return None;
     }
+    let midnight = Date::new(year, month, day).ok()?.to_datetime(Time::midnight());
+    let midnight = Offset::UTC.to_timestamp(midnight).ok()?.as_second();
     let (clock, offset) = split_offset(time)?;
-    Some((days_since_1970(year, month, day) * 86_400 - offset) as f64 + clock_time(clock)?)
+    // jiff does not parse the clock: it would clamp a leap second to 59 and cut fractions to nanoseconds.
+    Some((midnight - offset) as f64 + clock_time(clock)?)
 }
 
-/// Hours, minutes and, where they are given, seconds (s).
+/// Time since midnight (s) of `HH:MM` or `HH:MM:SS.s`.
 fn clock_time(clock: &str) -> Option<f64> {
     let mut parts = clock.split(':');
     let hour = whole(parts.next()?, 2).filter(|hour| *hour < 24)?;
@@ -84,7 +89,7 @@ fn time_of_day(text: &str) -> Option<f64> {
         return clock_time(text);
     }
     let seconds = text.parse::<f64>().ok()?;
-    // A leap second makes a day one longer.
+    // The end of the day is included: loggers write it for midnight.
     (0.0..=DAY).contains(&seconds).then_some(seconds)
 }
 
@@ -111,20 +116,6 @@ fn whole(text: &str, digits: usize) -> Option<i64> {
     fits.then(|| text.parse().ok()).flatten()
 }
 
-/// Days of the Gregorian calendar, counted in years that begin in March so that the leap day comes last.
-fn days_since_1970(year: i64, month: i64, day: i64) -> i64 {
-    let (year, month) = if month > 2 {
-        (year, month - 3)
-    } else {
-        (year - 1, month + 9)
-    };
-    let leap_days = year / 4 - year / 100 + year / 400;
-    // Months from March on alternate so that this gives their first days: 0, 31, 61, 92, ...
-    let days_before_month = (153 * month + 2) / 5;
-    // 719_469: the count of 1970-01-01 on this scale, plus one because days count from 1.
-    year * 365 + leap_days + days_before_month + day - 719_469
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,6 +127,29 @@ mod tests {
         assert_eq!(parse("2000-02-29 12:00:00.5"), Some(951_825_600.5));
         assert_eq!(parse("2024-12-31T23:59:59+01:00"), Some(1_735_685_999.0));
         assert_eq!(parse("2024-12-31T17:59-0500"), Some(1_735_685_940.0));
+        assert_eq!(parse("2016-12-31T23:59:60.5Z"), Some(1_483_228_800.5));
+    }
+
+    /// Two Gregorian cycles of 400 years. A day that a month does not have is no date.
+    #[test]
+    fn days_follow_one_another_over_every_leap_rule() {
+        let mut expected = -62_135_596_800.0; // date -u -d 0001-01-01 +%s
+        for year in 1..=801_u32 {
+            let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+            let lengths = [31, 28 + u32::from(leap), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+            for (month, length) in (1..).zip(lengths) {
+                for day in 1..=31 {
+                    let text = format!("{year:04}-{month:02}-{day:02}T00:00:00Z");
+                    let found = TimeFormat::Iso8601.parse(&text, Decimal::Point);
+                    if day > length {
+                        assert_eq!(found, None, "{text}");
+                    } else {
+                        assert_eq!(found, Some(expected), "{text}");
+                        expected += DAY;
+                    }
+                }
+            }
+        }
     }
 
     #[test]

@@ -1,0 +1,44 @@
+//! Field logs: reads a CSV log and its mapping file into the timed inputs that the topics would carry, and reports
+//! everything in the log that is wrong.
+//!
+//! The crate never fills in a value: it leaves out what is missing, so that the conditioner sees the input age as it
+//! would on the rig, and the report names the rows. Rows are numbered as an editor shows them: the header is row 1.
+//!
+//! ```no_run
+//! # fn main() -> Result<(), flexdrill_field_log::FieldLogError> {
+//! use flexdrill_field_log::{Mapping, read};
+//!
+//! let mapping = Mapping::load("config/field_logs/rig_1hz.yaml")?;
+//! let (sequence, report) = read("config/field_logs/demo.csv", &mapping)?;
+//! print!("{report}");
+//! for input in &sequence.inputs {
+//!     println!("{:8.1} s {} = {} {}", input.time, input.kind.name(), input.value, input.kind.unit());
+//! }
+//! # Ok(())
+//! # }
+//! ```
+
+mod condition;
+mod error;
+mod hookload;
+mod mapping;
+mod parts;
+mod range;
+mod read;
+mod report;
+mod sequence;
+mod spikes;
+mod table;
+mod time_format;
+
+pub use condition::Condition;
+pub use error::FieldLogError;
+pub use mapping::{
+    Columns, Decimal, Direct, Hookload, Mapping, Quality, RotarySpeedColumn, TimeColumn, WeightOnBitColumn,
+};
+pub use mapping::{SpeedUnit, TorqueColumn, TorqueUnit, WeightUnit};
+pub use range::{Position, Range};
+pub use read::{read, read_range};
+pub use report::{Issue, IssueKind, Report, Summary, Tare, TorqueSummary};
+pub use sequence::{InputSequence, TimedInput};
+pub use time_format::TimeFormat;
