@@ -21,15 +21,15 @@
 //! [`flexdrill_config`], [`flexdrill_realtime`] and [`flexdrill_core`], the mechanics. `docs/architecture.md` draws the house.
 
 pub mod alarms;
-pub mod bag;
 pub mod cli;
 pub mod dashboard;
 pub mod dds;
 pub mod health;
-pub mod live;
 pub mod report;
 pub mod rig_inputs;
 pub mod ros;
 
+pub use flexdrill_bag as bag;
 pub use flexdrill_field_log as field_log;
+pub use flexdrill_live as live;
 pub use flexdrill_messages as messages;

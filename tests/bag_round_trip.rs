@@ -53,7 +53,7 @@ fn nothing_is_overwritten() {
     assert!(matches!(refuse("run.mcap"), BagError::Exists { .. }));
     let error = refuse("other.mcap");
     assert!(matches!(error, BagError::OtherMetadata { .. }));
-    assert!(error.to_string().contains("folder of its own"), "{error}");
+    assert!(error.to_string().contains("empty folder"), "{error}");
     assert!(!folder.path().join("other.mcap").exists());
     recording(folder.path(), "other", 3);
     assert!(matches!(refuse("other"), BagError::Exists { .. }));

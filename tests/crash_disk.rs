@@ -175,7 +175,7 @@ fn a_disk_that_hangs_at_any_write_holds_nobody_up() {
         );
         let text = error.to_string();
         assert!(
-            text.contains("does not answer") && text.contains("run_0.mcap"),
+            text.contains("does not respond") && text.contains("run_0.mcap"),
             "{text}"
         );
         // Nothing takes it for a whole recording, and what is in the file can be read.
@@ -194,7 +194,10 @@ fn a_disk_that_hangs_at_the_start_is_told() {
     disk.fail_once_after(0);
     let began = Instant::now();
     let error = start(disk.clone(), &folder.path().join("run")).err().unwrap();
-    assert!(error.to_string().contains("could not be begun within 10 s"), "{error}");
+    assert!(
+        error.to_string().contains("could not be created within 10 s"),
+        "{error}"
+    );
     // The bound, and what a busy machine adds.
     assert!(began.elapsed() < Duration::from_secs(15));
     disk.heal();
@@ -315,7 +318,7 @@ fn a_refused_sync_is_not_believed_afterwards() {
     sent += 300;
     let notice = recording.health().notice().unwrap();
     assert!(
-        notice.contains("cannot bring") && notice.contains("may be lost"),
+        notice.contains("cannot sync") && notice.contains("may be lost"),
         "{notice}"
     );
     let drops = recording.health().drops();

@@ -219,9 +219,9 @@ fn who_may_only_look_is_told_so() {
         assert_eq!(twin.end(), Some(0));
         let said = twin.said();
         let logged = [
-            "a viewer came with a token, but steering is off",
+            "a viewer sent a token, but steering is off",
             "127.0.0.1:",
-            "offered a wrong token",
+            "sent a wrong token",
         ];
         let logged = if others == 403 { &logged[..1] } else { &logged[1..] };
         assert!(logged.iter().all(|part| said.contains(part)), "{said}");

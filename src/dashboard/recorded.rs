@@ -9,7 +9,7 @@ use super::board::Board;
 use super::history::CAPACITY;
 use super::listen::CDR_HEADER;
 use crate::bag::{self, Bag, BagMessage};
-use crate::live::{self, Hub, Player, Playing, States};
+use crate::live::{self, Hub, LatchedStates, Player, Playing};
 use crate::messages::topics::{self, TopicInfo};
 use flexdrill_text::printable;
 
@@ -33,7 +33,7 @@ impl Recorded {
             .topics()
             .iter()
             .find_map(|topic| topic.namespace(topics::STATUS.name).map(str::to_owned));
-        let states = Arc::new(States::default());
+        let states = Arc::new(LatchedStates::default());
         let seconds = (end - start).div_ceil(CAPACITY as u64 * 1_000_000_000);
         let board = Arc::new(Board::of_bag(u32::try_from(seconds).unwrap_or(u32::MAX)));
         board.with_history(|history| history.set_complete(false));
@@ -70,7 +70,7 @@ impl Recorded {
 struct ReadThrough {
     bag: Bag,
     board: Arc<Board>,
-    states: Arc<States>,
+    states: Arc<LatchedStates>,
     played: Arc<PlayedBag>,
 }
 

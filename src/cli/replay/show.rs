@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::bag;
 use crate::cli::output::say;
 use crate::cli::signals;
-use crate::live::{self, Gateway, Hub, Player, States};
+use crate::live::{self, Gateway, Hub, LatchedStates, Player};
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
 use flexdrill_text::printable;
@@ -22,7 +22,7 @@ pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyh
         let bag = bag::open(path)?;
         let (start, end) = live::range(&bag, path)?;
         let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref));
-        let states = Arc::new(States::default());
+        let states = Arc::new(LatchedStates::default());
         read_states(path, Arc::clone(&states))?;
         let playing = Player::start(bag, (start, end), &hub, &states)?;
         say!(
@@ -39,7 +39,7 @@ pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyh
 }
 
 /// Reads the latched topics through, on a thread that is left behind at the end: it only reads.
-fn read_states(path: &Path, states: Arc<States>) -> anyhow::Result<()> {
+fn read_states(path: &Path, states: Arc<LatchedStates>) -> anyhow::Result<()> {
     let mut bag = bag::open(path)?;
     bag.select(|topic| topic.qos.iter().any(|qos| qos.transient_local));
     std::thread::Builder::new().name("reader".into()).spawn(move || {

@@ -64,7 +64,7 @@ impl Viewers {
         let steering = Arc::downgrade(steering);
         self.parameters.tell(Box::new(move |changed| {
             if let Some(steering) = steering.upgrade() {
-                steering.tell_parameters(settings(changed));
+                steering.send_parameters(settings(changed));
             }
         }));
     }

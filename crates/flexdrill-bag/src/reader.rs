@@ -1,0 +1,357 @@
+//! Reads bags of every supported format, all files merged in time order.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::location::METADATA;
+use crate::mcap_file::McapStream;
+use crate::raw::RawMessage;
+#[cfg(feature = "sqlite")]
+use crate::sqlite::SqliteStream;
+use crate::{BagError, Topic, metadata};
+use flexdrill_messages::{Message, from_cdr};
+
+/// First bytes of an SQLite database.
+const SQLITE_MAGIC: &[u8] = b"SQLite format 3\0";
+
+/// One message of a bag.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BagMessage {
+    /// Its topic.
+    pub topic: Arc<Topic>,
+    /// Index of the topic in [`Bag::topics`].
+    pub topic_index: usize,
+    /// When it was recorded (ns since the clock's epoch).
+    pub log_time: i64,
+    /// When it was published (ns since the clock's epoch); in SQLite bags, which do not store it, the log time.
+    pub publish_time: i64,
+    /// CDR with its header.
+    pub data: Vec<u8>,
+    /// Sequence number in its topic; in flexdrill's recordings, a missing number is a lost message. SQLite bags have none.
+    pub sequence: Option<u32>,
+}
+
+impl BagMessage {
+    /// Decodes the message.
+    ///
+    /// # Errors
+    /// When the topic has another type, or the bytes do not match the type.
+    pub fn decode<M: Message>(&self) -> Result<M, BagError> {
+        if self.topic.ros_type != M::ROS_TYPE {
+            return Err(BagError::WrongType {
+                topic: self.topic.name.clone(),
+                found: self.topic.ros_type.clone(),
+                expected: M::ROS_TYPE,
+            });
+        }
+        from_cdr(&self.data).map_err(|source| BagError::Decode {
+            topic: self.topic.name.clone(),
+            log_time: self.log_time,
+            source,
+        })
+    }
+}
+
+/// A file that ends without its end record.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Cut {
+    /// The file.
+    pub path: PathBuf,
+    /// End of the last whole record (bytes).
+    pub offset: u64,
+    /// The cause, as text for the operator.
+    pub reason: String,
+}
+
+enum Stream {
+    Mcap(Box<McapStream>),
+    #[cfg(feature = "sqlite")]
+    Sqlite(Box<SqliteStream>),
+}
+
+impl Stream {
+    fn open(path: &Path) -> Result<Self, BagError> {
+        let mut magic = Vec::new();
+        File::open(path)
+            .and_then(|file| file.take(16).read_to_end(&mut magic))
+            .map_err(BagError::io("open", path))?;
+        if magic.starts_with(mcap::MAGIC) {
+            Ok(Self::Mcap(Box::new(McapStream::open(path)?)))
+        } else if magic == SQLITE_MAGIC {
+            Self::open_sqlite(path)
+        } else {
+            Err(BagError::NotABag {
+                path: path.to_owned(),
+                problem: "its first bytes are those of neither MCAP nor SQLite".to_owned(),
+            })
+        }
+    }
+
+    #[cfg(feature = "sqlite")]
+    fn open_sqlite(path: &Path) -> Result<Self, BagError> {
+        Ok(Self::Sqlite(Box::new(SqliteStream::open(path)?)))
+    }
+
+    #[cfg(not(feature = "sqlite"))]
+    fn open_sqlite(path: &Path) -> Result<Self, BagError> {
+        Err(BagError::NoSqlite { path: path.to_owned() })
+    }
+
+    fn topics(&self) -> &[Arc<Topic>] {
+        match self {
+            Self::Mcap(stream) => stream.topics(),
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(stream) => stream.topics(),
+        }
+    }
+
+    fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
+        match self {
+            Self::Mcap(stream) => stream.next(),
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(stream) => stream.next(),
+        }
+    }
+
+    fn seek(&mut self, time: i64) {
+        match self {
+            Self::Mcap(stream) => stream.seek(time),
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(stream) => stream.seek(time),
+        }
+    }
+
+    fn messages(&self) -> Option<u64> {
+        match self {
+            Self::Mcap(stream) => stream.messages(),
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(stream) => Some(stream.messages()),
+        }
+    }
+
+    fn bounds(&self) -> Option<(i64, i64)> {
+        match self {
+            Self::Mcap(stream) => stream.bounds().map(|(start, end)| {
+                let time = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
+                (time(start), time(end))
+            }),
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(stream) => stream.bounds(),
+        }
+    }
+}
+
+/// One file of the bag.
+struct Source {
+    stream: Stream,
+    /// Its next message, if already read.
+    ahead: Option<RawMessage>,
+    /// The file has no more messages.
+    ended: bool,
+    /// Index of a topic in the bag, by its index in the file.
+    topic_of: Vec<usize>,
+}
+
+/// An open bag: an iterator over its messages in time order.
+///
+/// A damaged part yields an error where its messages would be; iteration continues with the part after it. A truncated
+/// file yields everything up to the cut, and [`Bag::cuts`] reports it.
+pub struct Bag {
+    sources: Vec<Source>,
+    topics: Vec<Arc<Topic>>,
+}
+
+/// Opens an MCAP file, an SQLite file of rosbag2, or a folder with either.
+///
+/// # Errors
+/// When the path is none of these, or cannot be read; [`BagError::NoSqlite`] for an SQLite file without the feature
+/// `sqlite`.
+pub fn open(path: &Path) -> Result<Bag, BagError> {
+    let mut bag = Bag {
+        sources: Vec::new(),
+        topics: Vec::new(),
+    };
+    for file in files(path)? {
+        let stream = Stream::open(&file)?;
+        bag.sources.push(Source {
+            stream,
+            ahead: None,
+            ended: false,
+            topic_of: Vec::new(),
+        });
+    }
+    for index in 0..bag.sources.len() {
+        bag.learn_topics(index);
+    }
+    Ok(bag)
+}
+
+/// The files of the bag at `path`.
+fn files(path: &Path) -> Result<Vec<PathBuf>, BagError> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let described = path.join(METADATA);
+    if described.exists() {
+        let files = metadata::files(path, &described)?;
+        // The metadata of an interrupted recording may list no files.
+        if !files.is_empty() {
+            return Ok(files);
+        }
+    }
+    let read = || BagError::io("read", path);
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(path).map_err(read())? {
+        let file = entry.map_err(read())?.path();
+        if file
+            .extension()
+            .is_some_and(|extension| extension == "mcap" || extension == "db3")
+        {
+            files.push(file);
+        }
+    }
+    files.sort_by_cached_key(|file| numeric_order(file));
+    if files.is_empty() {
+        return Err(BagError::NotABag {
+            path: path.to_owned(),
+            problem: "the folder holds neither .mcap nor .db3 files".to_owned(),
+        });
+    }
+    Ok(files)
+}
+
+/// Sort key that puts `run_10.mcap` after `run_2.mcap`: name without number, number, path.
+fn numeric_order(file: &Path) -> (String, u64, PathBuf) {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let name = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+    let number = stem.get(name.len()..).and_then(|number| number.parse().ok());
+    (name.to_owned(), number.unwrap_or(0), file.to_owned())
+}
+
+impl Bag {
+    /// The topics of all files.
+    pub fn topics(&self) -> &[Arc<Topic>] {
+        &self.topics
+    }
+
+    /// The topic with this name: an absolute name matches exactly, a relative one in any namespace.
+    ///
+    /// # Errors
+    /// When no topic or several topics match.
+    pub fn topic(&self, name: &str) -> Result<&Arc<Topic>, BagError> {
+        let names = |topics: &[&Arc<Topic>]| {
+            let names: Vec<&str> = topics.iter().map(|topic| topic.name.as_str()).collect();
+            names.join(", ")
+        };
+        let found: Vec<_> = self.topics.iter().filter(|topic| topic.is(name)).collect();
+        match found[..] {
+            [topic] => Ok(topic),
+            [] => Err(BagError::NoTopic {
+                name: name.to_owned(),
+                present: names(&self.topics.iter().collect::<Vec<_>>()),
+            }),
+            _ => Err(BagError::AmbiguousTopic {
+                name: name.to_owned(),
+                present: names(&found),
+            }),
+        }
+    }
+
+    /// Limits the messages to the topics that `wanted` selects. The caller does this before it reads the first message.
+    pub fn select(&mut self, wanted: impl Fn(&Topic) -> bool) {
+        for source in &mut self.sources {
+            let flags: Vec<bool> = source.stream.topics().iter().map(|topic| wanted(topic)).collect();
+            match &mut source.stream {
+                Stream::Mcap(stream) => stream.set_wanted(flags),
+                #[cfg(feature = "sqlite")]
+                Stream::Sqlite(stream) => stream.set_wanted(flags),
+            }
+        }
+    }
+
+    /// Continues with the first message at or after `time` (ns since the clock's epoch), forward or back. This decompresses
+    /// only the chunks that hold it.
+    pub fn seek(&mut self, time: i64) {
+        for source in &mut self.sources {
+            source.stream.seek(time);
+            source.ahead = None;
+            source.ended = false;
+        }
+    }
+
+    /// Number of messages of all topics, if every file states it; for progress bars.
+    pub fn message_count(&self) -> Option<u64> {
+        self.sources.iter().map(|source| source.stream.messages()).sum()
+    }
+
+    /// First and last log time (ns), as the files state them.
+    pub fn bounds(&self) -> Option<(i64, i64)> {
+        self.sources
+            .iter()
+            .filter_map(|source| source.stream.bounds())
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
+    /// Truncated files, with offset and cause.
+    pub fn cuts(&self) -> impl Iterator<Item = &Cut> {
+        self.sources.iter().filter_map(|source| match &source.stream {
+            Stream::Mcap(stream) => stream.cut(),
+            #[cfg(feature = "sqlite")]
+            Stream::Sqlite(_) => None,
+        })
+    }
+
+    /// Adds the topics of a file to the bag's topics, unless they are known.
+    fn learn_topics(&mut self, index: usize) {
+        let Some(source) = self.sources.get_mut(index) else {
+            return;
+        };
+        for topic in &source.stream.topics()[source.topic_of.len()..] {
+            let number = match self.topics.iter().position(|known| known == topic) {
+                Some(number) => number,
+                None => {
+                    self.topics.push(Arc::clone(topic));
+                    self.topics.len() - 1
+                }
+            };
+            source.topic_of.push(number);
+        }
+    }
+}
+
+impl Iterator for Bag {
+    type Item = Result<BagMessage, BagError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let mut earliest: Option<(i64, usize)> = None;
+        for (index, source) in self.sources.iter_mut().enumerate() {
+            if source.ahead.is_none() && !source.ended {
+                match source.stream.next() {
+                    Some(Ok(message)) => source.ahead = Some(message),
+                    Some(Err(error)) => return Some(Err(error)),
+                    None => source.ended = true,
+                }
+            }
+            if let Some(message) = &source.ahead
+                && earliest.is_none_or(|(time, _)| message.log_time < time)
+            {
+                earliest = Some((message.log_time, index));
+            }
+        }
+        let (_, index) = earliest?;
+        self.learn_topics(index);
+        let source = self.sources.get_mut(index)?;
+        let message = source.ahead.take()?;
+        let topic_index = *source.topic_of.get(message.topic)?;
+        Some(Ok(BagMessage {
+            topic: Arc::clone(self.topics.get(topic_index)?),
+            topic_index,
+            log_time: message.log_time,
+            publish_time: message.publish_time,
+            data: message.data,
+            sequence: message.sequence,
+        }))
+    }
+}
