@@ -1,5 +1,5 @@
 //! The most floating-point operations that one core does per second, to hold the solver's figures against:
-//! `cargo bench --bench peak`.
+//! `cargo bench --package flexdrill-benches --bench peak`.
 //!
 //! A loop of independent fused multiply-adds in registers, for every vector width that the processor has. Two
 //! operations each.

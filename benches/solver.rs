@@ -1,5 +1,5 @@
-//! One step and its phases, per size of the tool: `cargo bench --bench solver`. Figures and what they mean:
-//! `docs/solver.md`.
+//! One step and its phases, per size of the tool: `cargo bench -p flexdrill-benches --bench solver`. `docs/solver.md` has
+//! the figures and what they mean.
 //!
 //! The state is one of a tool in motion, with contacts and stops at work. Times are processor time of the thread, so
 //! that neighbours on the machine disturb them little.
@@ -59,7 +59,7 @@ impl Measurement for ProcessorTime {
 
 /// A tool of `links` links after its run-up.
 fn moving(links: usize) -> Simulation {
-    let config = Config::load("config/default.yaml")
+    let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../config/default.yaml"))
         .and_then(|config| config.with_links(links))
         .and_then(|config| config.with_value("inputs.weight_on_bit.initial_kn", 10.0))
         .expect("the shipped configuration");

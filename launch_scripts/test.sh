@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # All tests of the workspace. Does its own set-up on a fresh Debian or Ubuntu that has Rust and Python 3 (as root or with
 # sudo): packages, a Python environment in .venv with pinned versions, then `cargo test --release`, whose summary ends the
-# run. Options go to cargo test: launch_scripts/test.sh --test interop_node
+# run. Options go to cargo test: launch_scripts/test.sh --test interop node::
 # Tests that need what a machine may lack are skipped with a word; with CI set, as .ci/run does, they fail instead.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"

@@ -1,11 +1,11 @@
-//! Viewers of the default tool, whose messages are the largest and whose steps take most of their time. Alone in its file,
-//! so that no other test takes the processor.
+//! Viewers of the default tool, whose messages are the largest and whose steps take most of their time. The test has a
+//! binary to itself: a test that ran at the same time would take the processor whose late steps are counted here.
 
 mod common;
 
 use std::time::Duration;
 
-use common::{Network, Peer, Program};
+use common::{Network, Peer, Program, unavailable};
 
 const LIVE: &str = "127.0.0.1:8765";
 const URL: &str = "ws://127.0.0.1:8765";
@@ -107,7 +107,8 @@ fn twenty_viewers_leave_the_deadlines_alone_and_the_frozen_one_is_named() {
     // Where steps are late with nobody looking on, others use the machine, and more or less of it the next time.
     assert!(left_alone || quiet < ROUNDS, "late with viewers only, {ROUNDS} times");
     if !left_alone {
-        println!("others use this machine: late and skipped steps tell nothing of viewers here");
+        let _: Option<()> =
+            unavailable("steps are late without viewers too: this machine cannot show what viewers cost");
     }
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));

@@ -8,9 +8,10 @@ use ros2_client::builtin_interfaces::Time;
 use ros2_client::log::Log;
 use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
+use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 use tracing_subscriber::util::SubscriberInitExt;
-use tracing_subscriber::{EnvFilter, Registry, fmt, reload};
+use tracing_subscriber::{Registry, fmt, reload};
 
 use super::args::RosArgs;
 use crate::dds::plan::{Offer, dds_type_name};
@@ -30,7 +31,7 @@ struct Rosout {
 
 static ROSOUT: OnceLock<Arc<Rosout>> = OnceLock::new();
 /// The filter as it was at the start, and the way to change it.
-static FILTER: OnceLock<(String, reload::Handle<EnvFilter, Registry>)> = OnceLock::new();
+static FILTER: OnceLock<(String, reload::Handle<Targets, Registry>)> = OnceLock::new();
 
 /// Starts logging. The filter is RUST_LOG if set, else `--log-level` or `info`, with the libraries' noise left out. May
 /// be called more than once; only the first call counts.
@@ -40,9 +41,8 @@ pub fn start(arguments: &RosArgs) {
         // Writing to a string does not fail.
         let _ = write!(filter, ",{logger}={level}");
     }
-    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(filter));
-    let text = filter.to_string();
-    let (filter, handle) = reload::Layer::new(filter);
+    let text = chosen(std::env::var("RUST_LOG").ok(), filter);
+    let (filter, handle) = reload::Layer::new(targets(&text));
     let rosout = ROSOUT.get_or_init(Arc::default);
     let lines = fmt::layer()
         .with_writer(std::io::stderr)
@@ -63,6 +63,19 @@ pub fn start(arguments: &RosArgs) {
     }
 }
 
+/// The filter's text: what RUST_LOG asks for if it can be read, else the default.
+fn chosen(asked: Option<String>, default: String) -> String {
+    let readable = |text: &String| !text.trim().is_empty() && text.parse::<Targets>().is_ok();
+    asked.filter(readable).unwrap_or(default)
+}
+
+/// The filter of a text; a directive that cannot be read is left out, so that the others act.
+fn targets(text: &str) -> Targets {
+    let readable = |directive: &&str| !directive.trim().is_empty() && directive.parse::<Targets>().is_ok();
+    let directives: Vec<&str> = text.split(',').filter(readable).collect();
+    directives.join(",").parse().unwrap_or_default()
+}
+
 /// Adds directives such as `flexdrill=debug` to those of the start, in place of those that were added before. False when
 /// logging was not started here.
 pub fn add_directives(directives: &[String]) -> bool {
@@ -70,7 +83,7 @@ pub fn add_directives(directives: &[String]) -> bool {
         return false;
     };
     let filter = format!("{start},{}", directives.join(","));
-    handle.reload(EnvFilter::new(filter)).is_ok()
+    handle.reload(targets(&filter)).is_ok()
 }
 
 /// Publishes log lines of this crate on `/rosout` until [`disconnect`]; `node` is the node's full name.
@@ -162,6 +175,21 @@ mod tests {
             let mut text = Text::default();
             event.record(&mut text);
             self.0.lock().unwrap().push(text.0);
+        }
+    }
+
+    #[test]
+    fn a_directive_that_cannot_be_read_leaves_the_others() {
+        let filter = targets("info,rustdds=error,flexdrill=nonsense,,flexdrill::ros=debug,flexdrill::ros=warn");
+        assert!(filter.would_enable("flexdrill", &Level::INFO) && !filter.would_enable("flexdrill", &Level::DEBUG));
+        assert!(filter.would_enable("rustdds::discovery", &Level::ERROR));
+        assert!(!filter.would_enable("rustdds::discovery", &Level::WARN));
+        // The last directive for a target counts.
+        assert!(!filter.would_enable("flexdrill::ros::node", &Level::INFO));
+        let default = || "info".to_owned();
+        assert_eq!(chosen(Some("flexdrill=trace".to_owned()), default()), "flexdrill=trace");
+        for unusable in [None, Some(String::new()), Some("flexdrill=nonsense".to_owned())] {
+            assert_eq!(chosen(unusable, default()), "info");
         }
     }
 

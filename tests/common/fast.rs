@@ -5,7 +5,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use super::root;
-use super::skip::skipped;
+use super::skip::{skipped, unavailable};
 
 /// A header of the package libfastrtps-dev.
 const HEADER: &str = "/usr/include/fastdds/dds/domain/DomainParticipant.hpp";
@@ -24,8 +24,7 @@ fn compile() -> Option<PathBuf> {
         if known.is_ok_and(|known| known.status.success()) {
             return skipped(why);
         }
-        eprintln!("SKIPPED: {why}, and this system does not offer it");
-        return None;
+        return unavailable(&format!("{why}, and this system does not offer it"));
     }
     let made = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fast_peer_{}", std::process::id()));
     let output = Command::new("c++")

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 pub use network::Network;
 pub use peer::Peer;
 pub use program::Program;
-pub use skip::skipped;
+pub use skip::{skipped, unavailable};
 
 /// The repository.
 pub fn root() -> &'static Path {
@@ -32,4 +32,18 @@ pub fn root() -> &'static Path {
 /// A small tool in the same well: what is tested here is the node, not the mechanics.
 pub fn small_config() -> PathBuf {
     root().join("tests/data/small.yaml")
+}
+
+/// The drilling log of a real rig at 1 Hz: the file that FLEXDRILL_RIG_LOG names. The log is not published, so that a
+/// machine may lack it.
+pub fn real_log() -> Option<PathBuf> {
+    let named = std::env::var_os("FLEXDRILL_RIG_LOG").map(PathBuf::from);
+    let log = named.unwrap_or_else(|| root().join("../shared/data/field_log/rig_log_1hz.csv"));
+    if log.is_file() {
+        return Some(log);
+    }
+    unavailable(&format!(
+        "{} does not exist; FLEXDRILL_RIG_LOG names the log of a real rig",
+        log.display()
+    ))
 }

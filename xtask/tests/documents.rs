@@ -292,6 +292,20 @@ fn tests_that_are_named_exist() {
     assert!(missing.is_empty(), "named and not there:\n{}", missing.join("\n"));
 }
 
+#[test]
+fn the_guide_names_every_test_binary_of_the_program() {
+    let guide = read(&root().join("CONTRIBUTING.md"));
+    let named: BTreeSet<&str> = code(&guide).into_iter().collect();
+    let entries = std::fs::read_dir(root().join("tests")).unwrap();
+    let missing: Vec<String> = entries
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.join("main.rs").is_file() || path.extension().is_some_and(|extension| extension == "rs"))
+        .map(|path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned())
+        .filter(|binary| !named.contains(binary.as_str()))
+        .collect();
+    assert!(missing.is_empty(), "CONTRIBUTING.md does not name {missing:?}");
+}
+
 /// The checks find what they are for.
 #[test]
 fn names_in_comments_do_not_count() {

@@ -1,6 +1,5 @@
 //! The chain's equations are those of the whole tool seen through the slaving: residual, tangent and solution.
 
-use faer::prelude::Solve;
 use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::dependents::{FIRST_ROW, SECOND_ROW};
@@ -256,9 +255,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
             sizes[i] * matrix[(i, j)] * sizes[j]
         });
         let right = right.component_mul(&sizes);
-        let lu = faer::Mat::from_fn(scaled.nrows(), scaled.ncols(), |i, j| scaled[(i, j)]).full_piv_lu();
-        let x = lu.solve(faer::Mat::from_fn(right.len(), 1, |i, _| right[i]));
-        let x = DVector::from_fn(right.len(), |i, _| x[(i, 0)]).component_mul(&sizes);
+        let x = scaled.full_piv_lu().solve(&right).unwrap().component_mul(&sizes);
         assert!(x.iter().all(|x| x.is_finite()), "a tangent without an inverse");
         chain.prepare(&model, &conditions, factors);
         for (single, within) in [(false, 1e-9), (true, 1e-3)] {

@@ -6,18 +6,18 @@
 
 mod block;
 mod block_lu;
+#[cfg(test)]
+mod dense;
 mod increment;
-#[cfg(feature = "reference")]
-mod sparse;
 mod system;
 
 #[cfg(test)]
 pub(crate) use block::solve_columns;
 pub(crate) use block::{PIVOT_RATIO, exchange};
 pub use block_lu::BlockLu;
+#[cfg(test)]
+pub use dense::DenseReference;
 pub use increment::{ContactBlock, TangentIncrement, Touching};
-#[cfg(feature = "reference")]
-pub use sparse::SparseReference;
 pub(super) use system::add_columns;
 pub use system::{BlockSystem, Layout};
 

@@ -27,7 +27,7 @@ impl Coupling {
         }
     }
 
-    #[cfg(any(test, feature = "reference"))]
+    #[cfg(test)]
     /// An entry of the 12 x 12 matrix over pipe and guide.
     pub fn entry(&self, row: usize, column: usize) -> f64 {
         match (row < 6, column < 6) {
@@ -262,7 +262,7 @@ impl BlockSystem {
         }
     }
 
-    #[cfg(any(test, feature = "reference"))]
+    #[cfg(test)]
     /// Visits every stored entry as (row, column, value) in global indices; zeros inside blocks included, so that the
     /// pattern does not depend on the values.
     pub fn for_each_entry(&self, mut visit: impl FnMut(usize, usize, f64)) {
@@ -298,7 +298,7 @@ impl BlockSystem {
         }
     }
 
-    #[cfg(any(test, feature = "reference"))]
+    #[cfg(test)]
     /// r = rhs - A x.
     pub fn residual(&self, x: &[f64], rhs: &[f64], r: &mut [f64]) {
         r.copy_from_slice(rhs);

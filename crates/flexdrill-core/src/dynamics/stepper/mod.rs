@@ -20,8 +20,8 @@ use crate::dynamics::sub_steps::{SubSteps, most_attempts};
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::dynamics::track::Track;
 use crate::inputs::InputKind;
-#[cfg(feature = "reference")]
-use crate::linear::SparseReference;
+#[cfg(test)]
+use crate::linear::DenseReference;
 use crate::linear::{BlockLu, LinearSolver};
 use crate::model::Model;
 use crate::simd::Instructions;
@@ -47,8 +47,8 @@ pub enum SolverKind {
     Chain,
     /// Over all stations by block LU: slower and plain, to hold the chain against.
     Stations,
-    /// faer's sparse LU, to hold block LU against.
-    #[cfg(feature = "reference")]
+    /// nalgebra's dense LU over all stations, which the tests hold block LU against.
+    #[cfg(test)]
     Reference,
 }
 
@@ -136,8 +136,8 @@ impl Stepper {
         let model = Model::new(description)?;
         let solver: Box<dyn LinearSolver> = match kind {
             SolverKind::Chain | SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
-            #[cfg(feature = "reference")]
-            SolverKind::Reference => Box::new(SparseReference::default()),
+            #[cfg(test)]
+            SolverKind::Reference => Box::new(DenseReference),
         };
         let view = State::at_rest(&model);
         let newton = StationEquations::new(&model, solver, tolerances, instructions);

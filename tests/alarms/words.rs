@@ -1,0 +1,504 @@
+//! What alarms say: the worst moment while a level is held, numbers that were measured, advice that does not contradict
+//! itself at any speed and weight.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use flexdrill::alarms::{AlarmBook, AlarmId, NodeState, RecordingState};
+use flexdrill::bag::{Losses, Problem};
+use flexdrill::dds::port::Health;
+use flexdrill::messages::builtin_interfaces::Time;
+use flexdrill::messages::std_msgs::Header;
+use flexdrill::messages::{Alarm, AlarmEvent, AlarmList, CdrError};
+use flexdrill_config::Config;
+use flexdrill_core::inputs::Conditioner;
+use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
+use flexdrill_core::tool::Body;
+use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_realtime::link::RunState;
+use flexdrill_realtime::{Pace, PaceReading};
+use proptest::prelude::*;
+
+const SECOND: i64 = 1_000_000_000;
+
+fn config() -> Arc<Config> {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    Arc::new(Config::load(root.join("config/default.yaml")).unwrap())
+}
+
+fn snapshot(rpm: f64, kn: f64, hazards: &[Hazard]) -> Snapshot {
+    let mut snapshot = Snapshot::default();
+    snapshot.applied.rotary_speed = rpm_to_rad_per_s(rpm);
+    snapshot.applied.weight_on_bit = kn_to_n(kn);
+    snapshot.hazards.drive = DriveState::Turning;
+    for hazard in hazards {
+        snapshot.hazards.list[hazard.kind as usize] = *hazard;
+    }
+    snapshot
+}
+
+fn hazard(kind: HazardKind, severity: Severity) -> Hazard {
+    Hazard {
+        severity,
+        value: 3.4,
+        threshold: 3.0,
+        ..Hazard::calm(kind)
+    }
+}
+
+fn list(book: &AlarmBook) -> AlarmList {
+    book.list(Header::default())
+}
+
+fn find<'a>(list: &'a AlarmList, id: &str) -> &'a Alarm {
+    list.alarms.iter().find(|alarm| alarm.id == id).unwrap()
+}
+
+/// The list and all events so far.
+fn said(book: &mut AlarmBook) -> (AlarmList, Vec<AlarmEvent>) {
+    let events = book.publish::<CdrError>(Header::default(), 0, |_| Ok(())).unwrap();
+    (list(book), events)
+}
+
+#[test]
+fn a_held_alarm_shows_its_worst_moment_and_when_it_ended() {
+    let mut book = AlarmBook::fresh(config(), 0);
+    let whirl = Hazard {
+        place: Some(IncidentLocation {
+            station: 75,
+            body: Body::Pipe,
+            measured_depth: 1.5,
+            inclination: 0.471,
+        }),
+        whirl_ratio: -2.4,
+        ..hazard(HazardKind::BackwardWhirl, Severity::Critical)
+    };
+    // The clock of the rig at model time 0.
+    let begin = 1_700_000_000 * SECOND;
+    let show = |book: &mut AlarmBook, time: f64, hazard: Hazard| {
+        let mut snapshot = snapshot(120.0, 10.0, &[hazard]);
+        snapshot.time = time;
+        book.observe_tool(&snapshot, begin + (time * 1e9) as i64);
+    };
+    show(&mut book, 30.0, Hazard { seen: 30.0, ..whirl });
+    let now = find(&list(&book), "backward_whirl").clone();
+    assert_eq!(
+        now.evidence,
+        "Backward whirl of the pipe at 1.50 m (27 deg), 2.4 times the rotary speed."
+    );
+    assert!(!now.ended && now.ended_at == Time::default());
+    // The level is held for a moment of some seconds ago.
+    show(&mut book, 36.0, Hazard { seen: 31.0, ..whirl });
+    let held = find(&list(&book), "backward_whirl").clone();
+    assert!(
+        held.evidence.ends_with("rotary speed. Worst at 22:13:51 UTC."),
+        "{}",
+        held.evidence
+    );
+    assert_eq!(held.worst_at, Time::from_nanoseconds(begin + 31 * SECOND));
+    // The motion has ended, the level is held.
+    let over = Hazard {
+        seen: 31.0,
+        ended: Some(37.0),
+        ..whirl
+    };
+    show(&mut book, 39.0, over);
+    let ended = find(&list(&book), "backward_whirl").clone();
+    assert_eq!(
+        (ended.state, ended.priority),
+        (Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::HIGH)
+    );
+    assert!(
+        ended
+            .evidence
+            .ends_with("Worst at 22:13:51 UTC; ended at 22:13:57 UTC, being watched."),
+        "{}",
+        ended.evidence
+    );
+    assert!(ended.ended && ended.ended_at == Time::from_nanoseconds(begin + 37 * SECOND));
+    assert!(
+        ended.what_to_do.starts_with("No further action"),
+        "{}",
+        ended.what_to_do
+    );
+    assert_eq!((ended.value, ended.measured_depth), (3.4, 1.5));
+    // The level falls to one that is lower, at another place: what is to be acknowledged is still the worst.
+    for tenth in 0..60 {
+        let lower = Hazard {
+            value: 1.2,
+            whirl_ratio: -0.2,
+            seen: 40.0,
+            ..hazard(HazardKind::BackwardWhirl, Severity::Watch)
+        };
+        show(&mut book, 40.0 + f64::from(tenth) / 10.0, lower);
+    }
+    let lower = find(&list(&book), "backward_whirl").clone();
+    assert_eq!((lower.active, lower.priority, lower.value), (true, Alarm::HIGH, 3.4));
+    assert!(
+        lower.evidence.ends_with("less severe since 22:13:57 UTC."),
+        "{}",
+        lower.evidence
+    );
+    assert!(
+        lower.what_to_do.starts_with("Lower the speed below 80"),
+        "{}",
+        lower.what_to_do
+    );
+    // The journal keeps the end with the return.
+    for tenth in 0..60 {
+        show(
+            &mut book,
+            46.0 + f64::from(tenth) / 10.0,
+            Hazard::calm(HazardKind::BackwardWhirl),
+        );
+    }
+    let (_, events) = said(&mut book);
+    let returned = events
+        .iter()
+        .find(|event| event.change == AlarmEvent::RETURNED)
+        .unwrap();
+    assert_eq!(returned.ended_at, Time::from_nanoseconds(begin + 37 * SECOND));
+    assert_eq!(returned.what_to_do, "");
+}
+
+/// ISA-18.2: no alarm without an action. The state stays in the hazards.
+#[test]
+fn a_watch_level_without_an_action_is_no_alarm() {
+    let watch = |kind, rpm| {
+        let mut book = AlarmBook::fresh(config(), 0);
+        for tenth in 0..30 {
+            let snapshot = snapshot(rpm, 10.0, &[hazard(kind, Severity::Watch)]);
+            book.observe_tool(&snapshot, tenth * SECOND / 10);
+        }
+        let list = list(&book);
+        let alarm = find(&list, AlarmId::of_hazard(kind).id());
+        (alarm.priority, alarm.what_to_do.clone())
+    };
+    // Below its rule's speed nothing would change backward whirl; above it there is something to do.
+    assert_eq!(watch(HazardKind::BackwardWhirl, 40.0).0, Alarm::NO_PRIORITY);
+    let (priority, text) = watch(HazardKind::BackwardWhirl, 120.0);
+    assert_eq!(priority, Alarm::LOW);
+    assert!(text.starts_with("Lower the speed"), "{text}");
+    // Forward whirl that does not wear the pipe is a state.
+    assert_eq!(watch(HazardKind::ForwardWhirl, 120.0).0, Alarm::NO_PRIORITY);
+}
+
+/// A drive's speed wavers by some percent about any limit.
+#[test]
+fn a_wavering_speed_does_not_switch_an_alarm() {
+    let mut book = AlarmBook::fresh(config(), 0);
+    for tenth in 0..600 {
+        let rpm = 80.0 + 2.0 * (tenth as f64 * 0.7).sin();
+        let snapshot = snapshot(rpm, 10.0, &[hazard(HazardKind::BackwardWhirl, Severity::Watch)]);
+        book.observe_tool(&snapshot, tenth * SECOND / 10);
+    }
+    let (_, events) = said(&mut book);
+    assert_eq!(
+        events.iter().map(|event| event.change).collect::<Vec<_>>(),
+        [AlarmEvent::ACTIVATED]
+    );
+}
+
+#[test]
+fn the_document_lists_every_alarm_and_their_number() {
+    let text = include_str!("../../docs/alarms.md");
+    assert!(
+        text.contains(&format!("There are {} of them", AlarmId::ALL.len())),
+        "docs/alarms.md gives another number than {}",
+        AlarmId::ALL.len()
+    );
+    for id in AlarmId::ALL {
+        let row = format!("`{}`", id.id());
+        assert!(
+            text.lines().any(|line| line.starts_with('|') && line.contains(&row)),
+            "docs/alarms.md has no row for {}",
+            id.id()
+        );
+    }
+}
+
+/// What a sentence asks for: each `(raise, is the speed, limit)`, and whether it says to stop at once.
+fn asked(text: &str) -> (Vec<(bool, bool, f64)>, bool) {
+    let mut asked = Vec::new();
+    for (verb, raise) in [("Raise the ", true), ("Lower the ", false)] {
+        for part in text.split(verb).skip(1) {
+            let side = if raise { " above " } else { " below " };
+            let (quantity, rest) = part.split_once(side).unwrap();
+            let limit = rest.split(' ').next().unwrap().parse().unwrap();
+            asked.push((raise, quantity.starts_with("speed"), limit));
+        }
+    }
+    (asked, text.starts_with("Pick up"))
+}
+
+/// All subsets of the tool's alarms at three levels, over the whole range of speed and weight: all texts together ask
+/// for one change at most, so that no two ask for opposite directions, and it changes the present inputs.
+#[test]
+fn standing_alarms_never_contradict_each_other() {
+    let config = config();
+    let (most_rpm, most_kn) = (config.inputs.rotary_speed.max_rpm, config.inputs.weight_on_bit.max_kn);
+    let count = HazardKind::ALL.len() as u32;
+    let mut steps = 0;
+    for subset in 1..4_u32.pow(count) {
+        let hazards: Vec<Hazard> = HazardKind::ALL
+            .into_iter()
+            .enumerate()
+            .filter_map(|(index, kind)| {
+                let level = subset / 4_u32.pow(index as u32) % 4;
+                let severity = *Severity::RAISED.get((level as usize).checked_sub(1)?)?;
+                Some(hazard(kind, severity))
+            })
+            .collect();
+        // Every tenth of both ranges, by turns with the subsets: all of them come with all pairs of levels.
+        for cell in (subset % 3..121).step_by(3) {
+            let (rpm, kn) = (
+                most_rpm * f64::from(cell % 11) / 10.0,
+                most_kn * f64::from(cell / 11) / 10.0,
+            );
+            let mut book = AlarmBook::fresh(Arc::clone(&config), 0);
+            book.observe_tool(&snapshot(rpm, kn, &hazards), SECOND);
+            let list = list(&book);
+            let texts: Vec<&str> = list
+                .alarms
+                .iter()
+                .filter(|alarm| alarm.active)
+                .map(|alarm| alarm.what_to_do.as_str())
+                .collect();
+            let all: Vec<_> = texts.iter().map(|text| asked(text)).collect();
+            let changes: Vec<_> = all.iter().flat_map(|(changes, _)| changes).collect();
+            let stops = all.iter().filter(|(_, stop)| *stop).count();
+            assert!(changes.len() + stops <= 1, "at {rpm} r/min, {kn} kN: {texts:?}");
+            assert!(texts.iter().all(|text| !text.is_empty()), "{texts:?}");
+            // A high alarm is never left without an action of its own or one that goes before it.
+            let high = list
+                .alarms
+                .iter()
+                .any(|alarm| alarm.active && alarm.priority == Alarm::HIGH);
+            assert!(
+                !high || changes.len() + stops == 1,
+                "at {rpm} r/min, {kn} kN: {texts:?}"
+            );
+            for (raise, speed, limit) in changes {
+                steps += 1;
+                let now = if *speed { rpm } else { kn };
+                // An input wavers by 5 % about a limit.
+                let changes = if *raise {
+                    now <= 1.05 * limit
+                } else {
+                    now >= 0.95 * limit
+                };
+                assert!(changes, "at {rpm} r/min, {kn} kN: {texts:?}");
+            }
+        }
+    }
+    assert!(steps > 1000, "{steps} texts ask for a change");
+}
+
+/// Any number at all.
+fn any_number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        any::<f64>(),
+        Just(f64::NAN),
+        Just(f64::INFINITY),
+        Just(f64::NEG_INFINITY),
+        -10.0..10.0,
+    ]
+}
+
+fn any_severity() -> impl Strategy<Value = Severity> {
+    prop_oneof![
+        Just(Severity::Ok),
+        Just(Severity::Watch),
+        Just(Severity::Warning),
+        Just(Severity::Critical)
+    ]
+}
+
+fn any_hazard(kind: HazardKind) -> impl Strategy<Value = Hazard> {
+    (
+        any_severity(),
+        proptest::array::uniform8(any_number()),
+        proptest::array::uniform4(any_number()),
+        proptest::option::of((any_number(), any_number(), any::<bool>())),
+        proptest::option::of(any_number()),
+    )
+        .prop_map(move |(severity, a, b, place, ended)| Hazard {
+            kind,
+            severity,
+            place: place.map(|(measured_depth, inclination, pipe)| IncidentLocation {
+                station: 0,
+                body: if pipe { Body::Pipe } else { Body::Guide },
+                measured_depth,
+                inclination,
+            }),
+            value: a[0],
+            threshold: a[1],
+            whirl_ratio: a[2],
+            rolling_share: a[3],
+            orbit_speed: a[4],
+            impulse: a[5],
+            impact_rate: a[6],
+            friction_power: a[7],
+            confidence: b[0],
+            since: b[1],
+            seen: b[2],
+            ended,
+        })
+}
+
+fn any_snapshot() -> impl Strategy<Value = Snapshot> {
+    let hazards: Vec<_> = HazardKind::ALL.into_iter().map(any_hazard).collect();
+    (
+        hazards,
+        any::<bool>(),
+        proptest::array::uniform5(any_number()),
+        any::<bool>(),
+    )
+        .prop_map(|(hazards, turning, a, poor)| {
+            let mut snapshot = snapshot(0.0, 0.0, &hazards);
+            snapshot.hazards.drive = if turning {
+                DriveState::Turning
+            } else {
+                DriveState::RunningUp
+            };
+            (
+                snapshot.time,
+                snapshot.applied.rotary_speed,
+                snapshot.applied.weight_on_bit,
+            ) = (a[0], a[1], a[2]);
+            snapshot.quality = ModelQuality {
+                level: if poor { QualityLevel::Poor } else { QualityLevel::Good },
+                cause: Some(QualityCause::EnergyError),
+                value: a[3],
+                bound: a[4],
+                judged: true,
+                ..ModelQuality::default()
+            };
+            snapshot
+        })
+}
+
+/// Whether a text has a number that was not measured.
+fn is_readable(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let words = lower.split(|letter: char| !letter.is_alphanumeric());
+    words.clone().all(|word| word != "nan" && word != "inf" && word != "infinity")
+        // Longer than any measurement: 1e300 in full.
+        && words.clone().all(|word| word.len() < 24)
+        && !lower.contains("-0 ")
+}
+
+/// Whether a text is for a driller: no file, parameter, topic or mesh.
+fn is_for_a_driller(text: &str) -> bool {
+    let dotted = |word: &str| {
+        let (before, after) = word.split_once('.').unwrap_or(("", ""));
+        before.chars().next_back().is_some_and(char::is_alphabetic)
+            && after.chars().next().is_some_and(char::is_alphabetic)
+    };
+    !text.contains('_')
+        && !text.contains("~/")
+        && !text.contains("--")
+        && !text.to_lowercase().contains("mesh")
+        && !text.split(' ').any(dotted)
+}
+
+fn check(list: &AlarmList, events: &[AlarmEvent]) -> Result<(), TestCaseError> {
+    for alarm in &list.alarms {
+        let texts = [
+            &alarm.evidence,
+            &alarm.cause,
+            &alarm.consequence,
+            &alarm.what_to_do,
+            &alarm.what_the_engineer_can_do,
+        ];
+        for text in texts {
+            prop_assert!(is_readable(text), "{}: {text}", alarm.id);
+            prop_assert!(text.is_empty() || text.ends_with('.'), "{}: {text}", alarm.id);
+        }
+        prop_assert!(
+            is_for_a_driller(&alarm.what_to_do),
+            "{}: {}",
+            alarm.id,
+            alarm.what_to_do
+        );
+        if alarm.active && alarm.priority > Alarm::NO_PRIORITY {
+            prop_assert!(!alarm.what_to_do.is_empty(), "{} has no action", alarm.id);
+        }
+    }
+    for event in events {
+        for text in [&event.evidence, &event.what_to_do, &event.what_the_engineer_can_do] {
+            prop_assert!(is_readable(text), "{}: {text}", event.id);
+        }
+        prop_assert!(
+            is_for_a_driller(&event.what_to_do),
+            "{}: {}",
+            event.id,
+            event.what_to_do
+        );
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn no_text_has_a_number_that_was_not_measured(snapshots in proptest::collection::vec(any_snapshot(), 1..6)) {
+        let mut book = AlarmBook::fresh(config(), 0);
+        let mut time = 0;
+        for snapshot in &snapshots {
+            for _ in 0..4 {
+                time += SECOND;
+                book.advance(time);
+                book.observe_tool(snapshot, time);
+                let (list, events) = said(&mut book);
+                check(&list, &events)?;
+            }
+        }
+    }
+
+    #[test]
+    fn no_text_of_the_node_has_one_either(
+        level in prop_oneof![Just(Pace::Kept), Just(Pace::Late), Just(Pace::FarBehind)],
+        factor in proptest::option::of(any_number()),
+        now in 0.0..1e6,
+        too_slow in any::<u32>(),
+        error in any::<bool>(),
+    ) {
+        let config = config();
+        let conditioner = Conditioner::new(config.inputs.rules());
+        let mut book = AlarmBook::fresh(config, 0);
+        for second in 0..30 {
+            let state = NodeState {
+                conditioner: &conditioner,
+                now: now + 60.0 * f64::from(second),
+                drivers: Default::default(),
+                run_state: RunState::Running,
+                failure: None,
+                pace: PaceReading { level, factor },
+                recording: Some(RecordingState {
+                    error: error.then(|| Problem {
+                        text: "no space left".to_owned(),
+                        cause: "The disk is full.",
+                    }),
+                    notice: None,
+                    losses: Losses {
+                        too_slow: u64::from(too_slow),
+                        ..Losses::default()
+                    },
+                }),
+                dds: Health::default(),
+            };
+            book.observe_node(&state, i64::from(second) * SECOND);
+            let (list, events) = said(&mut book);
+            check(&list, &events)?;
+        }
+    }
+}

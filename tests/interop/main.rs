@@ -1,0 +1,14 @@
+//! Programs of other vendors read and drive the twin: Cyclone DDS, Fast DDS, rosbags, mcap-ros2-support.
+
+#[path = "../bag_support/mod.rs"]
+mod bag_support;
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bag;
+mod fast;
+mod inputs;
+mod latency;
+mod messages;
+mod node;
+mod security;

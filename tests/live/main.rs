@@ -1,0 +1,10 @@
+//! Viewers over WebSocket and the dashboard: what they see, what they may steer, and what they can take of the node.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bounds;
+mod dashboard;
+mod layouts;
+mod steering;
+mod viewer;
