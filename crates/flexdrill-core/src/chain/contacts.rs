@@ -5,8 +5,8 @@ use nalgebra::Vector2;
 
 use super::residual::{load, plus_column, product, store};
 use super::{Chain, EndColumn, EndForces, at_ends};
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
+use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
 use crate::model::Model;
 use crate::simd::Kernel;
@@ -15,9 +15,9 @@ use crate::simd::vector::Vector;
 
 impl Chain {
     /// Finds what touches and what it puts on the spans' ends.
-    pub(super) fn find_contacts(
+    pub(super) fn contact_forces(
         &mut self,
-        assembler: &mut Assembler,
+        interactions: &mut Interactions,
         model: &Model,
         state: &State,
         conditions: &Conditions,
@@ -28,7 +28,7 @@ impl Chain {
         let instructions = self.model.instructions;
         instructions.run(Search {
             by: self,
-            assembler,
+            interactions,
             model,
             state,
             conditions,
@@ -58,7 +58,7 @@ impl Chain {
 
 struct Search<'a> {
     by: &'a mut Chain,
-    assembler: &'a mut Assembler,
+    interactions: &'a mut Interactions,
     model: &'a Model,
     state: &'a State,
     conditions: &'a Conditions,
@@ -96,7 +96,7 @@ impl Search<'_> {
     fn found<V: Vector>(&mut self, (l, i): (usize, usize), lateral: [[f64; 2]; 2], closed: [bool; 2]) {
         let Self {
             by,
-            assembler,
+            interactions,
             model,
             state,
             conditions,
@@ -109,12 +109,12 @@ impl Search<'_> {
             let pipe = by.local::<V>(&state.v, l, i, 0);
             let velocity = pipe.minus_product(guide, V::load(&arms[0]));
             let clearance = model.stations[station].inner_clearance;
-            let layer = &mut assembler.inner;
+            let layer = &mut interactions.inner;
             layer.push::<V>(&conditions.inner, station, lateral[0], clearance, velocity);
         }
         if closed[1] {
             let velocity = guide.times(V::load(&arms[1]));
-            let layer = &mut assembler.outer;
+            let layer = &mut interactions.outer;
             layer.push::<V>(&conditions.outer, station, lateral[1], model.outer_clearance, velocity);
         }
     }
@@ -123,7 +123,10 @@ impl Search<'_> {
     #[inline(always)]
     fn put<V: Vector>(&mut self) {
         let Self {
-            by, assembler, model, ..
+            by,
+            interactions,
+            model,
+            ..
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
         for (contact_forces, (any, moved)) in by
@@ -136,7 +139,7 @@ impl Search<'_> {
             }
         }
         let moved = |station: usize| by.active.spans[by.model.nodes.stations[station].0];
-        for (station, touch) in assembler.inner.among(moved) {
+        for (station, touch) in interactions.inner.among(moved) {
             let (l, i) = by.model.nodes.stations[station];
             let [on_pipe, on_guide] = &by.model.kinds[by.model.links[l].kind].force[i].0;
             let force = touch.force();
@@ -150,7 +153,7 @@ impl Search<'_> {
             );
         }
         let mut sum = OnSpan::<V>::new();
-        for (station, touch) in assembler.outer.among(moved) {
+        for (station, touch) in interactions.outer.among(moved) {
             let (l, i) = by.model.nodes.stations[station];
             if l != sum.span {
                 sum.take_from(&mut by.contact_forces, l);
@@ -212,15 +215,15 @@ impl Kernel for Search<'_> {
     #[inline(always)]
     fn run<V: Vector>(mut self) {
         if self.by.active.whole {
-            self.assembler.inner.clear();
-            self.assembler.outer.clear();
+            self.interactions.inner.clear();
+            self.interactions.outer.clear();
         } else {
             for l in 0..self.by.model.links.len() {
                 if self.by.active.spans[l] {
                     let stations =
                         self.by.model.nodes.first(l) + usize::from(l > 0)..self.by.model.nodes.first(l + 1) + 1;
-                    self.assembler.inner.open(stations.clone());
-                    self.assembler.outer.open(stations);
+                    self.interactions.inner.open(stations.clone());
+                    self.interactions.outer.open(stations);
                 }
             }
         }
@@ -281,10 +284,12 @@ impl Kernel for Search<'_> {
             }
         }
         let Self {
-            assembler, conditions, ..
+            interactions,
+            conditions,
+            ..
         } = &mut self;
-        assembler.inner.finish::<V>(&conditions.inner);
-        assembler.outer.finish::<V>(&conditions.outer);
+        interactions.inner.finish::<V>(&conditions.inner);
+        interactions.outer.finish::<V>(&conditions.outer);
         self.put::<V>();
     }
 }

@@ -9,7 +9,7 @@
 use super::contacts::{at_radius, plus_rows};
 use super::residual::{load, store};
 use super::{Chain, EndColumn, at_ends};
-use crate::dynamics::assembly::Assembler;
+use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{Deflection, State, translation};
 use crate::model::Model;
 use crate::simd::Kernel;
@@ -43,12 +43,12 @@ impl Chain {
     }
 
     /// How the spans deflect under the contacts of the last residual and under their weight, into `to`.
-    pub(super) fn deflect_spans(&self, to: &mut [Deflection], model: &Model, assembler: &Assembler) {
+    pub(super) fn deflect_spans(&self, to: &mut [Deflection], model: &Model, interactions: &Interactions) {
         self.model.instructions.run(Deflections {
             by: self,
             to,
             model,
-            assembler,
+            interactions,
         });
     }
 
@@ -64,7 +64,7 @@ struct Deflections<'a> {
     by: &'a Chain,
     to: &'a mut [Deflection],
     model: &'a Model,
-    assembler: &'a Assembler,
+    interactions: &'a Interactions,
 }
 
 impl Kernel for Deflections<'_> {
@@ -76,13 +76,13 @@ impl Kernel for Deflections<'_> {
             by,
             to,
             model,
-            assembler,
+            interactions,
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
         to.iter_mut()
             .zip(&by.model.links)
             .for_each(|(to, link)| *to = *link.by_weight);
-        for (station, touch) in assembler.inner.iter() {
+        for (station, touch) in interactions.inner.iter() {
             let (l, i) = by.model.nodes.stations[station];
             if let Some([by_pipe, by_guide]) = by.deflection(l, i) {
                 let on_pipe = touch.force();
@@ -93,7 +93,7 @@ impl Kernel for Deflections<'_> {
                 store(plus_rows::<V>(load(guide), by_guide, &on_guide), guide);
             }
         }
-        for (station, touch) in assembler.outer.iter() {
+        for (station, touch) in interactions.outer.iter() {
             let (l, i) = by.model.nodes.stations[station];
             if let Some([_, by_guide]) = by.deflection(l, i) {
                 let on_guide = at_radius(&touch.force(), outer_radius);

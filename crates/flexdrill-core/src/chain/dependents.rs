@@ -9,8 +9,7 @@
 use super::nodes::Node;
 use super::precision::{Lanes, Precision};
 use super::{Chain, GUIDE, NODE, U};
-use crate::dynamics::assembly::Assembler;
-use crate::dynamics::joints::rotations;
+use crate::dynamics::interactions::{Joints, rotations};
 use crate::dynamics::state::State;
 use crate::elements::joint::group::JointGroup;
 use crate::simd::Kernel;
@@ -249,7 +248,7 @@ impl Chain {
     /// Adds the moments of the joints' stops, linearises the rotations that follow from others, and takes the moments on
     /// them over to those: with the multipliers of the joints' rows they are in balance. Their places are taken by the
     /// rows themselves, times `scale`.
-    pub(super) fn balance_dependents(&mut self, assembler: &mut Assembler, state: &State, scale: f64) {
+    pub(super) fn joint_forces(&mut self, joints: &mut Joints, state: &State, scale: f64) {
         let (residual, _) = self.residual.as_chunks_mut::<NODE>();
         for (k, (node, residual)) in self.model.nodes.list.iter().zip(residual).enumerate() {
             if node.joint.is_none() && self.active.affected[k] {
@@ -257,24 +256,24 @@ impl Chain {
             }
         }
         let instructions = self.model.instructions;
-        instructions.run(Joints {
+        instructions.run(BalanceJoints {
             by: self,
-            groups: assembler.groups_mut(),
+            groups: joints.groups_mut(),
             state,
             scale,
         });
     }
 }
 
-/// The joints' part of [`Chain::balance_dependents`], eight at a time.
-struct Joints<'a> {
+/// The joints' part of [`Chain::joint_forces`], eight at a time.
+struct BalanceJoints<'a> {
     by: &'a mut Chain,
     groups: &'a mut [JointGroup],
     state: &'a State,
     scale: f64,
 }
 
-impl Kernel for Joints<'_> {
+impl Kernel for BalanceJoints<'_> {
     type Output = ();
 
     #[inline(always)]

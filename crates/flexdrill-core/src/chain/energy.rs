@@ -4,9 +4,9 @@ use super::contacts::{OnSpan, at_radius, plus_rows};
 use super::residual::{around, load, product, store};
 use super::slaving::TENSION;
 use super::{Chain, EndColumn, at_ends, ends};
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{EnergyPoint, SpanForces};
+use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
 use crate::model::{HeldNode, Model};
 use crate::simd::vector::Vector;
@@ -20,7 +20,7 @@ impl Chain {
         model: &Model,
         state: &State,
         conditions: &Conditions,
-        assembler: &Assembler,
+        interactions: &Interactions,
     ) {
         let instructions = self.model.instructions;
         let mut stored = instructions.run(SpanEnergies {
@@ -32,7 +32,7 @@ impl Chain {
         if !model.masses.is_empty() {
             point.damping.fill(0.0);
             point.inertia.fill(0.0);
-            point.add_masses(&self.model.places, model, state, conditions);
+            point.add_masses(&self.model.numbered(model), state, conditions);
         }
         stored += point.kinetic;
         point.friction.fill(0.0);
@@ -41,19 +41,20 @@ impl Chain {
             by: self,
             point,
             model,
-            assembler,
+            interactions,
         });
-        self.deflect_spans(&mut point.deflection, model, assembler);
+        self.deflect_spans(&mut point.deflection, model, interactions);
         point.joints.multipliers.copy_from_slice(&self.multipliers);
-        point.finish(stored, &self.model.places, model, conditions, assembler, &self.residual);
-        self.reactions_inside_a_fixed_guide(point, model, assembler);
+        let numbered = self.model.numbered(model);
+        point.finish(stored, &numbered, conditions, interactions, &self.residual);
+        self.reactions_inside_a_fixed_guide(point, model, interactions);
     }
 }
 
 impl Chain {
     /// What supports put on the stations of a guide that is fixed as a whole, between the nodes: weight and contacts are
     /// all that acts there.
-    fn reactions_inside_a_fixed_guide(&self, point: &mut EnergyPoint, model: &Model, assembler: &Assembler) {
+    fn reactions_inside_a_fixed_guide(&self, point: &mut EnergyPoint, model: &Model, interactions: &Interactions) {
         if !model.description.guide_fixed {
             return;
         }
@@ -63,7 +64,7 @@ impl Chain {
                 point.reactions[index] = -model.weight[model.held[index]];
             }
         }
-        let layers = [(&assembler.inner, 1.0), (&assembler.outer, -1.0)];
+        let layers = [(&interactions.inner, 1.0), (&interactions.outer, -1.0)];
         for ((layer, sign), radius) in layers.into_iter().zip(model.guide_radii) {
             for (station, touch) in layer.iter() {
                 let guide = model.stations[station].guide;
@@ -237,7 +238,7 @@ struct Friction<'a> {
     by: &'a Chain,
     point: &'a mut EnergyPoint,
     model: &'a Model,
-    assembler: &'a Assembler,
+    interactions: &'a Interactions,
 }
 
 impl Kernel for Friction<'_> {
@@ -249,10 +250,10 @@ impl Kernel for Friction<'_> {
             by,
             point,
             model,
-            assembler,
+            interactions,
         } = self;
         let mut stored = 0.0;
-        for (station, touch) in assembler.inner.iter() {
+        for (station, touch) in interactions.inner.iter() {
             let (l, i) = by.model.nodes.stations[station];
             let [on_pipe, on_guide] = &by.model.kinds[by.model.links[l].kind].force[i].0;
             let force = touch.friction_force();
@@ -266,7 +267,7 @@ impl Kernel for Friction<'_> {
         }
         let mut sum = OnSpan::<V>::new();
         let mut on = [0.0; 16];
-        for (station, touch) in assembler.outer.iter() {
+        for (station, touch) in interactions.outer.iter() {
             let (l, i) = by.model.nodes.stations[station];
             if l != sum.span {
                 let span = sum.span;

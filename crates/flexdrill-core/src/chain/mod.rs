@@ -23,6 +23,7 @@ mod deflection;
 mod dependents;
 mod double;
 mod energy;
+mod equations;
 mod nodes;
 mod numbering;
 mod operator;
@@ -36,9 +37,9 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::numbered::Numbered;
 use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
 use crate::elements::joint::Joint;
 use crate::model::{Model, Places};
@@ -55,8 +56,8 @@ use solve::Sweep;
 use tangent::Additions;
 
 pub(crate) use energy::span_works;
+pub(crate) use equations::ChainEquations;
 use numbering::Numbering;
-pub(crate) use solve::ChainEquations;
 
 /// Unknowns per node.
 const NODE: usize = 16;
@@ -108,11 +109,22 @@ pub(crate) struct ChainModel {
     /// What the drive prescribes: the spin of the first node, above and below.
     driven: Vec<usize>,
     /// Consistent forces of gravity (N, N m).
-    pub(crate) weight: Vec<f64>,
+    weight: Vec<f64>,
     /// Rows of each node whose unknowns are free, 1, or held, 0; `None` where all are free.
     rows: Vec<Option<[f64; NODE]>>,
     /// Per unknown 1, or 0 for the tie's multiplier, which has no velocity.
     moving: Vec<f64>,
+}
+
+impl ChainModel {
+    /// The tool in the chain's numbering.
+    pub(crate) fn numbered<'a>(&'a self, model: &'a Model) -> Numbered<'a> {
+        Numbered {
+            model,
+            places: &self.places,
+            weight: &self.weight,
+        }
+    }
 }
 
 /// The chain of nodes: its model, what a residual evaluates, and the room that a step needs.
@@ -123,8 +135,6 @@ pub(crate) struct Chain {
     limits: Limits,
     /// How closely the step is solved.
     accuracy: Accuracy,
-    /// Corrections made in this step.
-    iterations: u32,
     /// The nodes and spans that the present correction changes.
     active: Active,
     foreseen: Vec<[f64; 2]>,
@@ -203,7 +213,6 @@ impl Chain {
             operators: Vec::new(),
             limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
             accuracy: Accuracy::Rest,
-            iterations: 0,
             active: Active::new(nodes),
             foreseen: vec![[0.0; 2]; spans],
             foreseen_part: 0.0,
@@ -307,9 +316,4 @@ fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
             [below[9], below[10], below[11], below[12], below[13], below[14]],
         ]
     }
-}
-
-/// The equations and what observers read, together.
-pub(crate) fn equations<'a>(chain: &'a mut Chain, assembler: &'a mut Assembler) -> ChainEquations<'a> {
-    ChainEquations { chain, assembler }
 }

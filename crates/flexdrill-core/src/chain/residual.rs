@@ -6,11 +6,9 @@
 
 use super::slaving::TENSION;
 use super::{Chain, EndColumn, Ends, GUIDE, NODE, U, at_ends, ends};
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::phases::Phase;
-use crate::dynamics::residual::{end_forces, mass_forces};
 use crate::dynamics::state::State;
+use crate::elements::bit::BitTorque;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
@@ -44,38 +42,51 @@ impl Chain {
         self.model.instructions.run(Foresee { by: self, from, h });
     }
 
-    /// Evaluates the residual at `to`; `operator` is that of the last correction, if there was one since the last whole
-    /// evaluation. With `keep_axial` the axial forces are those that `to` holds.
-    pub(super) fn evaluate(
-        &mut self,
-        assembler: &mut Assembler,
-        model: &Model,
-        to: &mut State,
-        conditions: &Conditions,
-        (operator, keep_axial): (Option<usize>, bool),
-    ) {
-        assembler.stopwatch.lap(Phase::Other);
-        if operator.is_none() {
+    /// Evaluates the linear and geometric forces of the spans at `to`.
+    pub(super) fn span_forces(&mut self, evaluation: Evaluation, to: &mut State, conditions: &Conditions) {
+        if !matches!(evaluation, Evaluation::Correction { .. }) {
             self.active.set_whole();
         }
-        let instructions = self.model.instructions;
-        instructions.run(Spans {
+        self.model.instructions.run(Spans {
             by: self,
             to,
             conditions,
-            operator,
-            keep_axial,
+            evaluation,
         });
-        assembler.stopwatch.lap(Phase::Assembly);
-        self.find_contacts(assembler, model, to, conditions);
-        instructions.run(Gather { by: self, state: to });
-        assembler.stopwatch.lap(Phase::Contact);
-        let (residual, places) = (&mut self.residual, &self.model.places);
-        let affected = |unknown: usize| self.active.affected[unknown / NODE];
-        mass_forces(residual, places, model, (to, conditions), affected);
-        end_forces(&mut assembler.bit, residual, places, model, (to, conditions), affected);
-        self.balance_dependents(assembler, to, model.moment_scale);
     }
+
+    /// Sums up on each node what its spans and its weight put there, contacts with them.
+    pub(super) fn gather(&mut self, state: &State) {
+        self.model.instructions.run(Gather { by: self, state });
+    }
+
+    /// Adds what is attached to the nodes: masses, tie, weight on bit, the rock's torque, loads.
+    pub(super) fn attached_forces(
+        &mut self,
+        bit: &mut BitTorque,
+        model: &Model,
+        state: &State,
+        conditions: &Conditions,
+    ) {
+        let numbered = self.model.numbered(model);
+        let affected = |unknown: usize| self.active.affected[unknown / NODE];
+        numbered.add_mass_forces(&mut self.residual, state, conditions, affected);
+        numbered.add_end_forces(&mut self.residual, bit, state, conditions, affected);
+    }
+}
+
+/// How the spans' forces are found.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Evaluation {
+    /// From the state, with the axial forces of its displacements.
+    Whole,
+    /// From the state, with the axial forces that it holds.
+    WholeWithAxial,
+    /// From those before the last correction, which was solved for with this operator.
+    Correction {
+        /// Its place in the chain's list.
+        operator: usize,
+    },
 }
 
 struct Foresee<'a> {
@@ -217,8 +228,7 @@ struct Spans<'a> {
     by: &'a mut Chain,
     to: &'a mut State,
     conditions: &'a Conditions,
-    operator: Option<usize>,
-    keep_axial: bool,
+    evaluation: Evaluation,
 }
 
 impl Kernel for Spans<'_> {
@@ -226,11 +236,11 @@ impl Kernel for Spans<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(mut self) {
-        match self.operator {
-            None => self.whole::<V>(),
-            Some(operator) => self.increment::<V>(operator),
+        match self.evaluation {
+            Evaluation::Whole | Evaluation::WholeWithAxial => self.whole::<V>(),
+            Evaluation::Correction { operator } => self.increment::<V>(operator),
         }
-        if !self.keep_axial {
+        if !matches!(self.evaluation, Evaluation::WholeWithAxial) {
             let part = self.by.foreseen_part;
             let axial = self.to.pipe_axial.iter_mut().zip(&mut self.to.guide_axial);
             for ((pipe, guide), (geometric_forces, foreseen)) in

@@ -1,6 +1,5 @@
-//! Newton's equations over the chain, and their solution: blocks of 16 eliminated from the top down.
+//! The linear system over the chain, in double precision: blocks of 16 eliminated from the top down.
 
-use super::active::WHOLE_CORRECTIONS;
 use super::dependents::{Dependents, FIRST_ROW, MOMENTS, ROTATIONS, SECOND_ROW};
 use super::double::sixteen;
 use super::nodes::{Node, pass};
@@ -9,20 +8,10 @@ use super::precision::Double;
 use super::residual::{load, plus_column, store};
 use super::single::SingleElimination;
 use super::tangent::Additions;
-use super::{BOTTOM, Chain, GUIDE, Link, NODE, SINGLE_CORRECTIONS, TIE, TOP};
-use crate::dynamics::assembly::Assembler;
-use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{Equations, LARGEST_DISPLACEMENT, Stride};
-use crate::dynamics::phases::Phase;
-use crate::dynamics::state::State;
-use crate::dynamics::tolerances::Accuracy;
-use crate::elements::joint::rotation::LARGEST_TILT;
+use super::{BOTTOM, Chain, GUIDE, Link, NODE, TIE, TOP};
 use crate::linear::{Singular, Touching};
-use crate::model::Model;
+use crate::simd::Kernel;
 use crate::simd::vector::Vector;
-use crate::simd::{Instructions, Kernel};
-use crate::tool::description::Body;
 
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
@@ -32,7 +21,7 @@ pub(super) struct Sweep {
     /// S^-1 (U, r) per node.
     columns: Vec<[[f64; NODE]; COLUMNS]>,
     /// What the joint of each node adds, over the rotations above and below, by columns.
-    joints: Vec<[[f64; 6]; 6]>,
+    pub(super) joints: Vec<[[f64; 6]; 6]>,
 }
 
 impl Sweep {
@@ -221,7 +210,7 @@ impl Kernel for Elimination<'_> {
 
 impl Chain {
     /// Solves for the correction in single precision; `false` where its pivots do not do.
-    fn correct_in_single(&mut self, operator: usize) -> bool {
+    pub(super) fn solve_in_single(&mut self, operator: usize) -> bool {
         if !self.active.whole {
             self.correction.fill(0.0);
         }
@@ -251,7 +240,7 @@ impl Chain {
     ///
     /// # Errors
     /// When a block cannot be factorised.
-    fn correct(&mut self, operator: usize) -> Result<(), Singular> {
+    pub(super) fn solve_in_double(&mut self, operator: usize) -> Result<(), Singular> {
         self.correction
             .iter_mut()
             .zip(&self.residual)
@@ -272,169 +261,5 @@ impl Chain {
                 station: self.model.nodes.list[node].station,
                 pivot,
             })
-    }
-
-    /// What joints, contacts, bit and masses add to the tangent in double, and the solution with it.
-    ///
-    /// # Errors
-    /// When a block cannot be factorised, or no operator was prepared.
-    pub(super) fn solve(
-        &mut self,
-        assembler: &mut Assembler,
-        model: &Model,
-        state: &State,
-        (conditions, factors): (&Conditions, TangentFactors),
-    ) -> Result<(), Singular> {
-        let Some(operator) = self.operator(factors, conditions) else {
-            return Err(Singular { station: 0, pivot: 0.0 });
-        };
-        self.active.set_whole();
-        let by = (conditions, factors);
-        self.additions
-            .linearise(&self.model, &self.active, assembler, model, state, by);
-        self.set_spins(model.moment_scale);
-        let (sweep, of_joints) = (&mut self.sweep, &self.model.nodes.of_joints);
-        let lambda = |joint: usize| self.multipliers[joint];
-        assembler.joint_tangents(
-            factors,
-            lambda,
-            |_| true,
-            |joint, tangent| {
-                for (l, column) in sweep.joints[of_joints[joint]].iter_mut().enumerate() {
-                    for (k, x) in column.iter_mut().enumerate() {
-                        *x = tangent.rotation(l, k);
-                    }
-                }
-            },
-        );
-        assembler.stopwatch.lap(Phase::Assembly);
-        self.correct(operator)
-    }
-
-    /// The same in single precision; `false` where its pivots do not do.
-    pub(super) fn solve_in_single(
-        &mut self,
-        assembler: &mut Assembler,
-        model: &Model,
-        state: &State,
-        (conditions, factors): (&Conditions, TangentFactors),
-    ) -> bool {
-        let Some(operator) = self.operator(factors, conditions) else {
-            return false;
-        };
-        let by = (conditions, factors);
-        self.single_additions
-            .linearise(&self.model, &self.active, assembler, model, state, by);
-        self.set_spins(model.moment_scale);
-        let sweep = &mut self.single_sweep;
-        let lambda = |joint: usize| self.multipliers[joint];
-        let (reached, of_joints) = (&self.active.nodes, &self.model.nodes.of_joints);
-        let wanted = |joint: usize| reached[of_joints[joint]];
-        assembler.joint_tangents(factors, lambda, wanted, |joint, tangent| {
-            sweep.join(of_joints[joint], tangent);
-        });
-        assembler.stopwatch.lap(Phase::Assembly);
-        self.correct_in_single(operator)
-    }
-}
-
-/// The chain's equations, with the assembler that evaluates joints and holds the contacts.
-pub(crate) struct ChainEquations<'a> {
-    pub(super) chain: &'a mut Chain,
-    pub(super) assembler: &'a mut Assembler,
-}
-
-impl ChainEquations<'_> {
-    /// Evaluates the whole residual at `to`, with the axial forces that it holds or, without `keep_axial`, those of its
-    /// displacements.
-    pub(crate) fn evaluate(&mut self, model: &Model, to: &mut State, conditions: &Conditions, keep_axial: bool) {
-        self.chain.foreseen_part = 0.0;
-        self.chain
-            .evaluate(self.assembler, model, to, conditions, (None, keep_axial));
-    }
-}
-
-impl Equations for ChainEquations<'_> {
-    fn begin(&mut self, _: &Model, stride: Stride, from: &State, _: &mut State) {
-        self.assembler.begin();
-        self.chain.accuracy = stride.accuracy;
-        self.chain.foresee(from, stride.foresight, stride.foreseen_part);
-        self.chain.limits.for_step(stride.h);
-    }
-
-    fn residual(
-        &mut self,
-        model: &Model,
-        to: &mut State,
-        conditions: &Conditions,
-        factors: TangentFactors,
-        iterations: u32,
-    ) {
-        self.chain.iterations = iterations;
-        let operator = self.chain.operator(factors, conditions).filter(|_| iterations > 0);
-        self.chain
-            .evaluate(self.assembler, model, to, conditions, (operator, false));
-    }
-
-    fn solve(
-        &mut self,
-        model: &Model,
-        to: &State,
-        conditions: &Conditions,
-        factors: TangentFactors,
-    ) -> Result<(), Singular> {
-        let (chain, assembler) = (&mut *self.chain, &mut *self.assembler);
-        if chain.iterations < WHOLE_CORRECTIONS {
-            chain.active.set_whole();
-        } else {
-            let weights = chain.limits.weights(chain.accuracy);
-            chain.active.set_windows(&chain.residual, weights);
-        }
-        let single =
-            chain.iterations < SINGLE_CORRECTIONS && chain.solve_in_single(assembler, model, to, (conditions, factors));
-        let solved = if single {
-            Ok(())
-        } else {
-            chain.solve(assembler, model, to, (conditions, factors))
-        };
-        assembler.stopwatch.lap(Phase::Solve);
-        solved
-    }
-
-    fn residuals(&self) -> &[f64] {
-        &self.chain.residual
-    }
-
-    fn weights(&self, accuracy: Accuracy) -> &[f64] {
-        self.chain.limits.weights(accuracy)
-    }
-
-    fn correction(&self) -> (&[f64], &[f64]) {
-        (&self.chain.correction, &self.chain.model.moving)
-    }
-
-    fn driven<'b>(&'b self, _: &'b Model) -> &'b [usize] {
-        &self.chain.model.driven
-    }
-
-    fn out_of_range(&self, _: &Model, state: &State) -> Option<(usize, f64)> {
-        let beyond = |(unknown, &value): (usize, &f64)| {
-            let most = match unknown % NODE {
-                3..=5 | 9..=11 => LARGEST_DISPLACEMENT,
-                1 | 2 | 7 | 8 | 13 | 14 => LARGEST_TILT,
-                _ => return None,
-            };
-            (value.abs() > most).then_some((unknown, value))
-        };
-        state.q.iter().enumerate().find_map(beyond)
-    }
-
-    fn instructions(&self) -> Instructions {
-        self.chain.model.instructions
-    }
-
-    fn locate(&self, _: &Model, unknown: usize) -> (usize, Body) {
-        let (station, guide) = self.chain.locate(unknown);
-        (station, if guide { Body::Guide } else { Body::Pipe })
     }
 }

@@ -1,15 +1,14 @@
 //! The start over the chain: a state that was found over all stations is brought into balance over the nodes.
 
 use super::dependents::{FIRST_ROW, SECOND_ROW};
-use super::solve::ChainEquations;
-use super::{NODE, SINGLE_CORRECTIONS, TIE};
+use super::equations::ChainEquations;
+use super::{NODE, TIE};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{Equations, correct, worst};
+use crate::dynamics::newton::{correct, worst};
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
 use crate::linear::Singular;
-use crate::model::Model;
 
 /// Most corrections of a state at rest.
 const MOST_STATIC_CORRECTIONS: u32 = 20;
@@ -22,13 +21,7 @@ const STATIC_MASS: f64 = 4e4;
 
 impl ChainEquations<'_> {
     /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten.
-    pub(crate) fn polish_rest(
-        &mut self,
-        model: &Model,
-        state: &mut State,
-        scratch: &mut State,
-        conditions: &Conditions,
-    ) {
+    pub(crate) fn polish_rest(&mut self, state: &mut State, scratch: &mut State, conditions: &Conditions) {
         let still = TangentFactors {
             stiffness: 1.0,
             damping: 0.0,
@@ -38,21 +31,20 @@ impl ChainEquations<'_> {
             mass: STATIC_MASS,
             ..still
         };
-        self.chain.prepare(model, conditions, factors);
-        self.chain.iterations = SINGLE_CORRECTIONS;
-        self.assembler.begin();
-        self.evaluate(model, state, conditions, false);
+        self.chain.prepare(self.model, conditions, factors);
+        self.interactions.begin();
+        self.evaluate(state, conditions, false);
         let mut best = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
         for _ in 0..MOST_STATIC_CORRECTIONS {
             if best <= SETTLED {
                 return;
             }
             scratch.copy_from(state);
-            if self.solve(model, scratch, conditions, factors).is_err() {
+            if self.solve_in_double(scratch, conditions, factors).is_err() {
                 return;
             }
             correct(self, scratch, still);
-            self.evaluate(model, scratch, conditions, false);
+            self.evaluate(scratch, conditions, false);
             let ratio = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
             if ratio.is_nan() || ratio >= best {
                 return;
@@ -68,7 +60,6 @@ impl ChainEquations<'_> {
     /// When the mass matrix with the constraints is singular.
     pub(crate) fn balance_accelerations(
         &mut self,
-        model: &Model,
         state: &mut State,
         conditions: &Conditions,
         h: f64,
@@ -79,15 +70,14 @@ impl ChainEquations<'_> {
             damping: h,
             mass: 1.0,
         };
-        self.chain.prepare(model, conditions, factors);
-        self.chain.iterations = SINGLE_CORRECTIONS;
-        self.assembler.begin();
-        self.evaluate(model, state, conditions, false);
+        self.chain.prepare(self.model, conditions, factors);
+        self.interactions.begin();
+        self.evaluate(state, conditions, false);
         // The rows hold already; what is asked for is how their second derivatives can be zero.
         for residual in self.chain.residual.chunks_exact_mut(NODE) {
             (residual[FIRST_ROW], residual[SECOND_ROW]) = (0.0, 0.0);
         }
-        self.solve(model, state, conditions, factors)?;
+        self.solve_in_double(state, conditions, factors)?;
         for (i, &x) in self.chain.correction.iter().enumerate() {
             if i % NODE == TIE {
                 state.q[i] += x;

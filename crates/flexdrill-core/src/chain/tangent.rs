@@ -4,9 +4,9 @@
 use super::active::Active;
 use super::precision::{Lanes, Precision};
 use super::{BOTTOM, ChainModel, GUIDE, NODE, TIE, TOP};
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, motion};
 use crate::elements::gap::GapTangent;
 use crate::linear::Touching;
@@ -89,10 +89,11 @@ impl<S: Precision> Additions<S> {
         &mut self,
         chain: &ChainModel,
         active: &Active,
-        assembler: &Assembler,
+        interactions: &Interactions,
         model: &Model,
         state: &State,
-        (conditions, factors): (&Conditions, TangentFactors),
+        conditions: &Conditions,
+        factors: TangentFactors,
     ) {
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
@@ -100,12 +101,12 @@ impl<S: Precision> Additions<S> {
             to: self,
             chain,
             active,
-            assembler,
+            interactions,
             factors,
         });
         let spin = chain.places.bit_spin;
         self.block(spin / NODE, Touching::Both)[spin % NODE][spin % NODE] +=
-            S::of(factors.damping * assembler.bit.slope);
+            S::of(factors.damping * interactions.bit.slope);
         for (point, places) in model.masses.iter().zip(&chain.places.masses) {
             if !point.body.is_coupled() {
                 continue;
@@ -130,7 +131,7 @@ struct Contacts<'a, S> {
     to: &'a mut Additions<S>,
     chain: &'a ChainModel,
     active: &'a Active,
-    assembler: &'a Assembler,
+    interactions: &'a Interactions,
     factors: TangentFactors,
 }
 
@@ -140,7 +141,7 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let mut on_guide = OnGuide::<S>::new();
-        let layers = [(&self.assembler.inner, true), (&self.assembler.outer, false)];
+        let layers = [(&self.interactions.inner, true), (&self.interactions.outer, false)];
         for (layer, inner) in layers {
             let (nodes, spans) = (&self.chain.nodes, &self.active.spans);
             let stations = &nodes.stations;

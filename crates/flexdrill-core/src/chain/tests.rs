@@ -3,15 +3,17 @@
 use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::dependents::{FIRST_ROW, SECOND_ROW};
-use super::{Chain, NODE, TIE, equations};
+use super::{Chain, ChainEquations, NODE, TIE};
 use crate::Instructions;
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{EnergyPoint, JointForces};
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{Equations, correct};
+use crate::dynamics::interactions::Interactions;
+use crate::dynamics::newton::{Equations, Iteration, correct};
+use crate::dynamics::phases::Stopwatch;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
+use crate::dynamics::stations::Assembler;
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::elements::gap::Layer;
 use crate::elements::joint::Joint;
@@ -116,6 +118,30 @@ fn no_forces(chain: &Chain) -> JointForces {
     }
 }
 
+/// What the chain's equations need apart from the chain.
+struct Room {
+    interactions: Interactions,
+    stopwatch: Stopwatch,
+}
+
+impl Room {
+    fn new(model: &Model, instructions: Instructions) -> Self {
+        Self {
+            interactions: Interactions::new(model, instructions),
+            stopwatch: Stopwatch::default(),
+        }
+    }
+}
+
+fn equations<'a>(model: &'a Model, chain: &'a mut Chain, room: &'a mut Room) -> ChainEquations<'a> {
+    ChainEquations {
+        model,
+        chain,
+        interactions: &mut room.interactions,
+        stopwatch: &mut room.stopwatch,
+    }
+}
+
 /// What the whole tool's unknowns are by each of the chain's and, in further columns, by the multiplier of each rotational
 /// row.
 fn slaving(chain: &Chain, model: &Model) -> DMatrix<f64> {
@@ -167,8 +193,8 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
             (state.pipe_axial[l], state.guide_axial[l]) = (2e3 * random(&mut next), 2e3 * random(&mut next));
         }
 
-        let mut assembler = Assembler::new(&model, instructions);
-        equations(&mut chain, &mut assembler).evaluate(&model, &mut state, &conditions, true);
+        let mut room = Room::new(&model, instructions);
+        equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
         let mut full = State::at_rest(&model);
         let forces = JointForces {
             multipliers: chain.multipliers.clone(),
@@ -176,7 +202,8 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         };
         chain.show(&model, &state, &forces, &mut full);
         let mut whole = Assembler::new(&model, instructions);
-        whole.residual(&model, &full, &conditions);
+        let mut at_stations = Interactions::new(&model, instructions);
+        whole.residual(&mut at_stations, &model, &full, &conditions);
         let inside = |layer: &Layer| {
             layer
                 .iter()
@@ -185,14 +212,14 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         };
         if tool.elements_per_link > 1 {
             assert!(
-                inside(&assembler.inner) > 0 && (tool.guide_fixed || inside(&assembler.outer) > 0),
+                inside(&room.interactions.inner) > 0 && (tool.guide_fixed || inside(&room.interactions.outer) > 0),
                 "no contact inside spans"
             );
         }
         assert!(
             model.joints.is_empty()
                 || tool.joint.kind == JointKind::Revolute
-                || assembler.stops().any(|stop| stop.moment > 0.0),
+                || room.interactions.joints.stops().any(|stop| stop.moment > 0.0),
             "no shut stop"
         );
 
@@ -232,7 +259,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
 
         // Tangent without geometric stiffness, and its solution.
         let mut system = whole.step_constant(&model, &conditions, factors);
-        whole.linearise(&model, &full, &conditions, factors);
+        whole.linearise(&at_stations, &model, &full, &conditions, factors);
         whole.increment.add_to(&mut system);
         let mut matrix = DMatrix::zeros(model.unknowns(), model.unknowns());
         system.for_each_entry(|row, column, value| matrix[(row, column)] += value);
@@ -259,12 +286,13 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         assert!(x.iter().all(|x| x.is_finite()), "a tangent without an inverse");
         chain.prepare(&model, &conditions, factors);
         for (single, within) in [(false, 1e-9), (true, 1e-3)] {
-            let by = (&conditions, factors);
             if single {
-                let solved = chain.solve_in_single(&mut assembler, &model, &state, by);
+                let solved = equations(&model, &mut chain, &mut room).solve_in_single(&state, &conditions, factors);
                 assert!(solved, "single precision was refused");
             } else {
-                chain.solve(&mut assembler, &model, &state, by).unwrap();
+                equations(&model, &mut chain, &mut room)
+                    .solve_in_double(&state, &conditions, factors)
+                    .unwrap();
             }
             let got = DVector::from_column_slice(&chain.correction);
             for (k, node) in chain.model.nodes.list.iter().enumerate() {
@@ -395,11 +423,11 @@ fn check_derivative(tool: &ToolDescription) {
     // No axial force: the tangent leaves geometric stiffness out.
     let mut state = lively(&chain, 21);
     clean(&chain, &mut state);
-    let mut assembler = Assembler::new(&model, instructions);
-    equations(&mut chain, &mut assembler).evaluate(&model, &mut state, &conditions, true);
-    assert!(assembler.inner.count() > 2, "no inner contact to test");
+    let mut room = Room::new(&model, instructions);
+    equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
+    assert!(room.interactions.inner.count() > 2, "no inner contact to test");
     assert!(
-        tool.guide_fixed || assembler.outer.count() > 2,
+        tool.guide_fixed || room.interactions.outer.count() > 2,
         "no outer contact to test"
     );
     let mut seed = 7;
@@ -418,8 +446,8 @@ fn check_derivative(tool: &ToolDescription) {
     }
     chain.residual.copy_from_slice(&wanted);
     chain.prepare(&model, &conditions, factors);
-    chain
-        .solve(&mut assembler, &model, &state, (&conditions, factors))
+    equations(&model, &mut chain, &mut room)
+        .solve_in_double(&state, &conditions, factors)
         .unwrap();
     let solution = chain.correction.clone();
     // The largest displacement moves by 1e-9 m: contact and stop laws are far from their ends, and forces of 1e6 N round
@@ -432,11 +460,11 @@ fn check_derivative(tool: &ToolDescription) {
             .iter_mut()
             .zip(&solution)
             .for_each(|(to, x)| *to = by * x);
-        // Another one each time, as an assembler learns of friction from one correction to the next.
-        let mut assembler = Assembler::new(&model, instructions);
-        let mut newton = equations(&mut chain, &mut assembler);
+        // New room each time, as the laws learn of friction from one correction to the next.
+        let mut room = Room::new(&model, instructions);
+        let mut newton = equations(&model, &mut chain, &mut room);
         correct(&newton, &mut moved, factors);
-        newton.evaluate(&model, &mut moved, &conditions, true);
+        newton.evaluate(&mut moved, &conditions, true);
         chain.residual.clone()
     };
     let (high, low) = (residual(by), residual(-by));
@@ -579,20 +607,19 @@ fn turning_as_a_whole_changes_no_energy() {
         let spins: Vec<usize> = chain.spins().collect();
         spins.iter().for_each(|&spin| state.q[spin] *= 2e-4);
         clean(&chain, &mut state);
-        let (mut assembler, mut whole) = (
-            Assembler::new(&model, instructions),
-            Assembler::new(&model, instructions),
-        );
+        let mut room = Room::new(&model, instructions);
+        let mut whole = Assembler::new(&model, instructions);
+        let mut interactions = Interactions::new(&model, instructions);
         let mut full = State::at_rest(&model);
         // Over the chain, and station by station.
         let mut stored = |state: &mut State| {
-            equations(&mut chain, &mut assembler).evaluate(&model, state, &conditions, true);
+            equations(&model, &mut chain, &mut room).evaluate(state, &conditions, true);
             let mut point = EnergyPoint::new(&model, chain.unknowns(), chain.spans());
-            chain.energy(&mut point, &model, state, &conditions, &assembler);
+            equations(&model, &mut chain, &mut room).energy(&mut point, state, &conditions);
             chain.show(&model, state, &no_forces(&chain), &mut full);
-            whole.residual(&model, &full, &conditions);
+            whole.residual(&mut interactions, &model, &full, &conditions);
             let mut at_stations = EnergyPoint::new(&model, model.unknowns(), 0);
-            at_stations.evaluate(&model, &full, &conditions, &whole);
+            at_stations.evaluate(&model, &full, &conditions, &whole, &interactions);
             [point.stored, at_stations.stored]
         };
         let before = stored(&mut state);
@@ -624,25 +651,26 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
     let factors = Scheme::generalised_alpha(0.45).factors(5e-4);
     let mut conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
     conditions.bit_torque = 90.0;
-    let by = (&conditions, factors);
     for instructions in Instructions::available() {
         let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
-        let mut assembler = Assembler::new(&model, instructions);
+        let mut room = Room::new(&model, instructions);
         let mut state = lively(&chain, 8);
         clean(&chain, &mut state);
         chain.prepare(&model, &conditions, factors);
-        equations(&mut chain, &mut assembler).evaluate(&model, &mut state, &conditions, false);
-        assert!(chain.solve_in_single(&mut assembler, &model, &state, by));
+        equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, false);
+        assert!(equations(&model, &mut chain, &mut room).solve_in_single(&state, &conditions, factors));
 
         // All below a node is out of balance: the elimination above is that of before, the solution that of the whole.
         let residual = chain.residual.clone();
         let (first, bottom) = (25, chain.spans());
         chain.residual[..NODE * first].fill(0.0);
-        chain.solve(&mut assembler, &model, &state, by).unwrap();
+        equations(&model, &mut chain, &mut room)
+            .solve_in_double(&state, &conditions, factors)
+            .unwrap();
         let expected = chain.correction.clone();
         let weights = chain.limits.weights(Accuracy::Rest).to_vec();
         chain.active.set_windows(&chain.residual, &weights);
-        assert!(chain.solve_in_single(&mut assembler, &model, &state, by));
+        assert!(equations(&model, &mut chain, &mut room).solve_in_single(&state, &conditions, factors));
         let [window] = chain.active.windows[..] else {
             panic!("{:?}", chain.active.windows)
         };
@@ -665,16 +693,23 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
             weights[NODE * node..NODE * (node + 1)].fill(1.0);
         }
         chain.active.set_windows(&residual, &weights);
-        assert!(chain.solve_in_single(&mut assembler, &model, &state, by));
+        assert!(equations(&model, &mut chain, &mut room).solve_in_single(&state, &conditions, factors));
         assert_eq!(chain.active.windows.len(), 2);
         let moved: Vec<bool> = chain
             .correction
             .chunks_exact(NODE)
             .map(|node| node.iter().any(|dq| *dq != 0.0))
             .collect();
-        let mut newton = equations(&mut chain, &mut assembler);
+        let mut newton = equations(&model, &mut chain, &mut room);
         correct(&newton, &mut state, factors);
-        newton.residual(&model, &mut state, &conditions, factors, 3);
+        newton.residual(
+            &mut state,
+            &Iteration {
+                conditions: &conditions,
+                factors,
+                corrections: 3,
+            },
+        );
         let kept = moved.iter().filter(|moved| !**moved).count();
         assert!(kept >= 5, "all but {kept} of the nodes move");
         for (node, affected) in chain.active.affected.iter().enumerate() {
@@ -688,9 +723,9 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
         }
         let (got, touching) = (
             chain.residual.clone(),
-            [contacts(&assembler.inner), contacts(&assembler.outer)],
+            [contacts(&room.interactions.inner), contacts(&room.interactions.outer)],
         );
-        equations(&mut chain, &mut assembler).evaluate(&model, &mut state, &conditions, false);
+        equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, false);
         let scale = chain.residual.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         for (unknown, (got, expected)) in got.iter().zip(&chain.residual).enumerate() {
             // Rounding of stiffness times displacement, which cancel to the residual.
@@ -700,7 +735,10 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
             );
         }
         // The same numbers: what did not move was not looked at, what did was evaluated anew.
-        assert_eq!(touching, [contacts(&assembler.inner), contacts(&assembler.outer)]);
+        assert_eq!(
+            touching,
+            [contacts(&room.interactions.inner), contacts(&room.interactions.outer)]
+        );
         assert!(touching.iter().all(|layer| layer.len() > 8));
     }
 }

@@ -8,15 +8,16 @@
 use serde::{Deserialize, Serialize};
 
 use crate::chain::span_works;
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::contacts::{inner_forces, outer_force};
+use crate::dynamics::interactions::Interactions;
+use crate::dynamics::numbered::Numbered;
 use crate::dynamics::outcome::EnergyAudit;
 #[cfg(test)]
 use crate::dynamics::state::joint_rotations;
 use crate::dynamics::state::{Deflection, State, motion};
+use crate::dynamics::stations::{Assembler, inner_forces, outer_force};
 use crate::elements::element_form::{add, load};
-use crate::model::{Model, Places};
+use crate::model::Model;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 use crate::tool::description::Direction;
@@ -152,18 +153,26 @@ impl EnergyPoint {
     }
 
     /// Evaluates at `state`, whose residual (reactions still in it) the assembler holds.
-    pub fn evaluate(&mut self, model: &Model, state: &State, conditions: &Conditions, assembler: &Assembler) {
+    pub fn evaluate(
+        &mut self,
+        model: &Model,
+        state: &State,
+        conditions: &Conditions,
+        assembler: &Assembler,
+        interactions: &Interactions,
+    ) {
+        let numbered = Numbered::of(model);
         let mut stored = assembler.instructions().run(ElementEnergies {
             point: self,
             model,
             state,
             conditions,
         });
-        self.add_masses(&model.places, model, state, conditions);
+        self.add_masses(&numbered, state, conditions);
         stored += self.kinetic;
         self.friction.fill(0.0);
         self.contact_dissipation = 0.0;
-        for (s, touch) in assembler.inner.iter() {
+        for (s, touch) in interactions.inner.iter() {
             let station = &model.stations[s];
             let (pipe, guide) = inner_forces(model, station, &touch.friction_force().into());
             for k in 0..6 {
@@ -173,20 +182,20 @@ impl EnergyPoint {
             stored += touch.energy;
             self.contact_dissipation += touch.dissipation;
         }
-        for (s, touch) in assembler.outer.iter() {
+        for (s, touch) in interactions.outer.iter() {
             let guide = outer_force(model, &touch.friction_force().into());
             let first = model.stations[s].guide;
             (0..6).for_each(|k| self.friction[first + k] += guide[k]);
             stored += touch.energy;
             self.contact_dissipation += touch.dissipation;
         }
-        self.finish(stored, &model.places, model, conditions, assembler, &assembler.residual);
+        self.finish(stored, &numbered, conditions, interactions, &assembler.residual);
     }
 
-    /// Adds kinetic energy, inertia and damping of point masses, in the numbering of `places`.
-    pub(crate) fn add_masses(&mut self, places: &Places, model: &Model, state: &State, conditions: &Conditions) {
+    /// Adds kinetic energy, inertia and damping of point masses.
+    pub(crate) fn add_masses(&mut self, numbered: &Numbered<'_>, state: &State, conditions: &Conditions) {
         let alpha = conditions.rayleigh.alpha;
-        for (point, places) in model.masses.iter().zip(&places.masses) {
+        for (point, places) in numbered.model.masses.iter().zip(&numbered.places.masses) {
             let moving = motion(state, places);
             let moving = moving.as_node();
             self.kinetic += point.body.kinetic_energy(moving);
@@ -204,13 +213,13 @@ impl EnergyPoint {
     pub(crate) fn finish(
         &mut self,
         mut stored: f64,
-        places: &Places,
-        model: &Model,
+        numbered: &Numbered<'_>,
         conditions: &Conditions,
-        assembler: &Assembler,
+        interactions: &Interactions,
         residual: &[f64],
     ) {
-        for stop in assembler.stops() {
+        let Numbered { model, places, .. } = *numbered;
+        for stop in interactions.joints.stops() {
             stored += stop.energy;
             self.contact_dissipation += stop.dissipation;
         }
@@ -222,7 +231,7 @@ impl EnergyPoint {
         }
         self.stored = stored;
         self.drive_torque = places.driven.map_or(0.0, |driven| residual[driven]);
-        self.bit_torque = assembler.bit.torque;
+        self.bit_torque = interactions.bit.torque;
         self.weight_on_bit = conditions.weight_on_bit;
     }
 }
@@ -358,16 +367,29 @@ impl<const N: usize> Kernel for MeanWorks<'_, N> {
     }
 }
 
+/// Both ends of a step: its states with what was evaluated there.
+pub(crate) struct StepEnds<'a> {
+    /// Step size (s).
+    pub h: f64,
+    pub before: (&'a State, &'a EnergyPoint),
+    pub after: (&'a State, &'a EnergyPoint),
+}
+
 impl EnergyAudit {
-    /// Adds the step of size `h` from `(s0, e0)` to `(s1, e1)`. `moved` becomes its displacements.
+    /// Adds a step. `moved` becomes its displacements.
     pub(crate) fn add_step(
         &mut self,
-        (model, places, weight, instructions): (&Model, &Places, &[f64], Instructions),
-        h: f64,
-        (s0, e0): (&State, &EnergyPoint),
-        (s1, e1): (&State, &EnergyPoint),
+        numbered: &Numbered<'_>,
+        ends: &StepEnds<'_>,
+        instructions: Instructions,
         moved: &mut [f64],
     ) {
+        let Numbered { model, places, weight } = *numbered;
+        let StepEnds {
+            h,
+            before: (s0, e0),
+            after: (s1, e1),
+        } = *ends;
         let displacements = [&s0.q[..], &s1.q[..]];
         let [friction, gravity] = instructions.run(MeanWorks {
             moved,

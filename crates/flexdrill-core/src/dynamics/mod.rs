@@ -1,22 +1,20 @@
-//! The whole tool in motion: residual, tangent, scheme, Newton, steps, statics, energy.
+//! The tool in motion: steps, Newton, time scheme, interactions, energy; and the plain form over all stations, which finds
+//! the static start.
 
-pub(crate) mod assembly;
 pub(crate) mod conditions;
-pub(crate) mod contacts;
 pub(crate) mod energy;
 pub(crate) mod factors;
-pub(crate) mod joints;
+pub(crate) mod interactions;
 pub(crate) mod newton;
+pub(crate) mod numbered;
 pub(crate) mod outcome;
 pub mod phases;
-pub(crate) mod residual;
 pub(crate) mod scheme;
 pub(crate) mod state;
 pub(crate) mod statics;
-pub(crate) mod station_equations;
+pub(crate) mod stations;
 pub(crate) mod stepper;
 pub(crate) mod sub_steps;
-pub(crate) mod tangent;
 pub(crate) mod tolerances;
 pub(crate) mod track;
 pub(crate) mod view;

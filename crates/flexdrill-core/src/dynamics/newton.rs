@@ -8,7 +8,6 @@ use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
 use crate::linear::Singular;
-use crate::model::Model;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 use crate::tool::description::Body;
@@ -26,34 +25,34 @@ pub(crate) struct Stride {
     pub foreseen_part: f64,
     /// How closely it is solved.
     pub accuracy: Accuracy,
+    /// Most corrections before the step counts as not converged.
+    pub most_iterations: u32,
+}
+
+/// Where Newton's iteration is within a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Iteration<'a> {
+    /// What acts at the end of the step.
+    pub conditions: &'a Conditions,
+    /// The weights of K, C and M in the tangent.
+    pub factors: TangentFactors,
+    /// Corrections made so far.
+    pub corrections: u32,
 }
 
 /// The equations of a step in some numbering of the unknowns, with the room that Newton's iteration needs.
 pub(crate) trait Equations {
-    /// Begins a step: axial forces of `to` are those foreseen from `from`, limits those of its size; what the corrections
-    /// of the step before have learned is forgotten.
-    fn begin(&mut self, model: &Model, stride: Stride, from: &State, to: &mut State);
-    /// Evaluates the residual at `to`, Eq. 35, after `iterations` corrections by
-    /// [`Equations::solve`] with `factors`.
-    fn residual(
-        &mut self,
-        model: &Model,
-        to: &mut State,
-        conditions: &Conditions,
-        factors: TangentFactors,
-        iterations: u32,
-    );
+    /// Begins a step from `from`: foresees its axial forces, scales the limits by its size, and forgets what the
+    /// corrections of the step before have learned of friction.
+    fn begin(&mut self, stride: &Stride, from: &State);
+    /// Evaluates the residual at `to`, Eq. 35: for the first time in this step, or after a correction by
+    /// [`Equations::solve`] with the same factors.
+    fn residual(&mut self, to: &mut State, at: &Iteration<'_>);
     /// Solves K_T dq = -R, Eq. 40 and 43, into the correction.
     ///
     /// # Errors
     /// When the tangent has no inverse.
-    fn solve(
-        &mut self,
-        model: &Model,
-        to: &State,
-        conditions: &Conditions,
-        factors: TangentFactors,
-    ) -> Result<(), Singular>;
+    fn solve(&mut self, to: &State, at: &Iteration<'_>) -> Result<(), Singular>;
     /// The residual.
     fn residuals(&self) -> &[f64];
     /// One over the limit on each residual, zero where there is no equation.
@@ -61,31 +60,38 @@ pub(crate) trait Equations {
     /// The last correction, and per unknown 1, or 0 for multipliers.
     fn correction(&self) -> (&[f64], &[f64]);
     /// The unknowns that the drive prescribes.
-    fn driven<'a>(&'a self, model: &'a Model) -> &'a [usize];
+    fn driven(&self) -> &[usize];
     /// The first unknown beyond what is possible, with its value.
-    fn out_of_range(&self, model: &Model, state: &State) -> Option<(usize, f64)>;
+    fn out_of_range(&self, state: &State) -> Option<(usize, f64)>;
     /// Station and pipe of an unknown.
-    fn locate(&self, model: &Model, unknown: usize) -> (usize, Body);
+    fn locate(&self, unknown: usize) -> (usize, Body);
     /// Vector instructions to use.
     fn instructions(&self) -> Instructions;
 }
 
+/// A step of which no iterate was accepted.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rejected {
+    /// Corrections made.
+    pub iterations: u32,
+    /// Why and where.
+    pub failure: StepFailure,
+}
+
 /// Solves the step that ends under `conditions`, Eq. 40 to 44. `to` holds the new state on success, the equations its
-/// residual with the reactions.
+/// residual with the reactions. Gives the number of corrections.
 ///
 /// # Errors
-/// Why and where no iterate was accepted; the iterations made are in the first field.
+/// Why and where no iterate was accepted.
 pub(crate) fn step(
     equations: &mut impl Equations,
-    model: &Model,
-    stride: (Stride, u32),
+    stride: &Stride,
     conditions: &Conditions,
     from: &State,
     to: &mut State,
-) -> Result<u32, (u32, StepFailure)> {
+) -> Result<u32, Rejected> {
     equations.instructions().run(Step {
         equations,
-        model,
         stride,
         conditions,
         from,
@@ -96,76 +102,89 @@ pub(crate) fn step(
 /// A step, whose loops over all unknowns are compiled for the vector instructions.
 struct Step<'a, E> {
     equations: &'a mut E,
-    model: &'a Model,
-    stride: (Stride, u32),
+    stride: &'a Stride,
     conditions: &'a Conditions,
     from: &'a State,
     to: &'a mut State,
 }
 
 impl<E: Equations> Kernel for Step<'_, E> {
-    type Output = Result<u32, (u32, StepFailure)>;
+    type Output = Result<u32, Rejected>;
 
     #[inline(always)]
     fn run<V: Vector>(self) -> Self::Output {
         let Self {
             equations,
-            model,
-            stride: (stride, most_iterations),
+            stride,
             conditions,
             from,
             to,
         } = self;
         let Stride {
-            scheme, h, accuracy, ..
-        } = stride;
-        equations.begin(model, stride, from, to);
+            scheme,
+            h,
+            accuracy,
+            most_iterations,
+            ..
+        } = *stride;
+
+        // The predictor carries the motion on; what the drive prescribes is set, and no correction changes it.
+        equations.begin(stride, from);
         scheme.predict(h, from, to);
         to.time = conditions.time;
         let drive_angle = conditions.drive_angle;
         to.drive_angle = drive_angle;
-        for &driven in equations.driven(model) {
+        for &driven in equations.driven() {
             to.q[driven] = drive_angle;
             (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
         }
-        let factors = scheme.factors(h);
-        let mut iterations = 0;
+
+        let mut at = Iteration {
+            conditions,
+            factors: scheme.factors(h),
+            corrections: 0,
+        };
         loop {
-            equations.residual(model, to, conditions, factors, iterations);
+            equations.residual(to, &at);
             let (residuals, weights) = (equations.residuals(), equations.weights(accuracy));
             let ratio = worst(residuals, weights);
-            let failure = |cause, value: f64, unknown: usize| {
-                let (station, body) = equations.locate(model, unknown);
-                StepFailure {
+            let rejected = |cause, value: f64, unknown: usize| {
+                let (station, body) = equations.locate(unknown);
+                let failure = StepFailure {
                     cause,
                     time: from.time,
                     step: h,
                     station,
                     body,
                     value,
-                }
+                };
+                Err(Rejected {
+                    iterations: at.corrections,
+                    failure,
+                })
             };
+            // A residual that is not a number would pass every comparison below.
             if ratio.is_nan() {
-                let unknown = worst_unknown(residuals, weights);
-                return Err((iterations, failure(FailureCause::NotFinite, f64::NAN, unknown)));
+                return rejected(FailureCause::NotFinite, f64::NAN, worst_unknown(residuals, weights));
             }
-            // Motion is not left to the predictor: what a small step leaves of its forces is of one sign, step after step.
-            if ratio <= 1.0 && (iterations > 0 || accuracy == Accuracy::Rest) {
-                return match equations.out_of_range(model, to) {
-                    Some((unknown, value)) => Err((iterations, failure(FailureCause::OutOfRange, value, unknown))),
+            // Motion is not left to the predictor: the forces that a small step leaves unbalanced have the same sign in
+            // every step, and would add up.
+            if ratio <= 1.0 && (at.corrections > 0 || accuracy == Accuracy::Rest) {
+                return match equations.out_of_range(to) {
+                    Some((unknown, value)) => rejected(FailureCause::OutOfRange, value, unknown),
                     None => {
                         scheme.finish(h, from, to);
-                        Ok(iterations)
+                        Ok(at.corrections)
                     }
                 };
             }
-            if iterations == most_iterations {
+            if at.corrections == most_iterations {
                 let unknown = worst_unknown(residuals, weights);
-                let value = residuals[unknown];
-                return Err((iterations, failure(FailureCause::NotConverged, value, unknown)));
+                return rejected(FailureCause::NotConverged, residuals[unknown], unknown);
             }
-            iterations += 1;
-            if let Err(singular) = equations.solve(model, to, conditions, factors) {
+            let solved = equations.solve(to, &at);
+            at.corrections += 1;
+            if let Err(singular) = solved {
                 let failure = StepFailure {
                     cause: FailureCause::Singular,
                     time: from.time,
@@ -174,9 +193,12 @@ impl<E: Equations> Kernel for Step<'_, E> {
                     body: Body::Pipe,
                     value: singular.pivot,
                 };
-                return Err((iterations, failure));
+                return Err(Rejected {
+                    iterations: at.corrections,
+                    failure,
+                });
             }
-            correct(equations, to, factors);
+            correct(equations, to, at.factors);
         }
     }
 }

@@ -1,11 +1,11 @@
 //! What a step changes: displacements, velocities, accelerations, multipliers.
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::{SVector, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::elements::joint::Rotations;
 use crate::elements::point_body::NodeMotion;
-use crate::model::Model;
+use crate::model::{Model, Station};
 
 /// A node's six values.
 pub type NodeVector = SVector<f64, 6>;
@@ -73,19 +73,19 @@ impl State {
         self.drive_angle = other.drive_angle;
     }
 
-    /// Sets the axial forces for a step of size `h` (s) to those that the velocities of `from` lead to at its end.
-    /// Forces of the step before would make the step one of first order.
-    pub(crate) fn predict_axial(&mut self, model: &Model, from: &Self, h: f64) {
-        let q = |unknown: usize| from.q[unknown] + h * from.v[unknown];
-        set_axial(model, [&mut self.pipe_axial, &mut self.guide_axial], q);
+    /// The axial forces of pipe and guide that the velocities lead to `h` (s) from here. With the present forces instead
+    /// a step would be of first order.
+    pub(crate) fn foresee_axial(&self, model: &Model, h: f64, [pipe, guide]: &mut [Vec<f64>; 2]) {
+        let q = |unknown: usize| self.q[unknown] + h * self.v[unknown];
+        set_axial(model, [pipe, guide], q);
     }
 
-    /// Sets the axial forces to those of the displacements but for a part of the difference to `foreseen` ones, (pipe,
-    /// guide).
-    pub(crate) fn blend_axial(&mut self, model: &Model, part: f64, foreseen: &(Vec<f64>, Vec<f64>)) {
+    /// Sets the axial forces to those of the displacements but for a part of the difference to those that are `foreseen`
+    /// for pipe and guide.
+    pub(crate) fn blend_axial(&mut self, model: &Model, part: f64, foreseen: &[Vec<f64>; 2]) {
         self.update_axial(model);
         let forces = self.pipe_axial.iter_mut().chain(&mut self.guide_axial);
-        for (force, foreseen) in forces.zip(foreseen.0.iter().chain(&foreseen.1)) {
+        for (force, foreseen) in forces.zip(foreseen[0].iter().chain(&foreseen[1])) {
             *force += part * (foreseen - *force);
         }
     }
@@ -100,6 +100,13 @@ impl State {
         } = self;
         set_axial(model, [pipe_axial, guide_axial], |unknown| q[unknown]);
     }
+}
+
+/// Eq. 20: lateral position (y, z) of the pipe relative to the guide, offset included (m).
+#[inline]
+pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
+    let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
+    station.offset + Vector2::new(pipe.y - state.q[station.guide + 1], pipe.z - state.q[station.guide + 2])
 }
 
 /// Sets the axial forces of `pipe` and `guide` to those of the displacements `q`, by unknown.

@@ -1,7 +1,7 @@
 //! The start: the tool as given, or at rest under gravity and weight on bit.
 
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::newton::{self, Stride};
+use crate::dynamics::newton::{self, Rejected, Stride};
 use crate::dynamics::outcome::StepFailure;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
@@ -63,7 +63,8 @@ impl Stepper {
     /// The state as given over all stations, its accelerations as far as steps of size `h` (s) can follow them.
     fn as_given(&mut self, weight_on_bit: f64, h: f64) -> Result<State, StartError> {
         let conditions = self.conditions(0.0, weight_on_bit);
-        let (model, newton) = self.parts();
+        let mut equations = self.over_stations();
+        let model = equations.model;
         let mut state = State::at_rest(model);
         let d = &model.description;
         for station in &model.stations {
@@ -84,9 +85,9 @@ impl Stepper {
         }
         state.update_axial(model);
         // Where the stiffness has no numbers, the mass may; the first step then says what is wrong.
-        newton
-            .balance_accelerations(model, &mut state, &conditions, h)
-            .or_else(|_| newton.balance_accelerations(model, &mut state, &conditions, 0.0))
+        equations
+            .balance_accelerations(&mut state, &conditions, h)
+            .or_else(|_| equations.balance_accelerations(&mut state, &conditions, 0.0))
             .map_err(StartError::Singular)?;
         Ok(state)
     }
@@ -99,7 +100,8 @@ impl Stepper {
     pub fn settle(&mut self, weight_on_bit: f64) -> Result<State, StartError> {
         let mut state = self.as_given(weight_on_bit, 0.0)?;
         let conditions = settling(self.conditions(0.0, weight_on_bit));
-        let (model, newton) = self.parts();
+        let most_iterations = self.tolerances().max_iterations;
+        let mut equations = self.over_stations();
         let mut trial = state.clone();
         let mut h = STEPS[0];
         let mut speed = f64::INFINITY;
@@ -114,9 +116,9 @@ impl Stepper {
                 // All of those of the start: at rest they are those of the end too, and the tangent knows of no others.
                 foreseen_part: 1.0,
                 accuracy: Accuracy::Rest,
+                most_iterations,
             };
-            let most = newton.tolerances.max_iterations;
-            match newton::step(newton, model, (stride, most), &conditions, &state, &mut trial) {
+            match newton::step(&mut equations, &stride, &conditions, &state, &mut trial) {
                 Ok(iterations) => {
                     std::mem::swap(&mut state, &mut trial);
                     speed = state.v.iter().fold(0.0, |worst: f64, v| worst.max(v.abs()));
@@ -130,7 +132,7 @@ impl Stepper {
                         }
                     }
                 }
-                Err((_, failure)) => {
+                Err(Rejected { failure, .. }) => {
                     h *= 0.25;
                     if h < 1e-7 {
                         return Err(StartError::Step(failure));
@@ -150,11 +152,11 @@ impl Stepper {
         rest.a.fill(0.0);
         rest.time = 0.0;
         let conditions = self.conditions(0.0, weight_on_bit);
-        let (model, newton) = self.parts();
-        newton.polish_rest(model, &mut rest, &mut trial, &conditions);
+        let mut equations = self.over_stations();
+        equations.polish_rest(&mut rest, &mut trial, &conditions);
         // What is still unbalanced becomes an acceleration, so that the first step begins in balance.
-        newton
-            .balance_accelerations(model, &mut rest, &conditions, 0.0)
+        equations
+            .balance_accelerations(&mut rest, &conditions, 0.0)
             .map_err(StartError::Singular)?;
         self.start_from(&rest, weight_on_bit);
         Ok(rest)

@@ -6,9 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::quality::{ModelQuality, QualityWatch};
 use super::settings::SimulationSettings;
 use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Reactions, Shape, Snapshot};
-use crate::dynamics::assembly::Assembler;
-use crate::dynamics::contacts::inner_lateral;
-use crate::dynamics::state::{State, joint_rotations, translation};
+use crate::dynamics::interactions::Interactions;
+use crate::dynamics::state::{State, inner_lateral, joint_rotations, translation};
 use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Layer, gap};
 use crate::model::{HeldNode, Model};
@@ -153,7 +152,7 @@ impl Observer {
         if self.quality.push(dt, stepper.audit()) {
             self.pass_on_trust();
         }
-        let (model, forces) = (stepper.model(), &stepper.newton().assembler);
+        let (model, forces) = (stepper.model(), stepper.interactions());
         for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
             .into_iter()
             .enumerate()
@@ -170,7 +169,7 @@ impl Observer {
         }
         let (time, judged) = (step as f64 * dt, self.whirl.drive() == DriveState::Turning);
         self.shock.advance(time, dt, judged);
-        for (joint, stop) in forces.stops().enumerate() {
+        for (joint, stop) in forces.joints.stops().enumerate() {
             self.joint_load.push(joint, dt, stop.moment);
             self.ageing.stop(joint, dt, stop.moment);
         }
@@ -273,7 +272,7 @@ impl Observer {
 
     /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
     pub(super) fn fill(&self, stepper: &Stepper, state: &State, applied: &Applied, out: &mut Snapshot) {
-        let (model, forces) = (stepper.model(), &stepper.newton().assembler);
+        let (model, forces) = (stepper.model(), stepper.interactions());
         fill_joints((model, state), forces, &mut out.joints);
         let contacts = &mut out.contacts;
         fill_layer(&mut contacts.pipe_guide, &forces.inner, &self.inner, |s| {
@@ -470,8 +469,8 @@ fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
     out.unbalance = forces.unbalance().into();
 }
 
-fn fill_joints((model, state): (&Model, &State), forces: &Assembler, out: &mut Joints) {
-    for (to, stop) in out.stop_moment.iter_mut().zip(forces.stops()) {
+fn fill_joints((model, state): (&Model, &State), forces: &Interactions, out: &mut Joints) {
+    for (to, stop) in out.stop_moment.iter_mut().zip(forces.joints.stops()) {
         *to = stop.moment;
     }
     for (j, joint) in model.joints.iter().enumerate() {
@@ -488,10 +487,12 @@ fn fill_joints((model, state): (&Model, &State), forces: &Assembler, out: &mut J
         let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
         out.axial_force[j] = -force.x;
         out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
-        let twist = -forces.row_gradient(j, 0)[3] * state.q[first + 3] * model.moment_scale;
+        let twist = -forces.joints.row_gradient(j, 0)[3] * state.q[first + 3] * model.moment_scale;
         out.torque[j] = match joint.law.kind {
             JointKind::Universal | JointKind::BallCage => twist,
-            JointKind::Revolute => twist - forces.row_gradient(j, 1)[3] * state.q[first + 4] * model.moment_scale,
+            JointKind::Revolute => {
+                twist - forces.joints.row_gradient(j, 1)[3] * state.q[first + 4] * model.moment_scale
+            }
         };
     }
 }

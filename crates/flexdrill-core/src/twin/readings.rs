@@ -108,7 +108,7 @@ impl Simulation {
     }
 
     fn touch(&self, station: usize, body: Body) -> Option<Option<Touch>> {
-        let forces = &self.stepper().newton().assembler;
+        let forces = self.stepper().interactions();
         let touches = match body {
             Body::Pipe => &forces.inner,
             Body::Guide => &forces.outer,

@@ -245,7 +245,7 @@ impl Simulation {
 
     /// Time per phase since [`Simulation::set_clock`]; zeros without. Resets and checkpoints leave it alone.
     pub fn phase_times(&self) -> PhaseTimes {
-        self.stepper.newton().assembler.stopwatch.times()
+        self.stepper.phase_times()
     }
 
     /// How far the inputs can be trusted, 0 to 1. It changes what is said of the motion, not the motion.

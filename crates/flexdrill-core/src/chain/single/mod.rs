@@ -13,7 +13,7 @@ use super::operator::Operator;
 use super::precision::Rounded;
 use super::tangent::Additions;
 use super::{GUIDE, Link, NODE, TIE};
-use crate::dynamics::joints::JointTangent;
+use crate::dynamics::interactions::JointTangent;
 use crate::linear::Touching;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;

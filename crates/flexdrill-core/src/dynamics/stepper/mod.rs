@@ -8,14 +8,17 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::chain::{self, Chain};
+use crate::chain::{Chain, ChainEquations};
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::newton::{self, Stride};
+use crate::dynamics::energy::StepEnds;
+use crate::dynamics::interactions::Interactions;
+use crate::dynamics::newton::{self, Rejected, Stride};
+use crate::dynamics::numbered::Numbered;
 use crate::dynamics::outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
-use crate::dynamics::phases::{Phase, Stopwatch};
+use crate::dynamics::phases::{Phase, PhaseTimes, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::station_equations::StationEquations;
+use crate::dynamics::stations::{StationEquations, StationRoom};
 use crate::dynamics::sub_steps::{SubSteps, most_attempts};
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::dynamics::track::Track;
@@ -96,14 +99,20 @@ const UNWIND_TURNS: f64 = 1000.0;
 /// Model, state and solver.
 pub struct Stepper {
     model: Model,
-    newton: StationEquations,
+    tolerances: Tolerances,
+    instructions: Instructions,
     scheme: Scheme,
     max_halvings: u32,
     /// Steps are taken in 2^refinement parts.
     refinement: u32,
     live: LiveParameters,
+    /// Contacts, joints and bit at the end of the last step.
+    interactions: Interactions,
+    stopwatch: Stopwatch,
     /// The tool over its nodes; `None` where steps are taken over all stations.
     chain: Option<Chain>,
+    /// The tool over all stations, for the start.
+    stations: StationRoom,
     /// Where the motion is: in the numbering of the chain, or without one in that of the model.
     track: Track,
     /// The present state in the numbering of the model, as it was asked for last; of a chain only.
@@ -140,18 +149,21 @@ impl Stepper {
             SolverKind::Reference => Box::new(DenseReference),
         };
         let view = State::at_rest(&model);
-        let newton = StationEquations::new(&model, solver, tolerances, instructions);
-        let chain = (kind == SolverKind::Chain).then(|| Chain::of(&model, &newton.tolerances, h, instructions));
+        let chain = (kind == SolverKind::Chain).then(|| Chain::of(&model, &tolerances, h, instructions));
         let track = match &chain {
             Some(chain) => Track::new(&model, chain.state(), chain.spans()),
             None => Track::new(&model, view.clone(), 0),
         };
         let mut stepper = Self {
-            newton,
+            tolerances,
+            instructions,
             scheme,
             max_halvings,
             refinement: 0,
             live: LiveParameters::of(description),
+            interactions: Interactions::new(&model, instructions),
+            stopwatch: Stopwatch::default(),
+            stations: StationRoom::new(&model, solver, tolerances, instructions),
             chain,
             track,
             view,
@@ -172,9 +184,20 @@ impl Stepper {
         &self.model
     }
 
-    /// Newton's parts: the assembler holds the forces of the present state.
-    pub fn newton(&self) -> &StationEquations {
-        &self.newton
+    /// Contacts, joints and bit at the end of the last step.
+    pub fn interactions(&self) -> &Interactions {
+        &self.interactions
+    }
+
+    #[cfg(test)]
+    /// The last residual over all stations, with its reactions.
+    pub(crate) fn station_residual(&self) -> &[f64] {
+        &self.stations.assembler.residual
+    }
+
+    /// When a step counts as solved.
+    pub(super) fn tolerances(&self) -> &Tolerances {
+        &self.tolerances
     }
 
     /// Energy since the start.
@@ -195,7 +218,7 @@ impl Stepper {
     /// Most Newton corrections (each an assembly and a solution) that one [`Stepper::advance`] can make, whatever
     /// happens.
     pub fn most_iterations(&self) -> u64 {
-        most_attempts(self.max_halvings.max(self.refinement)) * u64::from(self.newton.tolerances.max_iterations)
+        most_attempts(self.max_halvings.max(self.refinement)) * u64::from(self.tolerances.max_iterations)
     }
 
     /// Halvings of the smallest sub-step that there can be.
@@ -222,7 +245,12 @@ impl Stepper {
 
     /// Times the phases of [`Stepper::advance`] while it runs.
     pub fn stopwatch(&mut self) -> &mut Stopwatch {
-        &mut self.newton.assembler.stopwatch
+        &mut self.stopwatch
+    }
+
+    /// Time per phase so far.
+    pub(crate) fn phase_times(&self) -> PhaseTimes {
+        self.stopwatch.times()
     }
 
     /// Torque of the drive at the end of the last step (N m).
@@ -240,9 +268,14 @@ impl Stepper {
         self.live = live;
     }
 
-    /// What a start is found with, over all stations.
-    pub(super) fn parts(&mut self) -> (&Model, &mut StationEquations) {
-        (&self.model, &mut self.newton)
+    /// The equations over all stations.
+    pub(super) fn over_stations(&mut self) -> StationEquations<'_> {
+        StationEquations {
+            model: &self.model,
+            room: &mut self.stations,
+            interactions: &mut self.interactions,
+            stopwatch: &mut self.stopwatch,
+        }
     }
 
     /// Conditions at `time` under `weight_on_bit`.
@@ -254,24 +287,25 @@ impl Stepper {
     /// accelerations must balance the forces.
     pub fn start_from(&mut self, state: &State, weight_on_bit: f64) {
         let conditions = self.conditions(state.time, weight_on_bit);
-        let track = &mut self.track;
-        let (to, scratch) = (&mut track.state, &mut track.trial);
+        let (to, scratch) = (&mut self.track.state, &mut self.track.trial);
         if let Some(chain) = &mut self.chain {
-            // What is no unknown of the chain, and never shown anew.
+            // The view keeps what the chain has no unknowns for, and never writes: supports' and padding's values.
             self.view.copy_from(state);
             chain.take(&self.model, state, to);
-            let mut equations = chain::equations(chain, &mut self.newton.assembler);
-            // The stations' balance is not quite the nodes'.
+            let mut equations = ChainEquations {
+                model: &self.model,
+                chain,
+                interactions: &mut self.interactions,
+                stopwatch: &mut self.stopwatch,
+            };
+            // The balance over all stations is not quite the balance over the nodes.
             let at_rest = to.v.iter().all(|&v| v == 0.0);
             if at_rest {
-                equations.polish_rest(&self.model, to, scratch, &conditions);
+                equations.polish_rest(to, scratch, &conditions);
             }
             let h = if at_rest { 0.0 } else { self.prepared_for };
             scratch.copy_from(to);
-            if equations
-                .balance_accelerations(&self.model, scratch, &conditions, h)
-                .is_ok()
-            {
+            if equations.balance_accelerations(scratch, &conditions, h).is_ok() {
                 to.copy_from(scratch);
             }
         } else {
@@ -291,13 +325,28 @@ impl Stepper {
     /// Evaluates forces and energies of the present state, with the axial forces that it holds or, without
     /// `keep_axial`, those of its displacements.
     fn evaluate(&mut self, conditions: &Conditions, keep_axial: bool) {
-        let (model, track, assembler) = (&self.model, &mut self.track, &mut self.newton.assembler);
-        if let Some(chain) = &mut self.chain {
-            chain::equations(chain, assembler).evaluate(model, &mut track.state, conditions, keep_axial);
-            chain.energy(&mut track.energy, model, &track.state, conditions, assembler);
+        let Self {
+            model,
+            chain,
+            stations,
+            interactions,
+            stopwatch,
+            track,
+            ..
+        } = self;
+        let (state, energy) = (&mut track.state, &mut track.energy);
+        if let Some(chain) = chain {
+            let mut equations = ChainEquations {
+                model,
+                chain,
+                interactions,
+                stopwatch,
+            };
+            equations.evaluate(state, conditions, keep_axial);
+            equations.energy(energy, state, conditions);
         } else {
-            assembler.residual(model, &track.state, conditions);
-            track.energy.evaluate(model, &track.state, conditions, assembler);
+            stations.assembler.residual(interactions, model, state, conditions);
+            energy.evaluate(model, state, conditions, &stations.assembler, interactions);
         }
         self.view_is_current = false;
     }
@@ -376,7 +425,10 @@ impl Stepper {
                     iterations += made;
                     sub_steps.accept();
                 }
-                Err((made, failure)) => {
+                Err(Rejected {
+                    iterations: made,
+                    failure,
+                }) => {
                     iterations += made;
                     self.counters.rejected += 1;
                     self.counters.last_rejection = Some(failure);
@@ -415,7 +467,7 @@ impl Stepper {
         (start, start_angle): (f64, f64),
         forcing: &Forcing,
         (from, to): (f64, f64),
-    ) -> Result<u32, (u32, StepFailure)> {
+    ) -> Result<u32, Rejected> {
         let time = start + h * to;
         let [load_0, load_1] = forcing.weight_on_bit;
         let mut conditions = self.conditions(time, load_0 + (load_1 - load_0) * to);
@@ -428,40 +480,49 @@ impl Stepper {
             foresight: step,
             foreseen_part: self.scheme.foreseen_part(),
             accuracy: Accuracy::Motion,
+            most_iterations: self.tolerances.max_iterations,
         };
-        let stride = (stride, self.newton.tolerances.max_iterations);
         let Self {
             model,
-            newton,
             chain,
+            stations,
+            interactions,
+            stopwatch,
             track,
             ..
         } = self;
-        let iterations;
         let (from, to, energy) = (&track.state, &mut track.trial, &mut track.trial_energy);
-        let (places, weight) = if let Some(chain) = chain {
-            let mut equations = chain::equations(chain, &mut newton.assembler);
+        let (iterations, numbered) = if let Some(chain) = chain {
+            // Spans are deflected by the forces at the start of the step.
             to.deflection.copy_from_slice(&track.energy.deflection);
-            let made = newton::step(&mut equations, model, stride, &conditions, from, to);
-            newton.assembler.stopwatch.lap(Phase::Assembly);
-            iterations = made?;
-            chain.energy(energy, model, to, &conditions, &newton.assembler);
-            (&chain.model.places, &chain.model.weight)
+            let mut equations = ChainEquations {
+                model,
+                chain,
+                interactions,
+                stopwatch,
+            };
+            let made = newton::step(&mut equations, &stride, &conditions, from, to)?;
+            equations.energy(energy, to, &conditions);
+            (made, chain.model.numbered(model))
         } else {
-            let made = newton::step(newton, model, stride, &conditions, from, to);
-            newton.assembler.stopwatch.lap(Phase::Assembly);
-            iterations = made?;
-            energy.evaluate(model, to, &conditions, &newton.assembler);
-            (&model.places, &model.weight)
+            let mut equations = StationEquations {
+                model,
+                room: stations,
+                interactions,
+                stopwatch,
+            };
+            let made = newton::step(&mut equations, &stride, &conditions, from, to)?;
+            energy.evaluate(model, to, &conditions, &stations.assembler, interactions);
+            (made, Numbered::of(model))
         };
-        self.audit.add_step(
-            (model, places, weight, newton.assembler.instructions()),
-            step,
-            (&track.state, &track.energy),
-            (&track.trial, &track.trial_energy),
-            &mut track.moved,
-        );
-        newton.assembler.stopwatch.lap(Phase::Energy);
+        let ends = StepEnds {
+            h: step,
+            before: (&track.state, &track.energy),
+            after: (&track.trial, &track.trial_energy),
+        };
+        self.audit
+            .add_step(&numbered, &ends, self.instructions, &mut track.moved);
+        stopwatch.lap(Phase::Energy);
         track.take();
         Ok(iterations)
     }

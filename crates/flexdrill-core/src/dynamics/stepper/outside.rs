@@ -49,7 +49,7 @@ impl Stepper {
     pub fn outside_forces(&self) -> OutsideForces {
         let (model, energy) = (&self.model, &self.track.energy);
         let bottom = &model.stations[model.last()];
-        let wall = self.newton.assembler.outer.iter().map(|(station, touch)| {
+        let wall = self.interactions.outer.iter().map(|(station, touch)| {
             let [x, y, z, ..] = touch.force();
             model.stations[station].frame * Vector3::new(x, y, z)
         });

@@ -32,12 +32,12 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
     let weight_on_bit = 10e3;
     stepper.settle(weight_on_bit).unwrap();
     let (model, state) = (stepper.model(), stepper.state());
-    let forces = &stepper.newton().assembler;
+    let residual = stepper.station_residual();
     // All forces from outside on both pipes in the world: gravity, weight on bit, wall, supports.
     let mut total = Vector3::z() * (model.mass() * model.description.gravity);
     let bottom = &model.stations[model.last()];
     total -= bottom.frame.column(0) * weight_on_bit;
-    for (station, touch) in forces.outer.iter() {
+    for (station, touch) in stepper.interactions().outer.iter() {
         let [x, y, z, ..] = touch.force();
         total += model.stations[station].frame * Vector3::new(x, y, z);
     }
@@ -50,7 +50,7 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
             station.frame
         };
         if local % 6 < 3 {
-            total += frame.column(local % 6) * forces.residual[unknown];
+            total += frame.column(local % 6) * residual[unknown];
         }
     }
     // Newton leaves up to 10 mN per node; 166 stations, two pipes. Of 10 kN.
@@ -152,10 +152,10 @@ fn joints_stay_closed_and_both_solvers_agree() {
         let apart = a.iter().zip(&b).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
         // Relative 1e-9, the promise for a step.
         assert!(apart < 1e-9 * largest, "step {step}: {apart} of {largest}");
-        for (station, _) in fast.newton().assembler.inner.iter() {
+        for (station, _) in fast.interactions().inner.iter() {
             inner += usize::from(model.stations[station].joint.is_none());
         }
-        outer += fast.newton().assembler.outer.count();
+        outer += fast.interactions().outer.count();
     }
     assert!(
         inner > 0 && outer > 0,

@@ -2,10 +2,11 @@
 //! contacts, friction, stops and all joint kinds at work.
 
 use crate::Instructions;
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::interactions::Interactions;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
+use crate::dynamics::stations::Assembler;
 use crate::dynamics::stepper::{SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
 use crate::model::Model;
@@ -58,9 +59,10 @@ fn check(tool: &ToolDescription) {
     let state = lively_state(model);
     let free = |i: usize| !model.held.contains(&i) && model.driven != Some(i) && !model.padding.contains(&i);
     let mut assembler = Assembler::new(model, Instructions::best());
-    assembler.residual(model, &state, &conditions);
-    assert!(assembler.inner.count() > 2, "no inner contact to test");
-    assert!(assembler.outer.count() > 2, "no outer contact to test");
+    let mut interactions = Interactions::new(model, Instructions::best());
+    assembler.residual(&mut interactions, model, &state, &conditions);
+    assert!(interactions.inner.count() > 2, "no inner contact to test");
+    assert!(interactions.outer.count() > 2, "no outer contact to test");
     let n = model.unknowns();
     for (name, factors) in [
         (
@@ -88,8 +90,8 @@ fn check(tool: &ToolDescription) {
             },
         ),
     ] {
-        assembler.residual(model, &state, &conditions);
-        assembler.tangent(model, &state, &conditions, factors);
+        assembler.residual(&mut interactions, model, &state, &conditions);
+        assembler.tangent(&interactions, model, &state, &conditions, factors);
         let mut tangent = vec![0.0; n * n];
         assembler
             .system
@@ -111,7 +113,8 @@ fn check(tool: &ToolDescription) {
                 moved.v[column] += factors.damping * step;
                 moved.a[column] += factors.mass * step;
                 let mut assembler = Assembler::new(model, Instructions::best());
-                assembler.residual(model, &moved, &conditions);
+                let mut interactions = Interactions::new(model, Instructions::best());
+                assembler.residual(&mut interactions, model, &moved, &conditions);
                 assembler.residual
             };
             let (high, low) = (residual(1.0), residual(-1.0));

@@ -3,10 +3,11 @@
 
 use nalgebra::Vector2;
 
-use crate::dynamics::assembly::Assembler;
+use super::assembler::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::state::{State, node, translation};
+use crate::dynamics::interactions::Interactions;
+use crate::dynamics::state::{State, inner_lateral, node};
 use crate::elements::gap::{GapVector, Layer};
 use crate::linear::{ContactBlock, Touching};
 use crate::model::{Model, Station};
@@ -15,21 +16,28 @@ use crate::simd::vector::Vector;
 
 impl Assembler {
     /// Finds what touches and adds its forces, Eq. 20 to 34: the sum of Eq. 39.
-    pub(super) fn contact_forces(&mut self, model: &Model, state: &State, conditions: &Conditions) {
+    pub(super) fn contact_forces(
+        &mut self,
+        interactions: &mut Interactions,
+        model: &Model,
+        state: &State,
+        conditions: &Conditions,
+    ) {
+        let Interactions { inner, outer, .. } = interactions;
         self.instructions.run(Search {
-            layers: [&mut self.inner, &mut self.outer],
+            layers: [inner, outer],
             model,
             state,
             conditions,
         });
         let residual = &mut self.residual;
-        for (s, touch) in self.inner.iter() {
+        for (s, touch) in inner.iter() {
             let station = &model.stations[s];
             let (on_pipe, on_guide) = inner_forces(model, station, &touch.force().into());
             scatter(residual, station.pipe_above, &-on_pipe);
             scatter(residual, station.guide, &-on_guide);
         }
-        for (s, touch) in self.outer.iter() {
+        for (s, touch) in outer.iter() {
             scatter(
                 residual,
                 model.stations[s].guide,
@@ -39,9 +47,9 @@ impl Assembler {
     }
 
     /// Fills the contacts' part of the tangent increment, Eq. 28 and 32.
-    pub(super) fn contact_tangent(&mut self, model: &Model, factors: TangentFactors) {
+    pub(super) fn contact_tangent(&mut self, interactions: &Interactions, model: &Model, factors: TangentFactors) {
         for (s, station) in model.stations.iter().enumerate() {
-            let (inner, outer) = (self.inner.get(s), self.outer.get(s));
+            let (inner, outer) = (interactions.inner.get(s), interactions.outer.get(s));
             self.increment.touching[s] = match (&inner, &outer) {
                 (None, None) => Touching::Nothing,
                 (None, Some(_)) => Touching::Guide,
@@ -125,13 +133,6 @@ fn scatter(residual: &mut [f64], first: usize, force: &GapVector) {
     for (to, x) in residual[first..].iter_mut().zip(force) {
         *to += x;
     }
-}
-
-/// Eq. 20: lateral position (y, z) of the pipe relative to the guide, offset included (m).
-#[inline]
-pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
-    let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
-    station.offset + Vector2::new(pipe.y - state.q[station.guide + 1], pipe.z - state.q[station.guide + 2])
 }
 
 /// Local velocity of the inner gap, Eq. 23.

@@ -1,134 +1,87 @@
-//! Joints on the whole tool: Eq. 12 as translational rows, Eq. 13 and the stops as rotational ones.
+//! Rotational rows (Eq. 13) and stops of all joints, eight joints at a time.
 
-use crate::dynamics::assembly::Assembler;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::state::{State, translation};
+use crate::dynamics::state::State;
 use crate::elements::joint::group::JointGroup;
 use crate::model::{JointPlaces, Model};
-use crate::simd::Kernel;
 use crate::simd::number::Lane;
 use crate::simd::vector::Vector;
+use crate::simd::{Instructions, Kernel};
 
-impl Assembler {
-    /// Adds the joints' forces Phi_q^T lambda (Eq. 17) and the rows of all joints (Eq. 14) to the residual, and
-    /// linearises the rotational rows and stops.
-    pub(super) fn joint_forces(&mut self, model: &Model, state: &State) {
-        self.translational_rows(model, state);
-        let residual = &mut self.residual;
-        self.instructions.run(LineariseJoints {
-            groups: &mut self.groups,
-            places: &model.places.joints,
-            state,
-            take: |joint: usize, at: &JointLinearisation<'_>| {
-                let lambda = rotational_multipliers(model, state, joint);
-                let places = &model.places.joints[joint];
-                let stop = at.stop_moments().unwrap_or_default();
-                let rotations = (places.above..places.above + 3).chain(places.below..places.below + 3);
-                for (k, (place, stop)) in rotations.zip(stop).enumerate() {
-                    let of_rows = (0..at.rows()).map(|row| lambda[row] * at.gradient(row)[k]);
-                    residual[place] += stop + of_rows.sum::<f64>();
-                }
-                let first = model.multipliers(joint) + 3;
-                for row in 0..at.rows() {
-                    residual[first + row] = model.moment_scale * at.value(row);
-                }
-            },
-        });
-    }
+/// The joints of a tool as linearised by the last residual.
+pub struct Joints {
+    /// Eight joints each, from the top.
+    groups: Vec<JointGroup>,
+    /// Number of joints: the last group may have lanes without one.
+    count: usize,
+    instructions: Instructions,
+}
 
-    /// E_a u_a - E_b u_b = 0, Eq. 12, and the multipliers' forces on both ends.
-    fn translational_rows(&mut self, model: &Model, state: &State) {
-        for (j, joint) in model.joints.iter().enumerate() {
-            let station = &model.stations[model.joint_stations[j]];
-            let (a, b, first) = (station.pipe_above, station.pipe_below, model.multipliers(j));
-            let scale = model.force_scale;
-            let lambda = translation(&state.q, first) * scale;
-            let (on_a, on_b) = (joint.upper.tr_mul(&lambda), joint.lower.tr_mul(&lambda));
-            let open = joint.upper * translation(&state.q, a) - joint.lower * translation(&state.q, b);
-            for k in 0..3 {
-                self.residual[a + k] += on_a[k];
-                self.residual[b + k] -= on_b[k];
-                self.residual[first + k] = scale * open[k];
-            }
+impl Joints {
+    pub(super) fn new(model: &Model, instructions: Instructions) -> Self {
+        Self {
+            groups: model.joints.chunks(8).map(JointGroup::of).collect(),
+            count: model.joints.len(),
+            instructions,
         }
     }
 
-    /// Fills the joints' part of the tangent increment.
-    pub(crate) fn joint_tangent(&mut self, model: &Model, state: &State, factors: TangentFactors) {
-        let joints = &mut self.increment.joints;
-        self.instructions.run(JointTangents {
-            groups: &self.groups,
-            joints: self.joints,
-            factors,
-            lambda: |joint: usize| rotational_multipliers(model, state, joint),
-            wanted: |_| true,
-            take: |joint: usize, tangent: &JointTangent<'_>| {
-                let to = &mut joints[joint];
-                for (l, column) in to.rotations.iter_mut().enumerate() {
-                    for (k, x) in column.iter_mut().enumerate() {
-                        *x = tangent.rotation(l, k);
-                    }
-                }
-                for (r, row) in to.rows.iter_mut().enumerate().take(tangent.group.rows().len()) {
-                    for (k, x) in row.iter_mut().enumerate() {
-                        *x = tangent.group.rows()[r].gradient[k][tangent.lane] * model.moment_scale;
-                    }
-                }
-            },
+    /// Linearises rows and stops of all joints at `state`, whose rotations are at `places`, and hands each joint with its
+    /// number to `visit`.
+    pub(crate) fn linearise(
+        &mut self,
+        places: &[JointPlaces],
+        state: &State,
+        visit: impl FnMut(usize, &JointLinearisation<'_>),
+    ) {
+        self.instructions.run(LineariseJoints {
+            groups: &mut self.groups,
+            places,
+            state,
+            visit,
         });
     }
 
-    /// Hands the tangent of every joint that is `wanted` with its number to `take`; `lambda` gives the multipliers (N m)
+    /// Hands the tangent of every joint that is `wanted` with its number to `visit`; `lambda` gives the multipliers (N m)
     /// of its rows.
-    pub(crate) fn joint_tangents(
+    pub(crate) fn tangents(
         &self,
         factors: TangentFactors,
         lambda: impl Fn(usize) -> [f64; 2],
         wanted: impl Fn(usize) -> bool,
-        take: impl FnMut(usize, &JointTangent<'_>),
+        visit: impl FnMut(usize, &JointTangent<'_>),
     ) {
         self.instructions.run(JointTangents {
             groups: &self.groups,
-            joints: self.joints,
+            joints: self.count,
             factors,
             lambda,
             wanted,
-            take,
+            visit,
         });
     }
 
-    /// The joints, eight at a time from the top, to be linearised by the caller.
+    /// The joints, eight at a time from the top, for a caller that linearises them itself.
     pub(crate) fn groups_mut(&mut self) -> &mut [JointGroup] {
         &mut self.groups
     }
 
-    /// Moment (N m, >= 0), energy (J) and power of the damping (W) of the stop of each joint at the last residual.
+    /// Moment (N m, >= 0), energy (J) and power of the damping (W) of the stop of each joint.
     pub fn stops(&self) -> impl Iterator<Item = StopReport> + '_ {
         let groups = self.groups.iter().map(JointGroup::stop);
         let stops = groups.flat_map(|stop| (0..8).map(move |lane| (stop, lane)));
-        stops.take(self.joints).map(|(stop, lane)| StopReport {
+        stops.take(self.count).map(|(stop, lane)| StopReport {
             moment: stop.moment[lane],
             energy: stop.energy[lane],
             dissipation: stop.dissipation[lane],
         })
     }
 
-    /// Gradient of rotational row `row` of a joint at the last residual, in (psi_a, phi_ya, phi_za, psi_b, phi_yb,
-    /// phi_zb).
+    /// Gradient of rotational row `row` of a joint, in (psi_a, phi_ya, phi_za, psi_b, phi_yb, phi_zb).
     pub fn row_gradient(&self, joint: usize, row: usize) -> [f64; 6] {
         let gradient = &self.groups[joint / 8].rows()[row].gradient;
         std::array::from_fn(|k| gradient[k][joint % 8])
     }
-}
-
-/// Multipliers (N m) of the rotational rows of a joint in the model's numbering.
-fn rotational_multipliers(model: &Model, state: &State, joint: usize) -> [f64; 2] {
-    // A joint with one row has no equation for the second, and zero there.
-    let first = model.multipliers(joint) + 3;
-    [
-        model.moment_scale * state.q[first],
-        model.moment_scale * state.q[first + 1],
-    ]
 }
 
 /// The stop of a joint at the last residual.
@@ -150,6 +103,12 @@ pub(crate) struct JointTangent<'a> {
 }
 
 impl JointTangent<'_> {
+    /// Gradients of its rotational rows in the six rotations.
+    pub fn row_gradients(&self) -> impl Iterator<Item = [f64; 6]> + '_ {
+        let rows = self.group.rows().iter();
+        rows.map(|row| std::array::from_fn(|k| row.gradient[k][self.lane]))
+    }
+
     /// Derivative of moment `k` in rotation `l`: the stop, and the curvature of the rotational rows.
     #[inline(always)]
     pub fn rotation(&self, l: usize, k: usize) -> f64 {
@@ -223,7 +182,7 @@ struct LineariseJoints<'a, F> {
     groups: &'a mut [JointGroup],
     places: &'a [JointPlaces],
     state: &'a State,
-    take: F,
+    visit: F,
 }
 
 impl<F: FnMut(usize, &JointLinearisation<'_>)> Kernel for LineariseJoints<'_, F> {
@@ -235,7 +194,7 @@ impl<F: FnMut(usize, &JointLinearisation<'_>)> Kernel for LineariseJoints<'_, F>
             groups,
             places,
             state,
-            mut take,
+            mut visit,
         } = self;
         for (g, group) in groups.iter_mut().enumerate() {
             let first = 8 * g;
@@ -244,7 +203,7 @@ impl<F: FnMut(usize, &JointLinearisation<'_>)> Kernel for LineariseJoints<'_, F>
             let (q, rate) = rotations(&places[..count], state);
             group.linearise::<V>(&q, &rate);
             for lane in 0..count {
-                take(first + lane, &JointLinearisation { group, lane });
+                visit(first + lane, &JointLinearisation { group, lane });
             }
         }
     }
@@ -257,7 +216,7 @@ struct JointTangents<'a, L, W, F> {
     factors: TangentFactors,
     lambda: L,
     wanted: W,
-    take: F,
+    visit: F,
 }
 
 impl<L, W, F> Kernel for JointTangents<'_, L, W, F>
@@ -276,7 +235,7 @@ where
             factors,
             lambda,
             wanted,
-            mut take,
+            mut visit,
         } = self;
         let mut rotations = [[Lane::default(); 6]; 6];
         for (g, group) in groups.iter().enumerate() {
@@ -294,7 +253,7 @@ where
                     lane,
                 };
                 if wanted(first + lane) {
-                    take(first + lane, &tangent);
+                    visit(first + lane, &tangent);
                 }
             }
         }

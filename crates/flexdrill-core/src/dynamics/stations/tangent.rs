@@ -1,10 +1,10 @@
 //! The tangent K_T of Eq. 41: a part that lasts as long as the step size does, the geometric stiffness of the axial
 //! forces, and what contacts, joints and the bit add in each iteration.
 
-use crate::dynamics::assembly::Assembler;
+use super::assembler::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::phases::Phase;
+use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, motion};
 use crate::elements::beam::ElementMatrix;
 use crate::linear::{BlockSystem, ContactBlock, Touching, add_columns};
@@ -13,12 +13,18 @@ use crate::tool::description::Direction;
 
 impl Assembler {
     /// Assembles the whole tangent, Eq. 41, from the parts linearised by the last [`Assembler::residual`] at `state`.
-    pub fn tangent(&mut self, model: &Model, state: &State, conditions: &Conditions, factors: TangentFactors) {
+    pub fn tangent(
+        &mut self,
+        interactions: &Interactions,
+        model: &Model,
+        state: &State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+    ) {
         self.build_step_constant(model, conditions, factors);
         self.system.copy_from(&self.step_constant);
         self.add_geometric_stiffness(model, state, factors.stiffness);
-        self.stopwatch.lap(Phase::Assembly);
-        self.linearise(model, state, conditions, factors);
+        self.linearise(interactions, model, state, conditions, factors);
         self.increment.add_to(&mut self.system);
         for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
             self.system.hold(unknown);
@@ -39,27 +45,33 @@ impl Assembler {
 
     /// What contacts, joints and the bit add to the tangent of Eq. 41: fills [`Assembler::increment`] from the parts
     /// linearised by the last [`Assembler::residual`] at `state`.
-    pub fn linearise(&mut self, model: &Model, state: &State, conditions: &Conditions, factors: TangentFactors) {
-        self.contact_tangent(model, factors);
-        self.stopwatch.lap(Phase::Contact);
-        self.joint_tangent(model, state, factors);
+    pub fn linearise(
+        &mut self,
+        interactions: &Interactions,
+        model: &Model,
+        state: &State,
+        conditions: &Conditions,
+        factors: TangentFactors,
+    ) {
+        self.contact_tangent(interactions, model, factors);
+        self.joint_tangent(&interactions.joints, model, state, factors);
         // The bit's node is the first of the last station's block.
         let (last, spin) = (model.last(), Direction::Psi as usize);
-        self.contact_block(last)[spin][spin] += factors.damping * self.bit.slope;
+        self.contact_block(last)[spin][spin] += factors.damping * interactions.bit.slope;
         for (point, places) in model.masses.iter().zip(&model.places.masses) {
             if point.body.is_coupled() {
-                self.point_tangent(model, (point, places), state, conditions, factors);
+                self.point_tangent(model, point, places, state, conditions, factors);
             }
         }
         self.increment.drop_held();
-        self.stopwatch.lap(Phase::Assembly);
     }
 
     /// What a point mass adds beside its diagonal.
     fn point_tangent(
         &mut self,
         model: &Model,
-        (point, places): (&ResolvedMass, &[usize; 6]),
+        point: &ResolvedMass,
+        places: &[usize; 6],
         state: &State,
         conditions: &Conditions,
         factors: TangentFactors,

@@ -1,0 +1,14 @@
+//! The plain form: residual and tangent over all stations of the tool, solved by block LU.
+//!
+//! It finds the static start, and tests hold the chain against it. No step of a run is taken here.
+
+mod assembler;
+mod contacts;
+mod equations;
+mod joints;
+mod residual;
+mod tangent;
+
+pub(crate) use assembler::Assembler;
+pub(crate) use contacts::{inner_forces, outer_force};
+pub(crate) use equations::{StationEquations, StationRoom};
