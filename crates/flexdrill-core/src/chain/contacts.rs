@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 
 use super::residual::{load, plus_column, product, store};
-use super::{Chain, EndColumn, EndForces, at_ends};
+use super::{Chain, EndColumn, EndForces, Ends, at_ends};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
@@ -14,7 +14,7 @@ use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
 
 impl Chain {
-    /// Finds what touches and what it puts on the spans' ends.
+    /// Finds the contacts at `state`, evaluates them, and applies them to the ends of the spans.
     pub(super) fn contact_forces(
         &mut self,
         interactions: &mut Interactions,
@@ -26,8 +26,8 @@ impl Chain {
             *any &= !moved;
         }
         let instructions = self.model.instructions;
-        instructions.run(Search {
-            by: self,
+        instructions.run(ContactSearch {
+            chain: self,
             interactions,
             model,
             state,
@@ -56,14 +56,21 @@ impl Chain {
     }
 }
 
-struct Search<'a> {
-    by: &'a mut Chain,
+struct ContactSearch<'a> {
+    chain: &'a mut Chain,
     interactions: &'a mut Interactions,
     model: &'a Model,
     state: &'a State,
     conditions: &'a Conditions,
     /// Per layer, what the guide's motions count with in the gap: those of the rotations with its radius.
     arms: [Aligned<[f64; 8]>; 2],
+}
+
+/// Lateral positions of a span's stations, a station per lane: as the ends move them, and deflected between the ends.
+#[inline(always)]
+fn position<V: Vector>(lateral: &[EndColumn; 12], ends: &Ends, deflection: &EndColumn) -> [V; 2] {
+    let (slaved, deflection): ([V; 2], [V; 2]) = (product(lateral, ends), load(deflection));
+    [slaved[0].plus(deflection[0]), slaved[1].plus(deflection[1])]
 }
 
 /// A local force's lanes with those of the rotations times a radius.
@@ -90,60 +97,60 @@ pub(super) fn plus_rows<V: Vector>(sum: [V; 2], rows: &[EndColumn; 6], x: &[f64;
     [even[0].plus(odd[0]), even[1].plus(odd[1])]
 }
 
-impl Search<'_> {
-    /// Puts down the motion of station `i` of span `l`, where `inner` and `outer` gap are closed as their flags say.
+impl ContactSearch<'_> {
+    /// Hands station `i` of span `l` to the layers whose gap is closed there, with its lateral positions and velocities.
     #[inline(always)]
-    fn found<V: Vector>(&mut self, (l, i): (usize, usize), lateral: [[f64; 2]; 2], closed: [bool; 2]) {
+    fn push<V: Vector>(&mut self, l: usize, i: usize, lateral: [[f64; 2]; 2], is_closed: [bool; 2]) {
         let Self {
-            by,
+            chain,
             interactions,
             model,
             state,
             conditions,
             arms,
         } = self;
-        let station = by.model.nodes.first(l) + i;
-        let guide = by.local::<V>(&state.v, l, i, 1);
-        by.has_contacts[l] = true;
-        if closed[0] {
-            let pipe = by.local::<V>(&state.v, l, i, 0);
+        let station = chain.model.nodes.first(l) + i;
+        let guide = chain.local::<V>(&state.v, l, i, 1);
+        chain.has_contacts[l] = true;
+        if is_closed[0] {
+            let pipe = chain.local::<V>(&state.v, l, i, 0);
             let velocity = pipe.minus_product(guide, V::load(&arms[0]));
             let clearance = model.stations[station].inner_clearance;
             let layer = &mut interactions.inner;
             layer.push::<V>(&conditions.inner, station, lateral[0], clearance, velocity);
         }
-        if closed[1] {
+        if is_closed[1] {
             let velocity = guide.times(V::load(&arms[1]));
             let layer = &mut interactions.outer;
             layer.push::<V>(&conditions.outer, station, lateral[1], model.outer_clearance, velocity);
         }
     }
 
-    /// Puts all contacts on the ends of their spans.
+    /// Applies all contacts to the ends of their spans.
     #[inline(always)]
-    fn put<V: Vector>(&mut self) {
+    fn apply<V: Vector>(&mut self) {
         let Self {
-            by,
+            chain,
             interactions,
             model,
             ..
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
-        for (contact_forces, (any, moved)) in by
+        for (contact_forces, (any, moved)) in chain
             .contact_forces
             .iter_mut()
-            .zip(by.has_contacts.iter().zip(&by.active.spans))
+            .zip(chain.has_contacts.iter().zip(&chain.active.spans))
         {
             if *any && *moved {
                 **contact_forces = [[0.0; 16]; 2];
             }
         }
-        let moved = |station: usize| by.active.spans[by.model.nodes.stations[station].0];
+        let moved = |station: usize| chain.active.spans[chain.model.nodes.stations[station].0];
         for (station, touch) in interactions.inner.among(moved) {
-            let (l, i) = by.model.nodes.stations[station];
-            let [on_pipe, on_guide] = &by.model.kinds[by.model.links[l].kind].force[i].0;
+            let (l, i) = chain.model.nodes.stations[station];
+            let [on_pipe, on_guide] = &chain.model.kinds[chain.model.links[l].kind].force[i].0;
             let force = touch.force();
-            let [pipe, guide] = &mut by.contact_forces[l].0;
+            let [pipe, guide] = &mut chain.contact_forces[l].0;
             let mut opposite = force;
             opposite.iter_mut().for_each(|x| *x = -*x);
             store(plus_rows::<V>(load(pipe), on_pipe, &opposite), pipe);
@@ -154,14 +161,14 @@ impl Search<'_> {
         }
         let mut sum = OnSpan::<V>::new();
         for (station, touch) in interactions.outer.among(moved) {
-            let (l, i) = by.model.nodes.stations[station];
+            let (l, i) = chain.model.nodes.stations[station];
             if l != sum.span {
-                sum.take_from(&mut by.contact_forces, l);
+                sum.take_from(&mut chain.contact_forces, l);
             }
-            let rows = &by.model.kinds[by.model.links[l].kind].force[i][1];
+            let rows = &chain.model.kinds[chain.model.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.force(), outer_radius));
         }
-        sum.take_from(&mut by.contact_forces, 0);
+        sum.take_from(&mut chain.contact_forces, 0);
     }
 }
 
@@ -209,87 +216,116 @@ impl<V: Vector> OnSpan<V> {
     }
 }
 
-impl Kernel for Search<'_> {
+impl Kernel for ContactSearch<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Vector>(mut self) {
-        if self.by.active.whole {
-            self.interactions.inner.clear();
-            self.interactions.outer.clear();
-        } else {
-            for l in 0..self.by.model.links.len() {
-                if self.by.active.spans[l] {
-                    let stations =
-                        self.by.model.nodes.first(l) + usize::from(l > 0)..self.by.model.nodes.first(l + 1) + 1;
-                    self.interactions.inner.open(stations.clone());
-                    self.interactions.outer.open(stations);
-                }
-            }
+        self.open_gaps();
+        self.search::<V>();
+        self.evaluate::<V>();
+        self.apply::<V>();
+    }
+}
+
+impl ContactSearch<'_> {
+    /// Opens the gaps that are looked at again. Contacts of spans that the correction did not move keep their forces.
+    #[inline(always)]
+    fn open_gaps(&mut self) {
+        let Interactions { inner, outer, .. } = &mut *self.interactions;
+        if self.chain.active.whole {
+            inner.clear();
+            outer.clear();
+            return;
         }
+        let nodes = &self.chain.model.nodes;
+        let moved = self.chain.active.spans.iter().enumerate().filter(|(_, moved)| **moved);
+        for (l, _) in moved {
+            let stations = nodes.first(l) + usize::from(l > 0)..nodes.first(l + 1) + 1;
+            inner.open(stations.clone());
+            outer.open(stations);
+        }
+    }
+
+    /// Hands every closed gap to its layer: the lateral positions of eight stations of a span at a time against the
+    /// clearances, then the velocity of those that touch only.
+    #[inline(always)]
+    fn search<V: Vector>(&mut self) {
         let outer_squared = self.model.outer_clearance * self.model.outer_clearance;
-        // The first station belongs to no span's lanes; its pipe lies on the bore's axis.
-        let top = &self.model.stations[0];
-        let q = &self.state.q;
-        let mut first = [[0.0; 8]; 2];
-        self.by.local::<V>(q, 0, 0, 0).store(&mut first[0]);
-        self.by.local::<V>(q, 0, 0, 1).store(&mut first[1]);
-        let guide = Vector2::new(first[1][1], first[1][2]);
-        let inner = top.offset + Vector2::new(first[0][1], first[0][2]) - guide;
-        let closed = [
-            inner.norm_squared() > top.inner_clearance * top.inner_clearance,
-            guide.norm_squared() > outer_squared,
-        ];
-        if (closed[0] | closed[1]) && self.by.active.spans[0] {
-            self.found::<V>((0, 0), [inner.into(), guide.into()], closed);
-        }
+        self.search_top::<V>(outer_squared);
         let (nodes, _) = self.state.q.as_chunks();
         let state = self.state;
-        for l in 0..self.by.model.links.len() {
-            if !self.by.active.spans[l] {
+        for l in 0..self.chain.model.links.len() {
+            if !self.chain.active.spans[l] {
                 continue;
             }
-            let link = &self.by.model.links[l];
-            let kind = &self.by.model.kinds[link.kind];
-            let pipe = product::<V>(&kind.lateral[0], &at_ends(nodes, l, 0));
-            let guide = product::<V>(&kind.lateral[1], &at_ends(nodes, l, 1));
-            let [deflection_of_pipe, deflection_of_guide]: [[V; 2]; 2] =
-                [load(&state.deflection[l][0]), load(&state.deflection[l][1])];
-            let pipe = [pipe[0].plus(deflection_of_pipe[0]), pipe[1].plus(deflection_of_pipe[1])];
-            let guide = [
-                guide[0].plus(deflection_of_guide[0]),
-                guide[1].plus(deflection_of_guide[1]),
-            ];
+            let link = &self.chain.model.links[l];
+            let kind = &self.chain.model.kinds[link.kind];
+
+            // Lateral position of the pipe in the guide and of the guide in the bore.
+            let deflection = &state.deflection[l];
+            let pipe = position::<V>(&kind.lateral[0], &at_ends(nodes, l, 0), &deflection[0]);
+            let guide = position::<V>(&kind.lateral[1], &at_ends(nodes, l, 1), &deflection[1]);
             let y = V::load(&link.offset[0]).plus(pipe[0].minus(guide[0]));
             let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
+
+            // A gap is closed beyond its clearance, Eq. 21. Lanes without a station hold nothing, and may not touch even
+            // where a state is beyond all bounds.
             let square = |y: V, z: V| y.times(y).plus_product(z, z);
-            // Lanes beyond the span's stations hold nothing, and may not touch even where a state is beyond all bounds.
-            let stations = (1 << self.by.model.nodes.elements(l)) - 1;
+            let stations = (1 << self.chain.model.nodes.elements(l)) - 1;
             let inner = square(y, z).above(V::load(&link.clearance_squared)) & stations;
             let outer = square(guide[0], guide[1]).above(V::splat(outer_squared)) & stations;
-            let mut any = inner | outer;
-            if any == 0 {
+            let mut closed = inner | outer;
+            if closed == 0 {
                 continue;
             }
+
+            // A bit per lane: the lowest one first, so that contacts are listed from the top down.
             let mut lanes = Aligned([[0.0; 8]; 4]);
             for (to, from) in lanes.iter_mut().zip([y, z, guide[0], guide[1]]) {
                 from.store(to);
             }
-            while any != 0 {
-                let lane = any.trailing_zeros() as usize;
-                any &= any - 1;
+            while closed != 0 {
+                let lane = closed.trailing_zeros() as usize;
+                closed &= closed - 1;
                 let lateral = [[lanes[0][lane], lanes[1][lane]], [lanes[2][lane], lanes[3][lane]]];
-                let closed = [inner >> lane & 1 == 1, outer >> lane & 1 == 1];
-                self.found::<V>((l, lane + 1), lateral, closed);
+                let is_closed = [inner >> lane & 1 == 1, outer >> lane & 1 == 1];
+                self.push::<V>(l, lane + 1, lateral, is_closed);
             }
         }
+    }
+
+    /// The first station of the tool, which is in no span's lanes; the undeflected pipe lies on the bore's axis there.
+    #[inline(always)]
+    fn search_top<V: Vector>(&mut self, outer_squared: f64) {
+        if !self.chain.active.spans[0] {
+            return;
+        }
+        let top = &self.model.stations[0];
+        let mut motions = [[0.0; 8]; 2];
+        for (body, motion) in motions.iter_mut().enumerate() {
+            self.chain.local::<V>(&self.state.q, 0, 0, body).store(motion);
+        }
+        let guide = Vector2::new(motions[1][1], motions[1][2]);
+        let inner = top.offset + Vector2::new(motions[0][1], motions[0][2]) - guide;
+        let is_closed = [
+            inner.norm_squared() > top.inner_clearance * top.inner_clearance,
+            guide.norm_squared() > outer_squared,
+        ];
+        if is_closed[0] | is_closed[1] {
+            self.push::<V>(0, 0, [inner.into(), guide.into()], is_closed);
+        }
+    }
+
+    /// Evaluates the law of the gap for the contacts that are left over from groups of eight.
+    #[inline(always)]
+    fn evaluate<V: Vector>(&mut self) {
         let Self {
             interactions,
             conditions,
             ..
-        } = &mut self;
+        } = self;
         interactions.inner.finish::<V>(&conditions.inner);
         interactions.outer.finish::<V>(&conditions.outer);
-        self.put::<V>();
     }
 }

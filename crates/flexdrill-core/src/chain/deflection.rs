@@ -45,7 +45,7 @@ impl Chain {
     /// How the spans deflect under the contacts of the last residual and under their weight, into `to`.
     pub(super) fn deflect_spans(&self, to: &mut [Deflection], model: &Model, interactions: &Interactions) {
         self.model.instructions.run(Deflections {
-            by: self,
+            chain: self,
             to,
             model,
             interactions,
@@ -61,7 +61,7 @@ impl Chain {
 }
 
 struct Deflections<'a> {
-    by: &'a Chain,
+    chain: &'a Chain,
     to: &'a mut [Deflection],
     model: &'a Model,
     interactions: &'a Interactions,
@@ -73,18 +73,18 @@ impl Kernel for Deflections<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self {
-            by,
+            chain,
             to,
             model,
             interactions,
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
         to.iter_mut()
-            .zip(&by.model.links)
+            .zip(&chain.model.links)
             .for_each(|(to, link)| *to = *link.by_weight);
         for (station, touch) in interactions.inner.iter() {
-            let (l, i) = by.model.nodes.stations[station];
-            if let Some([by_pipe, by_guide]) = by.deflection(l, i) {
+            let (l, i) = chain.model.nodes.stations[station];
+            if let Some([by_pipe, by_guide]) = chain.deflection(l, i) {
                 let on_pipe = touch.force();
                 let mut on_guide = at_radius(&on_pipe, inner_radius);
                 on_guide.iter_mut().for_each(|x| *x = -*x);
@@ -94,8 +94,8 @@ impl Kernel for Deflections<'_> {
             }
         }
         for (station, touch) in interactions.outer.iter() {
-            let (l, i) = by.model.nodes.stations[station];
-            if let Some([_, by_guide]) = by.deflection(l, i) {
+            let (l, i) = chain.model.nodes.stations[station];
+            if let Some([_, by_guide]) = chain.deflection(l, i) {
                 let on_guide = at_radius(&touch.force(), outer_radius);
                 let guide = &mut to[l][1];
                 store(plus_rows::<V>(load(guide), by_guide, &on_guide), guide);

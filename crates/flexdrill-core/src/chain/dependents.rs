@@ -257,7 +257,7 @@ impl Chain {
         }
         let instructions = self.model.instructions;
         instructions.run(BalanceJoints {
-            by: self,
+            chain: self,
             groups: joints.groups_mut(),
             state,
             scale,
@@ -267,7 +267,7 @@ impl Chain {
 
 /// The joints' part of [`Chain::joint_forces`], eight at a time.
 struct BalanceJoints<'a> {
-    by: &'a mut Chain,
+    chain: &'a mut Chain,
     groups: &'a mut [JointGroup],
     state: &'a State,
     scale: f64,
@@ -279,16 +279,21 @@ impl Kernel for BalanceJoints<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self {
-            by,
+            chain,
             groups,
             state,
             scale,
         } = self;
-        let (residual, _) = by.residual.as_chunks_mut::<NODE>();
-        let places = by.model.places.joints.chunks(8).zip(by.model.nodes.of_joints.chunks(8));
-        let of_groups = by.spins.iter_mut().zip(by.multipliers.chunks_mut(8));
+        let (residual, _) = chain.residual.as_chunks_mut::<NODE>();
+        let places = chain
+            .model
+            .places
+            .joints
+            .chunks(8)
+            .zip(chain.model.nodes.of_joints.chunks(8));
+        let of_groups = chain.spins.iter_mut().zip(chain.multipliers.chunks_mut(8));
         for ((group, (places, nodes)), (spins, multipliers)) in groups.iter_mut().zip(places).zip(of_groups) {
-            if !nodes.iter().any(|&k| by.active.affected[k]) {
+            if !nodes.iter().any(|&k| chain.active.affected[k]) {
                 continue;
             }
             let (q, rate) = rotations(places, state);
@@ -296,10 +301,10 @@ impl Kernel for BalanceJoints<'_> {
             let stop = group.shut_stop();
             let [row] = group.rows() else {
                 for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {
-                    if by.active.affected[k] {
-                        let (residual, dependents) = (&mut residual[k], &mut by.dependents[k]);
+                    if chain.active.affected[k] {
+                        let (residual, dependents) = (&mut residual[k], &mut chain.dependents[k]);
                         let gradients = [0, 1].map(|r| group.rows()[r].gradient.map(|lanes| lanes[lane]));
-                        dependents.linearise_two(gradients, scale, by.model.rows[k].as_ref());
+                        dependents.linearise_two(gradients, scale, chain.model.rows[k].as_ref());
                         *lambda = dependents.multipliers(residual, scale);
                         dependents.project(residual);
                         residual[FIRST_ROW] = scale * group.rows()[0].value[lane];
@@ -334,7 +339,7 @@ impl Kernel for BalanceJoints<'_> {
             let mut lambdas = Lane::default();
             lambda.store(&mut lambdas);
             for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {
-                if by.active.affected[k] {
+                if chain.active.affected[k] {
                     let residual = &mut residual[k];
                     for (place, moment) in OTHERS.into_iter().zip(&moments) {
                         residual[place] += moment[lane];

@@ -6,21 +6,21 @@ use super::residual::load;
 use crate::linear::{PIVOT_RATIO, exchange};
 use crate::simd::vector::Vector;
 
-/// Rows after k: 1 where a pivot may be looked for.
+/// Per row k, one in the rows after k: the candidates for its pivot.
 const AFTER: [[f64; SIZE]; SIZE] = table(Rows::After);
-/// Rows after k + 1.
-const BEYOND: [[f64; SIZE]; SIZE] = table(Rows::Beyond);
-/// All rows but k.
+/// Per row k, one in the rows after k + 1: those whose pivots come later.
+const LATER: [[f64; SIZE]; SIZE] = table(Rows::AfterPair);
+/// Per row k, one in all other rows.
 const OTHERS: [[f64; SIZE]; SIZE] = table(Rows::Others);
-/// All rows but k and k + 1.
-const BESIDE: [[f64; SIZE]; SIZE] = table(Rows::Beside);
+/// Per row k, one in all rows but k and k + 1.
+const OUTSIDE_PAIR: [[f64; SIZE]; SIZE] = table(Rows::OutsidePair);
 
 /// Rows in relation to a pivot.
 enum Rows {
     After,
-    Beyond,
+    AfterPair,
     Others,
-    Beside,
+    OutsidePair,
 }
 
 const fn table(rows: Rows) -> [[f64; SIZE]; SIZE] {
@@ -31,9 +31,9 @@ const fn table(rows: Rows) -> [[f64; SIZE]; SIZE] {
         while r < SIZE {
             let counts = match rows {
                 Rows::After => r > k,
-                Rows::Beyond => r > k + 1,
+                Rows::AfterPair => r > k + 1,
                 Rows::Others => r != k,
-                Rows::Beside => r != k && r != k + 1,
+                Rows::OutsidePair => r != k && r != k + 1,
             };
             if counts {
                 out[k][r] = 1.0;
@@ -60,15 +60,15 @@ fn subtract<V: Vector>(column: &mut [f64; SIZE], other: [V; 2], scale: f64) {
     }
 }
 
-/// What takes a pivot's column out of another: (column k) / pivot, without the pivot's own row.
+/// One pivot: the multipliers (column k) / pivot of all other rows, and its reciprocal.
 struct Pivot<V> {
     multipliers: [V; 2],
     reciprocal: f64,
 }
 
-/// Whether the diagonal entry will do as pivot k.
+/// Whether the diagonal entry is large enough as pivot k.
 #[inline(always)]
-fn will_do<V: Vector>(column: &[f64; SIZE], k: usize) -> bool {
+fn is_large_enough<V: Vector>(column: &[f64; SIZE], k: usize) -> bool {
     let size = column[k].abs();
     let bound = V::splat(size * (1.0 / PIVOT_RATIO));
     let (candidates, after): ([V; 2], [V; 2]) = (load(column), load(&AFTER[k]));
@@ -92,7 +92,7 @@ fn pivot<V: Vector>(column: &[f64; SIZE], k: usize) -> Pivot<V> {
 
 /// Rows k and k + 1 of columns k and k + 1, P, as one pivot.
 struct Pair<V> {
-    /// (Columns k and k + 1) P^-1, without the pair's own rows: what takes them out of another column.
+    /// (Columns k and k + 1) P^-1, without the pair's own rows: the multipliers of all other rows.
     multipliers: [[V; 2]; 2],
     /// Diagonal of P^-1.
     own: [f64; 2],
@@ -101,7 +101,7 @@ struct Pair<V> {
 }
 
 impl<V: Vector> Pair<V> {
-    /// `None` if the pair will not do: as with one pivot, no multiplier of a row clamped to come may be larger than 1 /
+    /// `None` if the pair is too small: as with one pivot, no multiplier of a later row may be larger than 1 /
     /// [`PIVOT_RATIO`].
     #[inline(always)]
     fn of(first: &[f64; SIZE], second: &[f64; SIZE], k: usize) -> Option<Self> {
@@ -109,16 +109,16 @@ impl<V: Vector> Pair<V> {
         let reciprocal = 1.0 / (p * s - q * r);
         let (own, partner) = ([s * reciprocal, p * reciprocal], [-(q * reciprocal), -(r * reciprocal)]);
         let (first, second): ([V; 2], [V; 2]) = (load(first), load(second));
-        let (beside, beyond): ([V; 2], [V; 2]) = (load(&BESIDE[k]), load(&BEYOND[k]));
+        let (outside, later): ([V; 2], [V; 2]) = (load(&OUTSIDE_PAIR[k]), load(&LATER[k]));
         let bound = V::splat(1.0 / PIVOT_RATIO);
         let mut multipliers = [[V::splat(0.0); 2]; 2];
-        // Without a reciprocal nothing will do; elsewhere rows that are taken already may be as large as they like.
+        // A pair without an inverse fails; the multipliers of earlier rows may have any size.
         let mut fails = V::splat(reciprocal).any_beyond(V::splat(f64::MAX));
         for half in 0..2 {
-            let (first, second) = (first[half].times(beside[half]), second[half].times(beside[half]));
+            let (first, second) = (first[half].times(outside[half]), second[half].times(outside[half]));
             let by_first = first.times(V::splat(own[0])).plus_product(second, V::splat(partner[1]));
             let by_second = second.times(V::splat(own[1])).plus_product(first, V::splat(partner[0]));
-            fails |= by_first.times(beyond[half]).any_beyond(bound) | by_second.times(beyond[half]).any_beyond(bound);
+            fails |= by_first.times(later[half]).any_beyond(bound) | by_second.times(later[half]).any_beyond(bound);
             (multipliers[0][half], multipliers[1][half]) = (by_first, by_second);
         }
         (!fails).then_some(Self {
@@ -128,9 +128,9 @@ impl<V: Vector> Pair<V> {
         })
     }
 
-    /// Takes the pair out of another column, which is read and written once.
+    /// Eliminates the pair from another column, which is read and written once.
     #[inline(always)]
-    fn take(&self, column: &mut [f64; SIZE], k: usize) {
+    fn eliminate_from(&self, column: &mut [f64; SIZE], k: usize) {
         let (x, y) = (V::splat(column[k]), V::splat(column[k + 1]));
         for (n, half) in halves_mut(column).iter_mut().enumerate() {
             V::load(half)
@@ -141,13 +141,13 @@ impl<V: Vector> Pair<V> {
     }
 }
 
-/// Inverse of the pivots, which are one by one or in pairs, as what of each row is its own and what its neighbour's.
+/// Inverse of the pivots, one by one or in pairs: per row, the entry on the diagonal and that of the pair's other row.
 struct Pivots {
     own: [f64; SIZE],
     partner: [f64; SIZE],
 }
 
-/// Pivots k and k + 1 one after the other, with rows exchanged where that is better.
+/// Eliminates pivots k and k + 1 one after the other, with rows exchanged where that is better.
 #[cold]
 #[inline(never)]
 fn one_by_one<V: Vector, const C: usize>(
@@ -157,7 +157,7 @@ fn one_by_one<V: Vector, const C: usize>(
     pivots: &mut Pivots,
 ) -> Result<(), f64> {
     for k in k..k + 2 {
-        if !will_do::<V>(&a[k], k) {
+        if !is_large_enough::<V>(&a[k], k) {
             exchange(k, a, b)?;
         }
         let next: Pivot<V> = pivot(&a[k], k);
@@ -190,13 +190,13 @@ pub(super) fn sixteen<V: Vector, const C: usize>(
     while k < SIZE {
         if let Some(pair) = Pair::<V>::of(&a[k], &a[k + 1], k) {
             for column in &mut a[k + 2..] {
-                pair.take(column, k);
+                pair.eliminate_from(column, k);
             }
             let active = if exchanged { C - 1 } else { active(k + 1).min(C - 1) };
             for column in &mut b[..active] {
-                pair.take(column, k);
+                pair.eliminate_from(column, k);
             }
-            pair.take(&mut b[C - 1], k);
+            pair.eliminate_from(&mut b[C - 1], k);
             pivots.own[k..k + 2].copy_from_slice(&pair.own);
             pivots.partner[k..k + 2].copy_from_slice(&pair.partner);
         } else {

@@ -24,7 +24,7 @@ impl Chain {
     ) {
         let instructions = self.model.instructions;
         let mut stored = instructions.run(SpanEnergies {
-            by: self,
+            chain: self,
             point,
             state,
             conditions,
@@ -38,7 +38,7 @@ impl Chain {
         point.friction.fill(0.0);
         point.contact_dissipation = 0.0;
         stored += instructions.run(Friction {
-            by: self,
+            chain: self,
             point,
             model,
             interactions,
@@ -103,7 +103,7 @@ static SPIN: [[f64; 8]; 2] = [
 
 /// Forces of the spans and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
 struct SpanEnergies<'a> {
-    by: &'a mut Chain,
+    chain: &'a mut Chain,
     point: &'a mut EnergyPoint,
     state: &'a State,
     conditions: &'a Conditions,
@@ -115,7 +115,7 @@ impl Kernel for SpanEnergies<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) -> f64 {
         let Self {
-            by,
+            chain,
             point,
             state,
             conditions,
@@ -124,21 +124,21 @@ impl Kernel for SpanEnergies<'_> {
         let zero = [V::splat(0.0); 2];
         let (mut elastic, mut geometric, mut kinetic, mut foreseen) = (zero, zero, zero, zero);
         let ((rates, _), (rates2, _)) = (state.v.as_chunks(), state.a.as_chunks());
-        for (l, link) in by.model.links.iter().enumerate() {
-            let kind = &by.model.kinds[link.kind];
+        for (l, link) in chain.model.links.iter().enumerate() {
+            let kind = &chain.model.kinds[link.kind];
             for body in 0..2 {
                 let at_v = at_ends(rates, l, body);
                 let stiff = product::<V>(&kind.stiffness[body], &at_v);
                 let moving = product::<V>(&kind.mass[body], &at_v);
                 let inert = product::<V>(&kind.mass[body], &at_ends(rates2, l, body));
-                let mut geometric_forces: [V; 2] = load(&by.geometric_forces[l][body]);
+                let mut geometric_forces: [V; 2] = load(&chain.geometric_forces[l][body]);
                 geometric_forces[0] = geometric_forces[0].times(V::load(&FORCES));
                 let in_use = if body == 0 {
                     state.pipe_axial[l]
                 } else {
                     state.guide_axial[l]
                 };
-                let beyond = V::splat(in_use - by.geometric_forces[l][body][TENSION]);
+                let beyond = V::splat(in_use - chain.geometric_forces[l][body][TENSION]);
                 let tension_in_use = V::splat(in_use);
                 // Two lanes of each hold other unknowns; forces are zero there.
                 let (mut q, v) = (
@@ -154,7 +154,7 @@ impl Kernel for SpanEnergies<'_> {
                     }
                 }
                 // The residual's linear forces are elastic ones, damping and inertia together.
-                let linear: [V; 2] = load(&by.linear[l][body]);
+                let linear: [V; 2] = load(&chain.linear[l][body]);
                 let mut damped = zero;
                 for half in 0..2 {
                     foreseen[half] = foreseen[half].minus_product(v[half], geometric_forces[half].times(beyond));
@@ -166,10 +166,10 @@ impl Kernel for SpanEnergies<'_> {
                     kinetic[half] = kinetic[half].plus_product(v[half], moving[half]);
                 }
                 if body == 0 {
-                    let (linear, geometric_forces) = (&by.linear[l][0], &by.geometric_forces[l][0]);
+                    let (linear, geometric_forces) = (&chain.linear[l][0], &chain.geometric_forces[l][0]);
                     for (i, top) in point.joints.on_top[l].iter_mut().enumerate() {
-                        let contact_forces = if by.has_contacts[l] {
-                            by.contact_forces[l][0][i]
+                        let contact_forces = if chain.has_contacts[l] {
+                            chain.contact_forces[l][0][i]
                         } else {
                             0.0
                         };
@@ -235,7 +235,7 @@ impl Kernel for SpanWorks<'_> {
 
 /// Friction of all contacts into `point`, with the power of their damping. Gives the energy in their springs (J).
 struct Friction<'a> {
-    by: &'a Chain,
+    chain: &'a Chain,
     point: &'a mut EnergyPoint,
     model: &'a Model,
     interactions: &'a Interactions,
@@ -247,15 +247,15 @@ impl Kernel for Friction<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) -> f64 {
         let Self {
-            by,
+            chain,
             point,
             model,
             interactions,
         } = self;
         let mut stored = 0.0;
         for (station, touch) in interactions.inner.iter() {
-            let (l, i) = by.model.nodes.stations[station];
-            let [on_pipe, on_guide] = &by.model.kinds[by.model.links[l].kind].force[i].0;
+            let (l, i) = chain.model.nodes.stations[station];
+            let [on_pipe, on_guide] = &chain.model.kinds[chain.model.links[l].kind].force[i].0;
             let force = touch.friction_force();
             let mut on = on_ends::<V>(on_pipe, &force);
             add(&mut point.friction, ends(l, 0), &on);
@@ -268,13 +268,13 @@ impl Kernel for Friction<'_> {
         let mut sum = OnSpan::<V>::new();
         let mut on = [0.0; 16];
         for (station, touch) in interactions.outer.iter() {
-            let (l, i) = by.model.nodes.stations[station];
+            let (l, i) = chain.model.nodes.stations[station];
             if l != sum.span {
                 let span = sum.span;
                 store(sum.next(l), &mut on);
                 add(&mut point.friction, ends(span, 1), &on);
             }
-            let rows = &by.model.kinds[by.model.links[l].kind].force[i][1];
+            let rows = &chain.model.kinds[chain.model.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.friction_force(), model.guide_radii[1]));
             stored += touch.energy;
             point.contact_dissipation += touch.dissipation;

@@ -24,6 +24,7 @@ mod dependents;
 mod double;
 mod energy;
 mod equations;
+mod links;
 mod nodes;
 mod numbering;
 mod operator;
@@ -48,10 +49,11 @@ use crate::simd::aligned::Aligned;
 
 use active::Active;
 use dependents::{Dependents, FIRST_ROW, SECOND_ROW, Spins};
+use links::Link;
 use nodes::Nodes;
 use operator::Operator;
 use single::SingleSweep;
-use slaving::{Link, LinkMatrices};
+use slaving::LinkMatrices;
 use solve::Sweep;
 use tangent::Additions;
 
@@ -171,7 +173,7 @@ impl Chain {
         let place = |unknown: usize| numbering::place(model, &points, unknown);
         let places = model.places.renumbered(place, |unknown| numbering.place(unknown));
         let nodes = points.list.len();
-        let (kinds, mut links) = slaving::links(model, &points, spans);
+        let (kinds, mut links) = links::links(model, &points, spans);
         let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
         let spans = links.len();
         let mut driven: Vec<usize> = places.driven.into_iter().collect();
@@ -208,7 +210,7 @@ impl Chain {
             held.iter().for_each(|&unknown| limits[unknown] = f64::INFINITY);
             limits.iter().map(|limit| 1.0 / limit).collect::<Vec<f64>>()
         };
-        let weight = slaving::weights(model, &points, &kinds, &mut links, unknowns);
+        let weight = links::weights(model, &points, &kinds, &mut links, unknowns);
         Self {
             operators: Vec::new(),
             limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),

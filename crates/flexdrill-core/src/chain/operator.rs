@@ -1,4 +1,23 @@
 //! The step-constant part of the chain's tangent: elastic, damping and inertia terms, made once per step size.
+//!
+//! A node's block, by what has entries where. `S` is in the step-constant part (the spans above and below), the rest comes
+//! with each iteration: `J` is the joint, `C` a contact between pipe and guide, `W` one between guide and wall, `t` the tie
+//! in the last node. The rows of rotations below that follow from others are replaced ([`dependents`]).
+//!
+//! ```text
+//!                     above   u     below   guide        tie
+//!                     0 1 2 | 3 4 5 | 6 7 8 | 9 . . . . 14 | 15
+//!  rotations above    S+J     S       J       C              .
+//!  displacement       S       S       S       C              t
+//!  rotations below    J       S       S+J     C              .
+//!  guide              C       C       C       S+W            t
+//!  tie                .       t       .       t              .
+//! ```
+//!
+//! A span couples rows and columns 3..9 of the node above (its top end) with 0..6 of the node below (its bottom end) for the
+//! pipe, 9..15 with 9..15 for the guide. Contacts inside it couple pipe and guide too.
+//!
+//! [`dependents`]: super::dependents
 
 use super::single::SingleOperator;
 use super::slaving::row;
@@ -53,6 +72,7 @@ impl Operator {
                 }))
             })
             .collect();
+        // Blocks: each span adds to those of both its ends.
         let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; chain.model.nodes.list.len()];
         for (l, link) in chain.model.links.iter().enumerate() {
             for (body, columns) in spans[link.kind].iter().enumerate() {
@@ -65,6 +85,7 @@ impl Operator {
                 }
             }
         }
+        // Point masses, and the tie: u_pipe - u_guide = 0 with its multiplier. A node without a tie has a one for it.
         for (point, places) in model.masses.iter().zip(&chain.model.places.masses) {
             for (&place, mass) in places.iter().zip(point.body.diagonal()) {
                 let (node, at) = (place / NODE, place % NODE);
@@ -98,6 +119,7 @@ impl Operator {
                 coupling
             })
             .collect();
+        // A regular tool has few blocks that differ: sharing keeps them in the first-level cache.
         let mut blocks = Vec::<Block>::new();
         let block_of = nodes
             .iter()

@@ -39,7 +39,7 @@ impl Chain {
     /// Sets the axial forces that are foreseen from `from` for `h` (s) on, of which `part` counts.
     pub(super) fn foresee(&mut self, from: &State, h: f64, part: f64) {
         self.foreseen_part = part;
-        self.model.instructions.run(Foresee { by: self, from, h });
+        self.model.instructions.run(Foresee { chain: self, from, h });
     }
 
     /// Evaluates the linear and geometric forces of the spans at `to`.
@@ -48,7 +48,7 @@ impl Chain {
             self.active.set_whole();
         }
         self.model.instructions.run(Spans {
-            by: self,
+            chain: self,
             to,
             conditions,
             evaluation,
@@ -57,7 +57,7 @@ impl Chain {
 
     /// Sums up on each node what its spans and its weight put there, contacts with them.
     pub(super) fn gather(&mut self, state: &State) {
-        self.model.instructions.run(Gather { by: self, state });
+        self.model.instructions.run(Gather { chain: self, state });
     }
 
     /// Adds what is attached to the nodes: masses, tie, weight on bit, the rock's torque, loads.
@@ -90,7 +90,7 @@ pub(super) enum Evaluation {
 }
 
 struct Foresee<'a> {
-    by: &'a mut Chain,
+    chain: &'a mut Chain,
     from: &'a State,
     h: f64,
 }
@@ -100,12 +100,12 @@ impl Kernel for Foresee<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self) {
-        let Self { by, from, h } = self;
+        let Self { chain, from, h } = self;
         let h = V::splat(h);
-        for (l, (out, link)) in by.foreseen.iter_mut().zip(&by.model.links).enumerate() {
+        for (l, (out, link)) in chain.foreseen.iter_mut().zip(&chain.model.links).enumerate() {
             for (body, out) in out.iter_mut().enumerate() {
                 let (q, v) = (around::<V>(&from.q, ends(l, body)), around::<V>(&from.v, ends(l, body)));
-                let tension: [V; 2] = load(&by.model.kinds[link.kind].tension[body]);
+                let tension: [V; 2] = load(&chain.model.kinds[link.kind].tension[body]);
                 let top = q[0].plus_product(v[0], h).times(tension[0]);
                 let bottom = q[1].plus_product(v[1], h);
                 let mut lanes = Aligned([0.0; 8]);
@@ -136,7 +136,7 @@ pub(super) fn around<V: Vector>(values: &[f64], ends: [usize; 2]) -> [V; 2] {
 
 /// The residual of gravity, spans and contacts.
 struct Gather<'a> {
-    by: &'a mut Chain,
+    chain: &'a mut Chain,
     state: &'a State,
 }
 
@@ -145,10 +145,10 @@ impl Kernel for Gather<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self) {
-        let Self { by, state } = self;
-        let (residual, _) = by.residual.as_chunks_mut::<NODE>();
-        let (weights, _) = by.model.weight.as_chunks::<NODE>();
-        let (nodes, affected) = (residual.len(), &by.active.affected);
+        let Self { chain, state } = self;
+        let (residual, _) = chain.residual.as_chunks_mut::<NODE>();
+        let (weights, _) = chain.model.weight.as_chunks::<NODE>();
+        let (nodes, affected) = (residual.len(), &chain.active.affected);
         // What the spans below and above put on the nodes of a block, and on the first one of the next.
         let mut above = [NodeForces::default(); BLOCK];
         let mut below = [NodeForces::default(); BLOCK + 1];
@@ -169,12 +169,12 @@ impl Kernel for Gather<'_> {
                         state.guide_axial[l]
                     };
                     let mut sum = plus_column(
-                        load(&by.linear[l][body]),
-                        &by.geometric_forces[l][body],
+                        load(&chain.linear[l][body]),
+                        &chain.geometric_forces[l][body],
                         V::splat(axial),
                     );
-                    if by.has_contacts[l] {
-                        let contact_forces: [V; 2] = load(&by.contact_forces[l][body]);
+                    if chain.has_contacts[l] {
+                        let contact_forces: [V; 2] = load(&chain.contact_forces[l][body]);
                         sum = [sum[0].plus(contact_forces[0]), sum[1].plus(contact_forces[1])];
                     }
                     // The pipe first: what its two lanes without a force leave, the guide's overwrite; those of the guide
@@ -225,7 +225,7 @@ fn put<V: Vector>(x: V, forces: &mut NodeForces, place: usize) {
 
 /// Linear and geometric forces of the spans.
 struct Spans<'a> {
-    by: &'a mut Chain,
+    chain: &'a mut Chain,
     to: &'a mut State,
     conditions: &'a Conditions,
     evaluation: Evaluation,
@@ -241,10 +241,10 @@ impl Kernel for Spans<'_> {
             Evaluation::Correction { operator } => self.increment::<V>(operator),
         }
         if !matches!(self.evaluation, Evaluation::WholeWithAxial) {
-            let part = self.by.foreseen_part;
+            let part = self.chain.foreseen_part;
             let axial = self.to.pipe_axial.iter_mut().zip(&mut self.to.guide_axial);
             for ((pipe, guide), (geometric_forces, foreseen)) in
-                axial.zip(self.by.geometric_forces.iter().zip(&self.by.foreseen))
+                axial.zip(self.chain.geometric_forces.iter().zip(&self.chain.foreseen))
             {
                 let now = [geometric_forces[0][TENSION], geometric_forces[1][TENSION]];
                 *pipe = now[0] + part * (foreseen[0] - now[0]);
@@ -258,12 +258,14 @@ impl Spans<'_> {
     /// From the state.
     #[inline(always)]
     fn whole<V: Vector>(&mut self) {
-        let Self { by, to, conditions, .. } = self;
+        let Self {
+            chain, to, conditions, ..
+        } = self;
         let rayleigh = [conditions.rayleigh.alpha, conditions.rayleigh.beta];
         let ((q, _), (v, _), (a, _)) = (to.q.as_chunks(), to.v.as_chunks(), to.a.as_chunks());
-        let forces = by.linear.iter_mut().zip(&mut by.geometric_forces);
-        for (l, (link, (linear, geometric_forces))) in by.model.links.iter().zip(forces).enumerate() {
-            let kind = &by.model.kinds[link.kind];
+        let forces = chain.linear.iter_mut().zip(&mut chain.geometric_forces);
+        for (l, (link, (linear, geometric_forces))) in chain.model.links.iter().zip(forces).enumerate() {
+            let kind = &chain.model.kinds[link.kind];
             for body in 0..2 {
                 let (at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
                 let (mut strained, mut pushed) = (at, at_ends(a, l, body));
@@ -284,16 +286,16 @@ impl Spans<'_> {
     /// From the last correction.
     #[inline(always)]
     fn increment<V: Vector>(&mut self, operator: usize) {
-        let by = &mut *self.by;
-        let operator = &by.operators[operator].spans;
-        let (corrections, _) = by.correction.as_chunks();
-        let forces = by.linear.iter_mut().zip(&mut by.geometric_forces);
-        let nodes = corrections.windows(2).zip(&by.active.spans);
-        for ((link, (nodes, moved)), (linear, geometric_forces)) in by.model.links.iter().zip(nodes).zip(forces) {
+        let chain = &mut *self.chain;
+        let operator = &chain.operators[operator].spans;
+        let (corrections, _) = chain.correction.as_chunks();
+        let forces = chain.linear.iter_mut().zip(&mut chain.geometric_forces);
+        let nodes = corrections.windows(2).zip(&chain.active.spans);
+        for ((link, (nodes, moved)), (linear, geometric_forces)) in chain.model.links.iter().zip(nodes).zip(forces) {
             if !moved {
                 continue;
             }
-            let (columns, geometric) = (&operator[link.kind], &by.model.kinds[link.kind].geometric);
+            let (columns, geometric) = (&operator[link.kind], &chain.model.kinds[link.kind].geometric);
             for body in 0..2 {
                 let sums = [load(&linear[body]), load(&geometric_forces[body])];
                 let dq = at_ends(nodes, 0, body);

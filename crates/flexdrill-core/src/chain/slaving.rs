@@ -1,11 +1,9 @@
-//! Spans with their inner stations slaved to their ends: made once per tool.
+//! The matrices of a span whose inner stations are slaved to its ends (Guyan): made once per tool.
 
-use nalgebra::{DMatrix, DVector, Matrix3};
+use nalgebra::{DMatrix, Matrix3};
 
-use super::nodes::Nodes;
+use super::EndColumn;
 use super::precision::OnNodes;
-use super::{EndColumn, ends};
-use crate::dynamics::state::Deflection;
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
 
@@ -13,247 +11,74 @@ use crate::simd::aligned::Aligned;
 /// of their geometry only. Sharing keeps them in the first-level cache.
 const SAME: f64 = 1e-11;
 
+/// A matrix of a span over both its ends, by columns.
+type SpanMatrix = [EndColumn; 12];
+/// Motions at a station of pipe and guide by the twelve unknowns of the ends: six lanes, and two that do not count.
+type MotionColumns = [[[f64; 8]; 12]; 2];
+/// What the six components of a local force at a station do, to the ends or to the inner stations: on pipe and guide.
+type ForceRows = [[EndColumn; 6]; 2];
+
 /// Matrices of a span over its ends, by columns: six of the top end, six of the bottom end.
 #[derive(Debug, Clone)]
 pub(super) struct LinkMatrices {
     /// Stiffness, mass and geometric stiffness per tension, of pipe and guide.
-    pub stiffness: Aligned<[[EndColumn; 12]; 2]>,
-    pub mass: Aligned<[[EndColumn; 12]; 2]>,
-    pub geometric: Aligned<[[EndColumn; 12]; 2]>,
+    pub stiffness: Aligned<[SpanMatrix; 2]>,
+    pub mass: Aligned<[SpanMatrix; 2]>,
+    pub geometric: Aligned<[SpanMatrix; 2]>,
     /// Mean axial force (N) by the ends' displacements; also in lane [`TENSION`] of the geometric stiffness.
     pub tension: Aligned<[EndColumn; 2]>,
     /// Lateral position of each station but the first in its station's frame: y in 0..8, z in 8..16.
-    pub lateral: Aligned<[[EndColumn; 12]; 2]>,
+    pub lateral: Aligned<[SpanMatrix; 2]>,
     /// Local motion of each station, the top included: the pipe's in the station's frame, rotations times its radius; the
     /// guide's.
-    pub motion: Vec<Aligned<[[[f64; 8]; 12]; 2]>>,
+    pub motion: Vec<Aligned<MotionColumns>>,
     /// The same by rows: what a local force puts on the ends.
-    pub force: Vec<Aligned<[[EndColumn; 6]; 2]>>,
+    pub force: Vec<Aligned<ForceRows>>,
     /// What a force of a gap puts on the unknowns of both nodes, in both precisions.
     pub on_nodes: Vec<OnNodes<f64>>,
     pub on_nodes_single: Vec<OnNodes<f32>>,
     /// Displacements of the inner nodes in their own frames, columns of a node one after the other.
-    pub inner: Vec<Aligned<[[[f64; 8]; 12]; 2]>>,
+    pub inner: Vec<Aligned<MotionColumns>>,
     /// Lateral deflection of the inner stations, as `lateral`, by a local force at each of them while the ends stand
     /// still.
-    pub deflection: Vec<Aligned<[[EndColumn; 6]; 2]>>,
+    pub deflection: Vec<Aligned<ForceRows>>,
     /// Slowest frequency of pipe or guide while the ends stand still (rad/s).
     pub slowest: f64,
-    slaved: [DMatrix<f64>; 2],
+    /// Displacements of all nodes by the unknowns of the ends.
+    pub slaved: [DMatrix<f64>; 2],
     /// K_ii^-1 of pipe and guide.
-    compliance: [DMatrix<f64>; 2],
-}
-
-/// A span.
-#[derive(Debug, Clone)]
-pub(super) struct Link {
-    /// Its matrices.
-    pub kind: usize,
-    /// Where the undeflected pipe lies at each station but the first: y, z (m).
-    pub offset: Aligned<[[f64; 8]; 2]>,
-    /// Squares of the inner clearance at those stations; beyond them what is never reached.
-    pub clearance_squared: Aligned<[f64; 8]>,
-    /// What the pipe's weight puts on its top end (N), along the axes of the link above.
-    pub weight_on_top: [f64; 3],
-    /// Lateral deflection of the inner stations under the weight of pipe and guide (m), as [`LinkMatrices::lateral`].
-    pub by_weight: Aligned<Deflection>,
-}
-
-/// The spans between `nodes`, whose matrices were `made` with them: like ones share theirs.
-pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (Vec<LinkMatrices>, Vec<Link>) {
-    let (mut kinds, mut links) = (Vec::<LinkMatrices>::new(), Vec::new());
-    for (l, made) in made.into_iter().enumerate() {
-        let (first, per) = (nodes.first(l), nodes.elements(l));
-        let kind = match kinds.iter().position(|kind| kind.is_close(&made)) {
-            Some(kind) => kind,
-            None => {
-                kinds.push(made);
-                kinds.len() - 1
-            }
-        };
-        let mut link = Link {
-            kind,
-            offset: Aligned([[0.0; 8]; 2]),
-            clearance_squared: Aligned([f64::MAX; 8]),
-            weight_on_top: [0.0; 3],
-            by_weight: Aligned([[0.0; 16]; 2]),
-        };
-        for i in 0..per {
-            let station = &model.stations[first + i + 1];
-            (link.offset[0][i], link.offset[1][i]) = (station.offset.x, station.offset.y);
-            link.clearance_squared[i] = station.inner_clearance * station.inner_clearance;
-        }
-        links.push(link);
-    }
-    (kinds, links)
-}
-
-/// Consistent forces of gravity in the chain's numbering.
-pub(super) fn weights(
-    model: &Model,
-    nodes: &Nodes,
-    kinds: &[LinkMatrices],
-    links: &mut [Link],
-    unknowns: usize,
-) -> Vec<f64> {
-    let mut out = vec![0.0; unknowns];
-    for (l, link) in links.iter_mut().enumerate() {
-        let (first, per) = (nodes.first(l), nodes.elements(l));
-        for body in 0..2 {
-            let mut weight = DVector::<f64>::zeros(6 * (per + 1));
-            for e in 0..per {
-                let element = if body == 0 {
-                    &model.pipe[first + e].weight
-                } else {
-                    &model.guide[first + e].weight
-                };
-                let mut part = weight.rows_mut(6 * e, 12);
-                part += element;
-            }
-            let kind = &kinds[link.kind];
-            let on_ends = kind.slaved[body].tr_mul(&weight);
-            let by_weight = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
-            for i in 1..per {
-                let at = local_lateral(model, first + i, body) * by_weight.rows(6 * (i - 1), 6);
-                (link.by_weight[body][i - 1], link.by_weight[body][8 + i - 1]) = (at[0], at[1]);
-            }
-            if body == 0 {
-                link.weight_on_top = [on_ends[0], on_ends[1], on_ends[2]];
-            }
-            let [top, bottom] = ends(l, body);
-            for i in 0..6 {
-                out[top + i] += on_ends[i];
-                out[bottom + i] += on_ends[6 + i];
-            }
-        }
-    }
-    out
+    pub compliance: [DMatrix<f64>; 2],
 }
 
 impl LinkMatrices {
     /// Of the span of `per` elements below station `first`.
     pub fn of(model: &Model, first: usize, per: usize) -> Self {
-        let size = 6 * (per + 1);
-        let mut matrices: [[DMatrix<f64>; 3]; 2] =
-            std::array::from_fn(|_| std::array::from_fn(|_| DMatrix::zeros(size, size)));
-        for e in 0..per {
-            let (pipe, guide) = (&model.pipe[first + e], &model.guide[first + e]);
-            let parts = [
-                [pipe.beam.stiffness(), pipe.beam.mass(), pipe.geometric],
-                [guide.stiffness, guide.mass, guide.geometric],
-            ];
-            for (to, from) in matrices.iter_mut().flatten().zip(parts.iter().flatten()) {
-                let mut part = to.view_mut((6 * e, 6 * e), (12, 12));
-                part += from;
-            }
-        }
-        let mut slowest = f64::INFINITY;
-        let empty = || [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)];
-        let (mut slaved, mut compliance): ([DMatrix<f64>; 2], [DMatrix<f64>; 2]) = (empty(), empty());
-        for (body, [stiffness, mass, _]) in matrices.iter().enumerate() {
-            let held = Guyan::held(per);
-            let made = if body == 1 && model.description.guide_fixed {
-                held
-            } else {
-                // What cannot be slaved is as slow as can be, so that the span is split.
-                Guyan::of(stiffness, mass).unwrap_or(Guyan { slowest: 0.0, ..held })
-            };
-            (slaved[body], compliance[body]) = (made.slaved, made.compliance);
-            slowest = slowest.min(made.slowest);
-        }
-        // The pipe's top end: the displacement is that of the end above the joint, in its frame. Its bottom end: rotations
-        // before displacements.
-        let mut turned = DMatrix::<f64>::identity(12, 12);
-        if let Some(joint) = model.stations[first].joint {
-            let joint = &model.joints[joint];
-            let turn: Matrix3<f64> = joint.lower.transpose() * joint.upper;
-            turned.view_mut((0, 0), (3, 3)).copy_from(&turn);
-        }
-        let mut places = DMatrix::<f64>::zeros(12, 12);
-        for i in 0..6 {
-            places[(i, i)] = 1.0;
-            places[(6 + i, 6 + (i + 3) % 6)] = 1.0;
-        }
-        slaved[0] = &slaved[0] * turned * places;
-        let condensed =
-            |body: usize, which: usize| columns(&(slaved[body].transpose() * &matrices[body][which] * &slaved[body]));
-        let both = |which: usize| Aligned([condensed(0, which), condensed(1, which)]);
-        let tension: [[f64; 12]; 2] = std::array::from_fn(|body| {
-            std::array::from_fn(|j| {
-                let along = |e: usize| {
-                    let column = slaved[body].column(j);
-                    if body == 0 {
-                        let stretch = column[6 * e + 6] - column[6 * e];
-                        return model.pipe[first + e].beam.tension(stretch);
-                    }
-                    let guide = &model.guide[first + e];
-                    let end = |n: usize| {
-                        let node = 6 * (e + n);
-                        guide.rotation[n][(0, 0)] * column[node] + guide.rotation[n][(0, 2)] * column[node + 2]
-                    };
-                    guide.beam.tension(end(1) - end(0))
-                };
-                (0..per).map(along).sum::<f64>() / per as f64
-            })
-        });
-        let mut lateral = [[[0.0; 16]; 12]; 2];
-        let (mut motion, mut force) = (Vec::new(), Vec::new());
-        for i in 0..=per {
-            // At the span's top it is the span above that meets the gap, but for the first station.
-            let maps: [_; 2] = std::array::from_fn(|body| local(model, first + i, body) * slaved[body].rows(6 * i, 6));
-            let mut by_columns = [[[0.0; 8]; 12]; 2];
-            let mut by_rows = [[[0.0; 16]; 6]; 2];
-            for (body, map) in maps.iter().enumerate() {
-                for j in 0..12 {
-                    for k in 0..6 {
-                        by_columns[body][j][k] = map[(k, j)];
-                        by_rows[body][k][row(j)] = map[(k, j)];
-                    }
-                    if i > 0 {
-                        lateral[body][j][i - 1] = map[(1, j)];
-                        lateral[body][j][8 + i - 1] = map[(2, j)];
-                    }
-                }
-            }
-            motion.push(Aligned(by_columns));
-            force.push(Aligned(by_rows));
-        }
-        let inner = (1..per)
-            .map(|i| {
-                Aligned(std::array::from_fn(|body| {
-                    std::array::from_fn(|j| {
-                        let mut column = [0.0; 8];
-                        (0..6).for_each(|k| column[k] = slaved[body][(6 * i + k, j)]);
-                        column
-                    })
-                }))
-            })
-            .collect();
-        let deflection = (1..per).map(|i| {
-            Aligned(std::array::from_fn(|body| {
-                let bent = compliance[body].columns(6 * (i - 1), 6) * local(model, first + i, body).transpose();
-                let mut columns = [[0.0; 16]; 6];
-                for at in 1..per {
-                    let lateral = local_lateral(model, first + at, body) * bent.rows(6 * (at - 1), 6);
-                    for (k, column) in columns.iter_mut().enumerate() {
-                        (column[at - 1], column[8 + at - 1]) = (lateral[(0, k)], lateral[(1, k)]);
-                    }
-                }
-                columns
-            }))
-        });
+        let span = Span { model, first, per };
+        let matrices = span.assembled();
+        let [pipe, guide] = span.slaving(&matrices);
+        let slowest = pipe.slowest.min(guide.slowest);
+        let slaved = [pipe.slaved * span.to_node_unknowns(), guide.slaved];
+        let compliance = [pipe.compliance, guide.compliance];
+        // Guyan: what the inner nodes' matrices come to at the ends, S^T A S.
+        let condensed = |which: usize| {
+            let of_body = |body: usize| columns(&(slaved[body].transpose() * &matrices[body][which] * &slaved[body]));
+            Aligned([of_body(0), of_body(1)])
+        };
+        let tension = span.mean_tension(&slaved);
+        let maps = span.station_maps(&slaved);
+        let force: Vec<_> = maps.iter().map(force_rows).collect();
         Self {
-            stiffness: both(0),
-            mass: both(1),
-            geometric: geometric(&both(2), &tension),
+            stiffness: condensed(STIFFNESS),
+            mass: condensed(MASS),
+            geometric: with_tension(condensed(GEOMETRIC), &tension),
             tension: Aligned(tension.map(|tension| end_column(|j| tension[j]))),
-            lateral: Aligned(lateral),
-            motion,
+            lateral: lateral_columns(&maps),
+            motion: maps.iter().map(motion_columns).collect(),
             on_nodes: force.iter().map(|rows| OnNodes::of(rows, model.guide_radii)).collect(),
             on_nodes_single: force.iter().map(|rows| OnNodes::of(rows, model.guide_radii)).collect(),
             force,
-            inner,
-            deflection: deflection.collect(),
+            inner: span.inner_displacements(&slaved),
+            deflection: span.deflections(&compliance),
             slowest,
             slaved,
             compliance,
@@ -277,7 +102,7 @@ impl LinkMatrices {
     }
 
     /// Whether `other` is the same but for rounding.
-    fn is_close(&self, other: &Self) -> bool {
+    pub fn is_close(&self, other: &Self) -> bool {
         let near = |a: &[f64], b: &[f64]| {
             let scale = a.iter().chain(b).fold(0.0_f64, |m, x| m.max(x.abs()));
             a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * scale)
@@ -301,6 +126,167 @@ impl LinkMatrices {
     }
 }
 
+/// Which of the assembled matrices.
+const STIFFNESS: usize = 0;
+const MASS: usize = 1;
+const GEOMETRIC: usize = 2;
+
+/// A span whose matrices are made: `per` elements below station `first`.
+struct Span<'a> {
+    model: &'a Model,
+    first: usize,
+    per: usize,
+}
+
+impl Span<'_> {
+    /// Stiffness, mass and geometric stiffness over all nodes of the span, of pipe and guide.
+    fn assembled(&self) -> [[DMatrix<f64>; 3]; 2] {
+        let size = 6 * (self.per + 1);
+        let mut matrices: [[DMatrix<f64>; 3]; 2] =
+            std::array::from_fn(|_| std::array::from_fn(|_| DMatrix::zeros(size, size)));
+        for e in 0..self.per {
+            let (pipe, guide) = (&self.model.pipe[self.first + e], &self.model.guide[self.first + e]);
+            let parts = [
+                [pipe.beam.stiffness(), pipe.beam.mass(), pipe.geometric],
+                [guide.stiffness, guide.mass, guide.geometric],
+            ];
+            for (to, from) in matrices.iter_mut().flatten().zip(parts.iter().flatten()) {
+                let mut part = to.view_mut((6 * e, 6 * e), (12, 12));
+                part += from;
+            }
+        }
+        matrices
+    }
+
+    /// How the inner nodes of pipe and guide follow the ends.
+    fn slaving(&self, [pipe, guide]: &[[DMatrix<f64>; 3]; 2]) -> [Guyan; 2] {
+        let of = |[stiffness, mass, _]: &[DMatrix<f64>; 3]| {
+            // Inner nodes without a static solution count as infinitely slow, so that the span is split.
+            Guyan::of(stiffness, mass).unwrap_or_else(|| Guyan {
+                slowest: 0.0,
+                ..Guyan::held(self.per)
+            })
+        };
+        let guide = if self.model.description.guide_fixed {
+            Guyan::held(self.per)
+        } else {
+            of(guide)
+        };
+        [of(pipe), guide]
+    }
+
+    /// From the unknowns of the nodes at both ends to the displacements of the pipe's ends. A node has the displacement of
+    /// the end above its joint, in the frame there, u_b = E_b^T E_a u_a; and at the span's bottom end a node lists the
+    /// rotations before the displacements.
+    fn to_node_unknowns(&self) -> DMatrix<f64> {
+        let mut turned = DMatrix::<f64>::identity(12, 12);
+        if let Some(joint) = self.model.stations[self.first].joint {
+            let joint = &self.model.joints[joint];
+            let turn: Matrix3<f64> = joint.lower.transpose() * joint.upper;
+            turned.view_mut((0, 0), (3, 3)).copy_from(&turn);
+        }
+        let mut order = DMatrix::<f64>::zeros(12, 12);
+        for i in 0..6 {
+            order[(i, i)] = 1.0;
+            order[(6 + i, 6 + (i + 3) % 6)] = 1.0;
+        }
+        turned * order
+    }
+
+    /// Mean axial force (N) of the elements by the unknowns of the ends.
+    fn mean_tension(&self, slaved: &[DMatrix<f64>; 2]) -> [[f64; 12]; 2] {
+        let Self { model, first, per } = *self;
+        let of_pipe = |e: usize, j: usize| {
+            let column = slaved[0].column(j);
+            let stretch = column[6 * e + 6] - column[6 * e];
+            model.pipe[first + e].beam.tension(stretch)
+        };
+        let of_guide = |e: usize, j: usize| {
+            let (guide, column) = (&model.guide[first + e], slaved[1].column(j));
+            // Displacement along the chord, from those along and across in the node's frame.
+            let end = |n: usize| {
+                let node = 6 * (e + n);
+                guide.rotation[n][(0, 0)] * column[node] + guide.rotation[n][(0, 2)] * column[node + 2]
+            };
+            guide.beam.tension(end(1) - end(0))
+        };
+        let mean = |sum: f64| sum / per as f64;
+        [
+            std::array::from_fn(|j| mean((0..per).map(|e| of_pipe(e, j)).sum())),
+            std::array::from_fn(|j| mean((0..per).map(|e| of_guide(e, j)).sum())),
+        ]
+    }
+
+    /// The local motion of pipe and guide at each station, the top included, by the unknowns of the ends: six rows, twelve
+    /// columns. At the span's top it is the span above that meets the gap, but for the tool's first station.
+    fn station_maps(&self, slaved: &[DMatrix<f64>; 2]) -> Vec<[DMatrix<f64>; 2]> {
+        let at = |i: usize, body: usize| local(self.model, self.first + i, body) * slaved[body].rows(6 * i, 6);
+        (0..=self.per).map(|i| [at(i, 0), at(i, 1)]).collect()
+    }
+
+    /// Displacements of the inner nodes in their own frames by the unknowns of the ends.
+    fn inner_displacements(&self, slaved: &[DMatrix<f64>; 2]) -> Vec<Aligned<MotionColumns>> {
+        let columns = |i: usize, body: usize| {
+            std::array::from_fn(|j| {
+                let mut column = [0.0; 8];
+                (0..6).for_each(|k| column[k] = slaved[body][(6 * i + k, j)]);
+                column
+            })
+        };
+        (1..self.per).map(|i| Aligned([columns(i, 0), columns(i, 1)])).collect()
+    }
+
+    /// Lateral deflection of all inner stations by a local force at each of them, the ends held: w = K_ii^-1 f_i.
+    fn deflections(&self, compliance: &[DMatrix<f64>; 2]) -> Vec<Aligned<ForceRows>> {
+        let Self { model, first, per } = *self;
+        let by_force_at = |i: usize, body: usize| {
+            let bent = compliance[body].columns(6 * (i - 1), 6) * local(model, first + i, body).transpose();
+            let mut columns = [[0.0; 16]; 6];
+            for at in 1..per {
+                let lateral = local_lateral(model, first + at, body) * bent.rows(6 * (at - 1), 6);
+                for (k, column) in columns.iter_mut().enumerate() {
+                    (column[at - 1], column[8 + at - 1]) = (lateral[(0, k)], lateral[(1, k)]);
+                }
+            }
+            columns
+        };
+        (1..per)
+            .map(|i| Aligned([by_force_at(i, 0), by_force_at(i, 1)]))
+            .collect()
+    }
+}
+
+/// Lateral rows of the stations' maps, all stations of a span in the lanes of one column.
+fn lateral_columns(maps: &[[DMatrix<f64>; 2]]) -> Aligned<[SpanMatrix; 2]> {
+    let mut lateral = Aligned([[[0.0; 16]; 12]; 2]);
+    for (i, maps) in maps.iter().enumerate().skip(1) {
+        for (columns, map) in lateral.iter_mut().zip(maps) {
+            for (j, column) in columns.iter_mut().enumerate() {
+                (column[i - 1], column[8 + i - 1]) = (map[(1, j)], map[(2, j)]);
+            }
+        }
+    }
+    lateral
+}
+
+/// A station's maps by columns: the motion is their sum, each times an unknown of the ends.
+fn motion_columns(maps: &[DMatrix<f64>; 2]) -> Aligned<MotionColumns> {
+    let columns = |map: &DMatrix<f64>| {
+        std::array::from_fn(|j| {
+            let mut column = [0.0; 8];
+            (0..6).for_each(|k| column[k] = map[(k, j)]);
+            column
+        })
+    };
+    Aligned([columns(&maps[0]), columns(&maps[1])])
+}
+
+/// The same maps by rows: the force on the ends is their sum, each times a component of the local force.
+fn force_rows(maps: &[DMatrix<f64>; 2]) -> Aligned<ForceRows> {
+    let rows = |map: &DMatrix<f64>| std::array::from_fn(|k| end_column(|j| map[(k, j)]));
+    Aligned([rows(&maps[0]), rows(&maps[1])])
+}
+
 /// From a node's displacements to the local motion at a station: the pipe's in the station's frame, rotations times its
 /// radius; the guide's.
 fn local(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
@@ -314,22 +300,21 @@ fn local(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
 }
 
 /// Its lateral rows.
-fn local_lateral(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
+pub(super) fn local_lateral(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
     local(model, station, body).rows(1, 2).clone_owned()
 }
 
-/// Lane of the geometric stiffness, free of forces, that gives the axial force (N) beside them.
+/// Lane of the geometric stiffness, free of forces, that gives the axial force (N).
 pub(super) const TENSION: usize = 7;
 
-/// Geometric stiffness with the axial force beside it.
-fn geometric(stiffness: &[[EndColumn; 12]; 2], tension: &[[f64; 12]; 2]) -> Aligned<[[EndColumn; 12]; 2]> {
-    let mut out = Aligned(*stiffness);
-    for (columns, tension) in out.iter_mut().zip(tension) {
+/// Geometric stiffness with the axial force in the lane [`TENSION`].
+fn with_tension(mut matrices: Aligned<[SpanMatrix; 2]>, tension: &[[f64; 12]; 2]) -> Aligned<[SpanMatrix; 2]> {
+    for (columns, tension) in matrices.iter_mut().zip(tension) {
         for (column, tension) in columns.iter_mut().zip(tension) {
             column[TENSION] = *tension;
         }
     }
-    out
+    matrices
 }
 
 /// Row of an [`EndColumn`] of end unknown `k` of twelve.
@@ -338,7 +323,7 @@ pub(super) const fn row(k: usize) -> usize {
     if k < 6 { k } else { k + 2 }
 }
 
-fn columns(matrix: &DMatrix<f64>) -> [EndColumn; 12] {
+fn columns(matrix: &DMatrix<f64>) -> SpanMatrix {
     std::array::from_fn(|j| end_column(|i| matrix[(i, j)]))
 }
 

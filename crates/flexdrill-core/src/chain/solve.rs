@@ -47,7 +47,7 @@ struct Elimination<'a> {
 }
 
 impl Elimination<'_> {
-    /// A node's block without what comes from above.
+    /// A node's block without the carry from above: step-constant part, contacts, bit and masses, joint.
     #[inline(always)]
     fn block<V: Vector>(&self, k: usize) -> Block {
         let mut block = self.operator.blocks[self.operator.block_of[k]];
@@ -90,7 +90,7 @@ impl Elimination<'_> {
                 }
             }
         }
-        // What is held takes no part.
+        // Held unknowns take no part.
         if let Some(rows) = &self.rows[l + 1] {
             lower.iter_mut().for_each(|column| keep(column, rows));
         }
@@ -98,9 +98,9 @@ impl Elimination<'_> {
     }
 }
 
-/// Takes what comes from above off a block and its right-hand side.
+/// Subtracts the carry from above from a block and its right-hand side.
 #[inline(always)]
-fn take_carry<V: Vector>(block: &mut Block, right: &mut [f64; NODE], carry: &[[f64; NODE]; COLUMNS]) {
+fn subtract_carry<V: Vector>(block: &mut Block, right: &mut [f64; NODE], carry: &[[f64; NODE]; COLUMNS]) {
     let minus = |to: &mut [f64; NODE], from: &[f64; NODE]| {
         let (x, c): ([V; 2], [V; 2]) = (load(to), load(from));
         store([x[0].minus(c[0]), x[1].minus(c[1])], to);
@@ -133,11 +133,11 @@ impl Kernel for Elimination<'_> {
             right.copy_from_slice(&self.values[NODE * k..NODE * (k + 1)]);
             let rows = [right[FIRST_ROW], right[SECOND_ROW]];
             if self.nodes[k].joint.is_some() {
-                // What stands at the rows' places is no moment.
+                // The values of the joint's rows are no moments.
                 keep(&mut right, &MOMENTS);
             }
             if k > 0 {
-                take_carry::<V>(&mut block, &mut right, &carry);
+                subtract_carry::<V>(&mut block, &mut right, &carry);
             }
             let last = k + 1 == nodes;
             let mut columns = [[0.0; NODE]; COLUMNS];
@@ -167,7 +167,7 @@ impl Kernel for Elimination<'_> {
                 break;
             }
             columns[12] = right;
-            // The pipe's columns begin at the rotations, the guide's at the guide but where they cross.
+            // The pipe's columns have entries from the first row on, the guide's from row 9 on unless contacts cross them.
             let crossed = touching == Touching::Both;
             let active = |row: usize| if row < GUIDE && !crossed { 6 } else { 12 };
             sixteen::<V, COLUMNS>(&mut block, &mut columns, active).map_err(|pivot| (k, pivot))?;

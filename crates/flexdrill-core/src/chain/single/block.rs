@@ -1,14 +1,18 @@
-//! One block of sixteen: its pairs of pivots, and how they are taken out.
+//! One block of sixteen: its pairs of pivots, and their elimination.
+//!
+//! A pair of pivots is the inverse of a block of two by two: one division to wait for instead of two, and each column is
+//! read and written half as often. Pairs are known at compile time, so that no row is exchanged.
 
 use super::{COLUMNS, Column, NODE};
 use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 
-/// Pairs of pivots. The spin below and the tie's multiplier are pivots in the last node only: elsewhere the one follows
-/// from other rotations and the other does not exist. The span above a node does not active the tilts below, so that these
-/// may go before what comes from above is known; the rest follows in order.
+/// Pairs of pivots, in the order of their elimination. The spin below (6) and the tie's multiplier (15) are pivots in the
+/// last node only: elsewhere the one follows from other rotations and the other does not exist. The tilts below (7, 8) are
+/// not coupled to the span above, so that they are eliminated before the carry from above is known.
 const PAIRS: [[usize; 2]; 8] = [[6, 15], [7, 8], [0, 1], [2, 3], [4, 5], [9, 10], [11, 12], [13, 14]];
-/// Place at which the pair of the tie's multiplier goes in the last node: its row has no pivot before the others are out.
+/// Place of the tie's pair in the order of the last node: the multiplier's row has a zero on the diagonal until the other
+/// rows are eliminated.
 const LAST: usize = 8;
 
 /// The other one of a row's pair.
@@ -22,10 +26,11 @@ static PARTNERS: Aligned<[i32; NODE]> = {
     }
     Aligned(out)
 };
-/// Rows beside a pair, and those still to come after it; the last of them is that of the first pair where it goes last.
-static BESIDE: Aligned<[Column; LAST + 1]> = Aligned(table(false));
-static BEYOND: Aligned<[Column; LAST + 1]> = Aligned(table(true));
-/// One row.
+/// Per pair, one in all rows but its own. The last entry is for the tie's pair at the end of the order.
+static OTHER_ROWS: Aligned<[Column; LAST + 1]> = Aligned(table(false));
+/// Per pair, one in the rows whose pivots come later.
+static LATER_ROWS: Aligned<[Column; LAST + 1]> = Aligned(table(true));
+/// Per row, one in that row only.
 pub(in crate::chain) static ONLY: Aligned<[Column; NODE]> = {
     let mut out = [[0.0; NODE]; NODE];
     let mut k = 0;
@@ -36,13 +41,13 @@ pub(in crate::chain) static ONLY: Aligned<[Column; NODE]> = {
     Aligned(out)
 };
 
-const fn table(beyond: bool) -> [Column; LAST + 1] {
+const fn table(later: bool) -> [Column; LAST + 1] {
     let mut out = [[0.0; NODE]; LAST + 1];
     let mut n = 0;
     while n <= LAST {
         let mut other = 0;
         while other < PAIRS.len() {
-            let counts = if beyond {
+            let counts = if later {
                 n < LAST && other > n
             } else {
                 other != n % LAST
@@ -58,7 +63,7 @@ const fn table(beyond: bool) -> [Column; LAST + 1] {
     out
 }
 
-/// The inverse of the pivots that are out: what of each row is its own, and what its partner's.
+/// The inverse of the pivots eliminated so far: per row, the entry on the diagonal and that of the pair's other row.
 #[derive(Clone, Copy)]
 pub(super) struct Inverse<S> {
     pub own: S,
@@ -76,44 +81,49 @@ impl<S: Single> Inverse<S> {
     }
 }
 
-/// Takes pair `N`, `K` and `NEXT`, out of the columns of the pairs from `after` on and out of `columns`. Gives the squares
-/// of the multipliers of rows still to come.
+/// Eliminates pair `N`, rows `K` and `NEXT`, from the columns of the pairs in `after` and from `columns`. Gives the squares
+/// of the multipliers of later rows.
 #[inline(always)]
-fn pair<S: Single, const N: usize, const K: usize, const NEXT: usize>(
+fn eliminate_pair<S: Single, const N: usize, const K: usize, const NEXT: usize>(
     a: &mut [Column; NODE],
     after: &[[usize; 2]],
     columns: [&mut [Column]; 2],
     inverse: &mut Inverse<S>,
 ) -> S {
+    // The pair's block is [p q; r s], by rows; its inverse is [s -q; -r p] / (p s - q r).
     let (p, r) = (S::splat(a[K][K]), S::splat(a[K][NEXT]));
     let (q, s) = (S::splat(a[NEXT][K]), S::splat(a[NEXT][NEXT]));
     let reciprocal = S::splat(1.0).over(p.times(s).minus_product(q, r));
-    let beside = S::load(&BESIDE[N]);
-    let (first, second) = (S::load(&a[K]).times(beside), S::load(&a[NEXT]).times(beside));
+    // Multipliers of all other rows (Gauss-Jordan): both columns of the pair times its inverse.
+    let others = S::load(&OTHER_ROWS[N]);
+    let (first, second) = (S::load(&a[K]).times(others), S::load(&a[NEXT]).times(others));
     let by_first = first.times(s).minus_product(second, r).times(reciprocal);
     let by_second = second.times(p).minus_product(first, q).times(reciprocal);
+    // Columns of earlier pairs are left alone: nothing reads them any more.
     for &[j, k] in after {
-        take::<S, K, NEXT>(&mut a[j], by_first, by_second);
-        take::<S, K, NEXT>(&mut a[k], by_first, by_second);
+        subtract::<S, K, NEXT>(&mut a[j], by_first, by_second);
+        subtract::<S, K, NEXT>(&mut a[k], by_first, by_second);
     }
     for columns in columns {
         for column in columns {
-            take::<S, K, NEXT>(column, by_first, by_second);
+            subtract::<S, K, NEXT>(column, by_first, by_second);
         }
     }
+    // The pair's own rows keep their right-hand sides: the inverse is applied at the end, to all rows at once.
     let (row, next) = (S::load(&ONLY[K]), S::load(&ONLY[NEXT]));
     inverse.own = inverse.own.plus_product(row, s.times(reciprocal));
     inverse.own = inverse.own.plus_product(next, p.times(reciprocal));
     inverse.partner = inverse.partner.minus_product(row, q.times(reciprocal));
     inverse.partner = inverse.partner.minus_product(next, r.times(reciprocal));
-    let beyond = S::load(&BEYOND[N]);
-    let (x, y) = (by_first.times(beyond), by_second.times(beyond));
+    // A large multiplier in a later row means that the pair was a poor pivot for it.
+    let later = S::load(&LATER_ROWS[N]);
+    let (x, y) = (by_first.times(later), by_second.times(later));
     x.times(x).largest(y.times(y))
 }
 
-/// Takes the pivots' rows, times the multipliers, off a column.
+/// Subtracts the pair's rows, times the multipliers, from a column.
 #[inline(always)]
-fn take<S: Single, const K: usize, const NEXT: usize>(column: &mut Column, by_first: S, by_second: S) {
+fn subtract<S: Single, const K: usize, const NEXT: usize>(column: &mut Column, by_first: S, by_second: S) {
     let (x, y) = (S::splat(column[K]), S::splat(column[NEXT]));
     S::load(column)
         .minus_product(by_first, x)
@@ -121,21 +131,21 @@ fn take<S: Single, const K: usize, const NEXT: usize>(column: &mut Column, by_fi
         .store(column);
 }
 
-/// Takes the early pair out of a block and of its coupling, whose first six columns, or `CROSSED` all, have something in
-/// their rows.
+/// Eliminates the early pair from a block and from its coupling. Only the first six columns of the coupling, those of the
+/// pipe, have entries in the pair's rows; all twelve where contacts have them `CROSSED`.
 #[inline(always)]
-pub(super) fn begin<S: Single, const CROSSED: bool>(
+pub(super) fn eliminate_early<S: Single, const CROSSED: bool>(
     a: &mut [Column; NODE],
     b: &mut [Column; COLUMNS],
     inverse: &mut Inverse<S>,
 ) -> S {
     let (coupling, right) = b.split_at_mut(12);
     let coupling = &mut coupling[..if CROSSED { 12 } else { 6 }];
-    pair::<S, 1, 7, 8>(a, &PAIRS[2..], [coupling, right], inverse)
+    eliminate_pair::<S, 1, 7, 8>(a, &PAIRS[2..], [coupling, right], inverse)
 }
 
-/// Solves `a x = b`, of which the early pairs are out; the last six columns of the coupling begin at row 9 or, `CROSSED`,
-/// at row 3.
+/// Solves `a x = b`, from which the early pair is eliminated. The last six columns of the coupling, those of the guide,
+/// are zero above row 9 until the guide's pairs are reached, unless they are `CROSSED`.
 #[inline(always)]
 pub(super) fn eliminate<S: Single, const CROSSED: bool>(
     a: &mut [Column; NODE],
@@ -145,12 +155,12 @@ pub(super) fn eliminate<S: Single, const CROSSED: bool>(
     let squares = {
         let (coupling, right) = b.split_at_mut(12);
         let early = &mut coupling[..if CROSSED { 12 } else { 6 }];
-        let first = pair::<S, 2, 0, 1>(a, &PAIRS[3..], [early, right], &mut inverse);
-        let second = pair::<S, 3, 2, 3>(a, &PAIRS[4..], [early, right], &mut inverse);
-        let third = pair::<S, 4, 4, 5>(a, &PAIRS[5..], [early, right], &mut inverse);
-        let fourth = pair::<S, 5, 9, 10>(a, &PAIRS[6..], [coupling, right], &mut inverse);
-        let fifth = pair::<S, 6, 11, 12>(a, &PAIRS[7..], [coupling, right], &mut inverse);
-        let sixth = pair::<S, 7, 13, 14>(a, &[], [coupling, right], &mut inverse);
+        let first = eliminate_pair::<S, 2, 0, 1>(a, &PAIRS[3..], [early, right], &mut inverse);
+        let second = eliminate_pair::<S, 3, 2, 3>(a, &PAIRS[4..], [early, right], &mut inverse);
+        let third = eliminate_pair::<S, 4, 4, 5>(a, &PAIRS[5..], [early, right], &mut inverse);
+        let fourth = eliminate_pair::<S, 5, 9, 10>(a, &PAIRS[6..], [coupling, right], &mut inverse);
+        let fifth = eliminate_pair::<S, 6, 11, 12>(a, &PAIRS[7..], [coupling, right], &mut inverse);
+        let sixth = eliminate_pair::<S, 7, 13, 14>(a, &[], [coupling, right], &mut inverse);
         first
             .largest(second)
             .largest(third.largest(fourth))
@@ -162,7 +172,7 @@ pub(super) fn eliminate<S: Single, const CROSSED: bool>(
     squares
 }
 
-/// Solves for one column of the last node, whose multiplier goes last.
+/// Solves for one column of the last node: the tie's pair comes last.
 #[inline(always)]
 pub(super) fn eliminate_last<S: Single>(a: &mut [Column; NODE], right: &mut Column) -> S {
     let zero = S::splat(0.0);
@@ -170,7 +180,8 @@ pub(super) fn eliminate_last<S: Single>(a: &mut [Column; NODE], right: &mut Colu
         own: zero,
         partner: zero,
     };
-    let with_first = |n: usize| {
+    // The pairs after pair n, then the tie's.
+    let after = |n: usize| {
         let mut after = [[0; 2]; 8];
         let count = 8 - n;
         after[..count - 1].copy_from_slice(&PAIRS[n + 1..]);
@@ -178,28 +189,33 @@ pub(super) fn eliminate_last<S: Single>(a: &mut [Column; NODE], right: &mut Colu
         (after, count)
     };
     let mut squares = zero;
-    macro_rules! take_out {
+    macro_rules! eliminate_next {
         ($n:literal, $k:literal, $next:literal) => {
-            let (after, count) = with_first($n);
+            let (later, count) = after($n);
             let right = std::slice::from_mut(right);
-            let largest = pair::<S, $n, $k, $next>(a, &after[..count], [&mut [], right], &mut inverse);
+            let largest = eliminate_pair::<S, $n, $k, $next>(a, &later[..count], [&mut [], right], &mut inverse);
             squares = squares.largest(largest);
         };
     }
-    take_out!(1, 7, 8);
-    take_out!(2, 0, 1);
-    take_out!(3, 2, 3);
-    take_out!(4, 4, 5);
-    take_out!(5, 9, 10);
-    take_out!(6, 11, 12);
-    take_out!(7, 13, 14);
+    eliminate_next!(1, 7, 8);
+    eliminate_next!(2, 0, 1);
+    eliminate_next!(3, 2, 3);
+    eliminate_next!(4, 4, 5);
+    eliminate_next!(5, 9, 10);
+    eliminate_next!(6, 11, 12);
+    eliminate_next!(7, 13, 14);
     let column = std::slice::from_mut(right);
-    squares = squares.largest(pair::<S, LAST, 6, 15>(a, &[], [&mut [], column], &mut inverse));
+    squares = squares.largest(eliminate_pair::<S, LAST, 6, 15>(
+        a,
+        &[],
+        [&mut [], column],
+        &mut inverse,
+    ));
     solve(right, inverse);
     squares
 }
 
-/// The solution of a column that has nothing of other rows left.
+/// The solution of a column from which all other rows are eliminated: the inverse of the pairs times it.
 #[inline(always)]
 fn solve<S: Single>(column: &mut Column, inverse: Inverse<S>) {
     let x = S::load(column);

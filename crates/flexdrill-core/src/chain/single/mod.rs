@@ -1,8 +1,18 @@
 //! The elimination in single precision: a block is sixteen vectors, kept in the first-level cache.
 //!
-//! Newton's residual is taken in double, so that a correction need only be good to a few digits. Pivots go in pairs as in
-//! double, without exchanges; where a multiplier of a row still to come is larger than a thousand, or nothing is a number
-//! any more, the solution is refused and made in double.
+//! Newton's residual is evaluated in double precision, so that a correction need only be good to a few digits. Where a
+//! multiplier of a later row is larger than a thousand, or a solution is not a number, it is refused and the correction is
+//! solved for in double.
+//!
+//! Block by block from the top down, with D_k the block of node k, U_k and L_k its coupling to the node below, r_k the
+//! right-hand side:
+//!
+//! 1. [`SingleElimination::assemble`] sums up D_k: step-constant part, contacts, joint, dependent rotations;
+//! 2. [`subtract_carry`] takes off what the nodes above leave, L_(k-1) D_(k-1)^-1 (U_(k-1), r_(k-1));
+//! 3. [`eliminate`] turns (U_k, r_k) into D_k^-1 (U_k, r_k), which is kept;
+//! 4. [`SingleElimination::carry`] makes what the next node subtracts;
+//!
+//! and back up x_k = D_k^-1 r_k - D_k^-1 U_k x_(k+1), by [`minus_coupling`].
 
 mod block;
 
@@ -20,13 +30,13 @@ use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 use crate::simd::vector::Vector;
 
-use block::{Inverse, begin, eliminate, eliminate_last};
+use block::{Inverse, eliminate, eliminate_early, eliminate_last};
 
 pub(in crate::chain) use block::ONLY;
 
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
-/// Part of the limit on a residual that a window may leave out above it.
+/// Largest part of the limit on a residual that a window may leave unbalanced above it.
 const LEFT_OUT: f32 = 0.5;
 /// Largest square of a multiplier.
 const LARGEST_SQUARE: f32 = 1e6;
@@ -70,6 +80,7 @@ impl SingleOperator {
 
 /// Room for an elimination.
 pub(super) struct SingleSweep {
+    /// D^-1 (U, r) of each node.
     columns: Vec<Aligned<[Column; COLUMNS]>>,
     /// What the joint of each node adds: columns of the rotations above, of those below.
     joints: Vec<Aligned<[Column; 6]>>,
@@ -101,7 +112,7 @@ impl SingleSweep {
     }
 }
 
-/// One solution; `false` if a pivot would not do.
+/// One solution; `false` if a pivot is too small.
 pub(super) struct SingleElimination<'a> {
     pub sweep: &'a mut SingleSweep,
     pub operator: &'a Operator,
@@ -110,7 +121,7 @@ pub(super) struct SingleElimination<'a> {
     pub dependents: &'a [Dependents],
     pub links: &'a [Link],
     pub rows: &'a [Option<[f64; NODE]>],
-    /// What is solved for. How far up each moves the tool is put down there; the rest does not move.
+    /// The runs of nodes that are solved for; each receives how far up it moves the tool. All other nodes stay.
     pub windows: &'a mut [Window],
     /// One over the limits of the residual.
     pub weights: &'a [f64],
@@ -118,7 +129,7 @@ pub(super) struct SingleElimination<'a> {
     pub values: &'a mut [f64],
 }
 
-/// L times the columns, where pipe and guide do not cross: both at once.
+/// L times the columns where no contact couples pipe and guide: their rows are apart, so that one product does for both.
 #[inline(always)]
 fn carry_joined<S: Single>(b: &[Column; COLUMNS], lower: &[S; 6], carry: &mut [Column; COLUMNS]) {
     for (column, carry) in b.iter().zip(carry) {
@@ -135,7 +146,7 @@ fn carry_joined<S: Single>(b: &[Column; COLUMNS], lower: &[S; 6], carry: &mut [C
     }
 }
 
-/// L times the columns.
+/// L times the columns, pipe and guide coupled.
 #[inline(always)]
 fn carry_crossed<S: Single>(b: &[Column; COLUMNS], lower: &[S; 12], carry: &mut [Column; COLUMNS]) {
     for (column, carry) in b.iter().zip(carry) {
@@ -158,13 +169,15 @@ impl Kernel for SingleElimination<'_> {
 }
 
 impl SingleElimination<'_> {
-    /// Node `k` without what comes from above, its early pairs taken out of all but the last: into `a` and its columns.
-    /// Gives the inverse of their pivots and the squares of the multipliers.
+    /// Assembles the block of node `k` into `a` and its coupling and right-hand side into the node's columns, without the
+    /// carry from above, and eliminates the early pair of all but the last node. Gives the inverse of that pair and the
+    /// squares of its multipliers.
     #[inline(always)]
-    fn begin<S: Single>(&mut self, k: usize, last: bool, a: &mut [Column; NODE]) -> (Inverse<S>, S) {
+    fn assemble<S: Single>(&mut self, k: usize, last: bool, a: &mut [Column; NODE]) -> (Inverse<S>, S) {
         let single = &self.operator.single;
         let zero = S::splat(0.0);
         let mut inverse = Inverse::start();
+        // The block: step-constant part, and what contacts, bit and masses add where they touch.
         let constant = &single.blocks[self.operator.block_of[k]];
         let touching = self.additions.nodes[k];
         let added = &self.additions.blocks[k];
@@ -182,6 +195,7 @@ impl SingleElimination<'_> {
                 }
             }
         }
+        // The stop of the joint, and the curvature of its rows.
         let joint = self.nodes[k].joint;
         if joint.is_some() {
             let joint = &self.sweep.joints[k];
@@ -190,6 +204,7 @@ impl SingleElimination<'_> {
                 S::load(&a[6 + i]).plus(S::load(&joint[3 + i])).store(&mut a[6 + i]);
             }
         }
+        // The right-hand side: minus the residual.
         let (values, _) = self.values.as_chunks::<NODE>();
         let (node, dependents) = (&values[k], &self.dependents[k]);
         let held = self.rows[k].as_ref().map(|rows| S::round(rows));
@@ -197,10 +212,11 @@ impl SingleElimination<'_> {
         let mut right = S::round(node);
         let rows = [node[FIRST_ROW], node[SECOND_ROW]];
         if joint.is_some() {
-            // What stands at the rows' places is no moment.
+            // The values of the joint's rows are no moments.
             right = right.times(S::round(&MOMENTS));
         }
         let crosses = touching == Touching::Both;
+        // The last node has no coupling, and its pivots come in another order.
         if last {
             let mut right = dependents.eliminate(a, &mut [], Rounded(right), rows, crosses).0;
             if let (Some(rows), Some(held)) = (&self.rows[k], held) {
@@ -210,6 +226,7 @@ impl SingleElimination<'_> {
             right.store(&mut b[12]);
             return (inverse, zero);
         }
+        // The coupling to the node below.
         let (touching, upper) = (self.additions.spans[k], &single.upper[self.links[k].kind]);
         for (to, from) in b.iter_mut().zip(upper.iter()) {
             S::load(from).store(to);
@@ -221,6 +238,7 @@ impl SingleElimination<'_> {
                 S::load(to).plus(S::load(from)).store(to);
             }
         }
+        // Dependent rotations are written by the others, held unknowns take no part.
         let crossed = touching == Touching::Both;
         let with_pipe = &mut b[..if crossed { 12 } else { 6 }];
         right = dependents.eliminate(a, with_pipe, Rounded(right), rows, crosses).0;
@@ -233,14 +251,14 @@ impl SingleElimination<'_> {
         }
         right.store(&mut b[12]);
         let squares = if touching == Touching::Both {
-            begin::<S, true>(a, b, &mut inverse)
+            eliminate_early::<S, true>(a, b, &mut inverse)
         } else {
-            begin::<S, false>(a, b, &mut inverse)
+            eliminate_early::<S, false>(a, b, &mut inverse)
         };
         (inverse, squares)
     }
 
-    /// L times the columns of node `k`, for the node below.
+    /// What the node below subtracts: L times the columns of node `k`.
     #[inline(always)]
     fn carry<S: Single>(&self, k: usize, carry: &mut [Column; COLUMNS]) {
         let (single, kind) = (&self.operator.single, self.links[k].kind);
@@ -274,7 +292,7 @@ impl SingleElimination<'_> {
     }
 }
 
-/// Keeps the rows of a block that are equations; the others say that their unknown is what stands on the right.
+/// Keeps the rows of a block that are equations; a held row says that its unknown is the right-hand side, which is zero.
 #[inline(always)]
 fn hold<S: Single>(a: &mut [Column; NODE], rows: &[f64; NODE]) {
     let keep = S::round(rows);
@@ -287,9 +305,9 @@ fn hold<S: Single>(a: &mut [Column; NODE], rows: &[f64; NODE]) {
     }
 }
 
-/// Takes what comes from above off a block and its right-hand side.
+/// Subtracts the carry from above from a block and its right-hand side.
 #[inline(always)]
-fn take_carry<S: Single>(
+fn subtract_carry<S: Single>(
     a: &mut [Column; NODE],
     right: &mut Column,
     carry: &[Column; COLUMNS],
@@ -300,7 +318,7 @@ fn take_carry<S: Single>(
         S::load(&a[9 + i]).minus(S::load(&carry[6 + i])).store(&mut a[9 + i]);
     }
     S::load(right).minus(S::load(&carry[12])).store(right);
-    // Nothing is carried into rows that are held, but into the columns of their unknowns.
+    // The carry has nothing in held rows, but it has in the columns of their unknowns.
     if let Some(rows) = rows {
         for i in (0..6).chain(9..15) {
             if rows[i] == 0.0 {
@@ -311,43 +329,44 @@ fn take_carry<S: Single>(
 }
 
 #[inline(always)]
-fn run<S: Single>(mut by: SingleElimination<'_>) -> bool {
-    for w in 0..by.windows.len() {
-        let window = by.windows[w];
-        let Some(top) = by.window::<S>(window) else {
+fn run<S: Single>(mut elimination: SingleElimination<'_>) -> bool {
+    for w in 0..elimination.windows.len() {
+        let window = elimination.windows[w];
+        let Some(top) = elimination.solve_window::<S>(window) else {
             return false;
         };
-        by.windows[w].top = by.above::<S>(window.first, top);
+        elimination.windows[w].top = elimination.follow_upward::<S>(window.first, top);
     }
     true
 }
 
 impl SingleElimination<'_> {
-    /// Solves for a window, of which the first node's solution is given; `None` if a pivot would not do.
+    /// Solves for a window, and gives the solution of its first node; `None` if a pivot is too small.
     #[inline(always)]
-    fn window<S: Single>(&mut self, window: Window) -> Option<S> {
+    fn solve_window<S: Single>(&mut self, window: Window) -> Option<S> {
         let zero = S::splat(0.0);
         let mut carry = Aligned([[0.0; NODE]; COLUMNS]);
         if let Some(above) = window.first.checked_sub(1) {
-            // What is above was eliminated by an earlier correction, and is in balance now.
+            // An earlier correction eliminated the nodes above, and they are in balance now: their right-hand side is zero.
             self.sweep.columns[above][12] = [0.0; NODE];
             self.carry::<S>(above, &mut carry);
         }
         let mut blocks = self.sweep.blocks;
         let only = window.first == window.last;
-        let (mut inverse, mut squares) = self.begin::<S>(window.first, only, &mut blocks[window.first % 2]);
+        let (mut inverse, mut squares) = self.assemble::<S>(window.first, only, &mut blocks[window.first % 2]);
         for k in window.first..=window.last {
             let last = k == window.last;
             let rows = self.rows[k].as_ref();
             let after = if last {
                 (inverse, zero)
             } else {
-                // The next node's early pairs wait for nothing, and fill the gaps that this node's leave.
-                self.begin::<S>(k + 1, k + 1 == window.last, &mut blocks[(k + 1) % 2])
+                // The next node's assembly and early pair do not wait for this node's, and fill the gaps between its
+                // divisions.
+                self.assemble::<S>(k + 1, k + 1 == window.last, &mut blocks[(k + 1) % 2])
             };
             let (a, b) = (&mut blocks[k % 2], &mut self.sweep.columns[k]);
             if k > 0 {
-                take_carry::<S>(a, &mut b[12], &carry, rows);
+                subtract_carry::<S>(a, &mut b[12], &carry, rows);
             }
             let largest = if last {
                 eliminate_last::<S>(a, &mut b[12])
@@ -365,37 +384,37 @@ impl SingleElimination<'_> {
         let (values, _) = self.values.as_chunks_mut::<NODE>();
         let mut lanes = Aligned([0.0; NODE]);
         squares.store(&mut lanes);
-        // What is not a number anywhere is carried down to the last node.
+        // The carry brings a value that is not a number down to the last node, wherever it began.
         let last = &self.sweep.columns[window.last][12];
         if !(lanes.iter().all(|square| *square < LARGEST_SQUARE) && last.iter().all(|x| x.is_finite())) {
             return None;
         }
         let mut next = S::load(last);
-        put(next, &mut values[window.last], self.nodes[window.last]);
+        store_solution(next, &mut values[window.last], self.nodes[window.last]);
         for k in (window.first..window.last).rev() {
             let columns = &self.sweep.columns[k];
-            next = above(S::load(&columns[12]), &columns[..12], next);
-            put(next, &mut values[k], self.nodes[k]);
+            next = minus_coupling(S::load(&columns[12]), &columns[..12], next);
+            store_solution(next, &mut values[k], self.nodes[k]);
         }
         Some(next)
     }
 
-    /// Moves the nodes above node `k` as they follow its solution `x`, as long as the force that would be left out is not
-    /// small. Gives the first that moves.
+    /// Moves the nodes above node `k` as they follow its solution `x`, until the force on the next one is small. Gives the
+    /// first that moves.
     #[inline(always)]
-    fn above<S: Single>(&mut self, mut k: usize, mut x: S) -> usize {
+    fn follow_upward<S: Single>(&mut self, mut k: usize, mut x: S) -> usize {
         while let Some(next) = k.checked_sub(1) {
             let upper = &self.operator.single.upper[self.links[next].kind];
             let (weights, _) = self.weights.as_chunks::<NODE>();
-            let force = above(S::splat(0.0), &upper[..], x).times(S::round(&weights[next]));
+            let force = minus_coupling(S::splat(0.0), &upper[..], x).times(S::round(&weights[next]));
             let mut lanes = Aligned([0.0_f32; NODE]);
             force.store(&mut lanes);
             if !lanes.iter().any(|force| force.abs() > LEFT_OUT) {
                 break;
             }
-            x = above(S::splat(0.0), &self.sweep.columns[next][..12], x);
+            x = minus_coupling(S::splat(0.0), &self.sweep.columns[next][..12], x);
             x.store(&mut lanes);
-            // It may be another window's.
+            // The node may belong to another window, whose solution it keeps.
             let (values, _) = self.values.as_chunks_mut::<NODE>();
             for (to, from) in values[next].iter_mut().zip(*lanes) {
                 *to += f64::from(from);
@@ -407,9 +426,9 @@ impl SingleElimination<'_> {
     }
 }
 
-/// Less the twelve columns of the coupling times what the node below does.
+/// `from` minus the twelve columns of the coupling times the solution `x` of the node below.
 #[inline(always)]
-fn above<S: Single>(from: S, b: &[Column], x: S) -> S {
+fn minus_coupling<S: Single>(from: S, b: &[Column], x: S) -> S {
     let (mut even, mut odd) = (from, S::splat(0.0));
     even = even.minus_product(S::load(&b[0]), x.spread::<0>());
     odd = odd.minus_product(S::load(&b[1]), x.spread::<1>());
@@ -426,9 +445,9 @@ fn above<S: Single>(from: S, b: &[Column], x: S) -> S {
     even.plus(odd)
 }
 
-/// Writes the solution of a node in double.
+/// Writes the solution of a node in double precision.
 #[inline(always)]
-fn put<S: Single>(x: S, to: &mut [f64; NODE], node: Node) {
+fn store_solution<S: Single>(x: S, to: &mut [f64; NODE], node: Node) {
     let mut lanes = Aligned([0.0; NODE]);
     x.store(&mut lanes);
     for (to, from) in to.iter_mut().zip(*lanes) {
