@@ -15,6 +15,10 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/beam_frequencies.yaml"),
     ),
     ("cantilever", include_str!("../../../config/verify/cantilever.yaml")),
+    (
+        "chain_in_guide",
+        include_str!("../../../config/verify/chain_in_guide.yaml"),
+    ),
     ("curved_guide", include_str!("../../../config/verify/curved_guide.yaml")),
     (
         "free_vibration",
@@ -30,6 +34,10 @@ const FILES: &[(&str, &str)] = &[
     (
         "mass_onto_gap",
         include_str!("../../../config/verify/mass_onto_gap.yaml"),
+    ),
+    (
+        "pipe_in_guide",
+        include_str!("../../../config/verify/pipe_in_guide.yaml"),
     ),
     (
         "rolling_rotor",

@@ -158,6 +158,16 @@ pub const CASES: &[Case] = &[
         run: pipes::tied_rods,
     },
     Case {
+        name: "pipe_in_guide",
+        shows: "pipe and sliding guide bent by their weight",
+        run: pipes::pipe_in_guide,
+    },
+    Case {
+        name: "chain_in_guide",
+        shows: "a chain of links that hangs into a bent guide",
+        run: pipes::chain_in_guide,
+    },
+    Case {
         name: "torsion_rod",
         shows: "twist at rest and its swing",
         run: pipes::torsion_rod,

@@ -9,7 +9,7 @@ use flexdrill_core::tool::{Body, Direction};
 
 /// Statics of a linear beam: rounding of the solve.
 const STATICS: f64 = 1e-9;
-/// Two rods: what Newton's iteration may leave of their forces in motion, 0.1 N of 100 kN.
+/// Pipe and sliding guide: what Newton's iteration may leave of their forces in motion, 0.1 N of 100 kN, 1 mN of 1 kN.
 const SHARED: f64 = 1e-6;
 /// Frequencies.
 const FREQUENCY: f64 = 1e-3;
@@ -80,6 +80,95 @@ pub(super) fn tied_rods() -> Result<Vec<Row>, VerifyError> {
             SHARED,
         ),
     ])
+}
+
+/// Weight per length (N/m) and bending stiffness (N m2) of pipe and guide, without fluid.
+fn beams(bench: &Bench) -> [(f64, f64); 2] {
+    let tool = bench.config.tool();
+    [tool.pipe_sections[0], tool.guide_section].map(|tube| {
+        let section = SectionProperties::of(tube, tool.material, 1.0);
+        (section.mass * tool.gravity, section.bending)
+    })
+}
+
+/// A pipe that nothing but the guide carries: both bend as one beam.
+pub(super) fn pipe_in_guide() -> Result<Vec<Row>, VerifyError> {
+    let case = "pipe_in_guide";
+    let mut bench = Bench::new(case)?;
+    let [(w_pipe, ei_pipe), (w_guide, ei_guide)] = beams(&bench);
+    let (last, l) = (bench.last(), bench.config.well.length());
+    // A hundred steps at rest: the answer is the steps' as much as the start's.
+    bench.run_to(0.05)?;
+    let down = |station, body| bench.displacement(station, body, Direction::W);
+    let of_guide = down(last / 2, Body::Guide);
+    let of_pipe = down(last / 2, Body::Pipe) - 0.5 * (down(0, Body::Pipe) + down(last, Body::Pipe));
+    let expected = 5.0 * (w_pipe + w_guide) * l.powi(4) / (384.0 * (ei_pipe + ei_guide));
+    let carried: f64 = (0..=last).map(|station| bench.inner_normal(station)).sum();
+    Ok(vec![
+        // 1.1 kN presses 1.1 um into a contact of 1e9 N/m at each end, against a deflection of 7 mm.
+        Row::relative(case, "mid-span of the guide (m)", expected, of_guide, 1e-4),
+        Row::relative(
+            case,
+            "5 (w_p + w_g) L^4 / 384, by both (N m3)",
+            expected * (ei_pipe + ei_guide),
+            ei_pipe * of_pipe + ei_guide * of_guide,
+            SHARED,
+        ),
+        Row::relative(case, "weight that the guide carries (N)", w_pipe * l, carried, SHARED),
+    ])
+}
+
+/// A chain whose links rest on the guide at every joint.
+pub(super) fn chain_in_guide() -> Result<Vec<Row>, VerifyError> {
+    let case = "chain_in_guide";
+    let mut bench = Bench::new(case)?;
+    let [(w_pipe, _), (w_guide, ei)] = beams(&bench);
+    let tool = bench.config.tool();
+    let l = bench.config.well.length();
+    let link = l / tool.links as f64;
+    let load = w_pipe * link;
+    bench.run_to(0.05)?;
+    let joints: Vec<usize> = bench.simulation.joint_stations().to_vec();
+    // Beam on two supports, by superposition.
+    let deflection = |x: f64| {
+        let by_weight = w_guide * x * (l.powi(3) - 2.0 * l * x * x + x.powi(3)) / (24.0 * ei);
+        let by_loads = (1..tool.links).map(|j| {
+            let at = link * j as f64;
+            let (x, b) = if x <= at { (x, l - at) } else { (l - x, at) };
+            load * b * x * (l * l - b * b - x * x) / (6.0 * l * ei)
+        });
+        by_weight + by_loads.sum::<f64>()
+    };
+    let mut rows = Vec::new();
+    for number in [1, 4] {
+        let station = joints[number - 1];
+        let gap = bench.simulation.clearance(station, Body::Pipe).unwrap_or(f64::NAN);
+        let guide = deflection(link * number as f64);
+        let pipe = guide + gap + load / tool.inner.stiffness;
+        let down = |body| bench.displacement(station, body, Direction::W);
+        rows.push(Row::relative(
+            case,
+            format!("guide at joint {number} (m)"),
+            guide,
+            down(Body::Guide),
+            SHARED,
+        ));
+        rows.push(Row::relative(
+            case,
+            format!("chain at joint {number} (m)"),
+            pipe,
+            down(Body::Pipe),
+            SHARED,
+        ));
+        rows.push(Row::relative(
+            case,
+            format!("weight of a link on joint {number} (N)"),
+            load,
+            bench.inner_normal(station),
+            SHARED,
+        ));
+    }
+    Ok(rows)
 }
 
 pub(super) fn torsion_rod() -> Result<Vec<Row>, VerifyError> {

@@ -149,49 +149,40 @@ impl Kernel for Gather<'_> {
         let (residual, _) = chain.residual.as_chunks_mut::<NODE>();
         let (weights, _) = chain.model.weight.as_chunks::<NODE>();
         let (nodes, affected) = (residual.len(), &chain.active.affected);
-        // What the spans below and above put on the nodes of a block, and on the first one of the next.
-        let mut above = [NodeForces::default(); BLOCK];
-        let mut below = [NodeForces::default(); BLOCK + 1];
-        for start in (0..nodes).step_by(BLOCK) {
-            below[0] = below[BLOCK];
-            for l in start..(start + BLOCK).min(nodes) {
+        // The forces of the spans below and above on the nodes of a group, and on the first node of the next group.
+        let mut from_below = [NodeForces::default(); GROUP];
+        let mut from_above = [NodeForces::default(); GROUP + 1];
+        for start in (0..nodes).step_by(GROUP) {
+            from_above[0] = from_above[GROUP];
+
+            // First the spans, each onto both its ends.
+            for l in start..(start + GROUP).min(nodes) {
                 if l + 1 == nodes {
-                    above[l - start] = NodeForces::default();
+                    from_below[l - start] = NodeForces::default();
                     break;
                 }
                 if !(affected[l] || affected[l + 1]) {
                     continue;
                 }
-                for (body, (top, bottom)) in [(U, 0), (GUIDE, GUIDE)].into_iter().enumerate() {
-                    let axial = if body == 0 {
-                        state.pipe_axial[l]
-                    } else {
-                        state.guide_axial[l]
-                    };
-                    let mut sum = plus_column(
-                        load(&chain.linear[l][body]),
-                        &chain.geometric_forces[l][body],
-                        V::splat(axial),
-                    );
-                    if chain.has_contacts[l] {
-                        let contact_forces: [V; 2] = load(&chain.contact_forces[l][body]);
-                        sum = [sum[0].plus(contact_forces[0]), sum[1].plus(contact_forces[1])];
-                    }
-                    // The pipe first: what its two lanes without a force leave, the guide's overwrite; those of the guide
-                    // are beyond the node.
-                    put(sum[0], &mut above[l - start], top);
-                    put(sum[1], &mut below[l - start + 1], bottom);
-                }
+                let (linear, geometric) = (&chain.linear[l], &chain.geometric_forces[l]);
+                let contacts = chain.has_contacts[l].then_some(&chain.contact_forces[l]);
+                let [on_pipe, on_guide] = [0, 1].map(|body| contacts.map(|contacts| &contacts[body]));
+                let pipe: [V; 2] = force_of_span(&linear[0], &geometric[0], state.pipe_axial[l], on_pipe);
+                let guide: [V; 2] = force_of_span(&linear[1], &geometric[1], state.guide_axial[l], on_guide);
+                from_below[l - start].set(pipe[0], U, guide[0]);
+                from_above[l - start + 1].set(pipe[1], 0, guide[1]);
             }
-            let forces = above.iter().zip(&below);
-            for (l, (above, below)) in (start..nodes).zip(forces) {
+
+            // Then the nodes.
+            let forces = from_below.iter().zip(&from_above);
+            for (l, (below, above)) in (start..nodes).zip(forces) {
                 if affected[l] {
-                    let (weight, above, below): ([V; 2], [V; 2], [V; 2]) =
-                        (load(&weights[l]), load(first(above)), load(first(below)));
+                    let (weight, below, above): ([V; 2], [V; 2], [V; 2]) =
+                        (load(&weights[l]), load(below.node()), load(above.node()));
                     store(
                         [
-                            above[0].plus(below[0]).minus(weight[0]),
-                            above[1].plus(below[1]).minus(weight[1]),
+                            below[0].plus(above[0]).minus(weight[0]),
+                            below[1].plus(above[1]).minus(weight[1]),
                         ],
                         &mut residual[l],
                     );
@@ -201,25 +192,50 @@ impl Kernel for Gather<'_> {
     }
 }
 
-/// Nodes whose forces are gathered before they are summed: numbers that are written in vectors are read in others, which
-/// waits for the memory where it follows at once.
-const BLOCK: usize = 8;
-
-/// Forces on a node, and room that a vector of eight at the guide reaches into.
-type NodeForces = Aligned<[f64; 24]>;
-
-/// The node itself.
+/// Force of a span on its ends: linear, geometric by its axial force, and that of its contacts.
 #[inline(always)]
-fn first(forces: &NodeForces) -> &[f64; NODE] {
-    // Never empty: 24 are more than 16.
-    forces.first_chunk().unwrap_or(&[0.0; NODE])
+fn force_of_span<V: Vector>(
+    linear: &EndColumn,
+    geometric: &EndColumn,
+    axial: f64,
+    contacts: Option<&EndColumn>,
+) -> [V; 2] {
+    let force = plus_column(load(linear), geometric, V::splat(axial));
+    match contacts {
+        Some(contacts) => {
+            let contacts: [V; 2] = load(contacts);
+            [force[0].plus(contacts[0]), force[1].plus(contacts[1])]
+        }
+        None => force,
+    }
 }
 
-/// Writes eight numbers from `place` on.
-#[inline(always)]
-fn put<V: Vector>(x: V, forces: &mut NodeForces, place: usize) {
-    if let Some(to) = forces[place..].first_chunk_mut() {
-        x.store(to);
+/// Nodes whose forces are gathered before they are summed. The processor waits for memory where numbers that were written
+/// as one vector are read as another one straight away; a group in between takes longer than that.
+const GROUP: usize = 8;
+
+/// Forces on a node, in the order of its unknowns, and room for the two lanes by which a vector of the guide's six reaches
+/// beyond them.
+#[derive(Clone, Copy, Default)]
+struct NodeForces(Aligned<[f64; 24]>);
+
+impl NodeForces {
+    /// Sets the forces on the pipe from place `first` on, and those on the guide. Six lanes of each count. The last two of
+    /// the pipe's would reach into other places: the guide's are written after them, or there are none.
+    #[inline(always)]
+    fn set<V: Vector>(&mut self, pipe: V, first: usize, guide: V) {
+        for (forces, place) in [(pipe, first), (guide, GUIDE)] {
+            if let Some(to) = self.0[place..].first_chunk_mut() {
+                forces.store(to);
+            }
+        }
+    }
+
+    /// Those of the node itself.
+    #[inline(always)]
+    fn node(&self) -> &[f64; NODE] {
+        // Never empty: 24 are more than 16.
+        self.0.first_chunk().unwrap_or(&[0.0; NODE])
     }
 }
 

@@ -1,5 +1,8 @@
-//! What contacts, the bit and point masses add to the tangent in an iteration. A contact inside a span adds to
-//! the blocks of both its ends and to what couples them.
+//! What contacts, the bit and point masses add to the tangent in an iteration. A contact inside a span adds to the blocks of
+//! both its ends and to their coupling.
+//!
+//! A contact's own tangent is the sum of four products on by^T of local forces and motions ([`GapTangent`]). On the nodes it
+//! is the same sum with the forces and motions that the slaving makes of them.
 
 use super::active::Active;
 use super::precision::{Lanes, Precision};
@@ -26,10 +29,10 @@ pub(super) struct AddedCoupling<S> {
 /// Additions of one iteration.
 #[derive(Default)]
 pub(super) struct Additions<S> {
-    /// Per node, and whose columns are of use: the guide's, or all.
+    /// Per node, with the columns that count: the guide's, or all.
     pub blocks: Vec<Aligned<[[S; NODE]; NODE]>>,
     pub nodes: Vec<Touching>,
-    /// Per span, likewise.
+    /// Per span, with the columns that count.
     pub couplings: Vec<AddedCoupling<S>>,
     pub spans: Vec<Touching>,
 }
@@ -48,7 +51,7 @@ impl<S: Precision> Additions<S> {
         }
     }
 
-    /// A node's block, to be added to in the columns of what is `touching`.
+    /// A node's block, whose columns of what is `touching` are made zero before their first use in an iteration.
     #[inline(always)]
     fn block(&mut self, node: usize, touching: Touching) -> &mut [[S; NODE]; NODE] {
         let (block, before) = (&mut self.blocks[node], self.nodes[node]);
@@ -65,7 +68,7 @@ impl<S: Precision> Additions<S> {
         block
     }
 
-    /// A span's coupling, likewise.
+    /// A span's coupling, in the same way.
     #[inline(always)]
     fn coupling(&mut self, span: usize, touching: Touching) -> &mut AddedCoupling<S> {
         let (coupling, before) = (&mut self.couplings[span], self.spans[span]);
@@ -97,7 +100,7 @@ impl<S: Precision> Additions<S> {
     ) {
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
-        chain.instructions.run(Contacts {
+        chain.instructions.run(ContactTangents {
             to: self,
             chain,
             active,
@@ -127,7 +130,7 @@ impl<S: Precision> Additions<S> {
     }
 }
 
-struct Contacts<'a, S> {
+struct ContactTangents<'a, S> {
     to: &'a mut Additions<S>,
     chain: &'a ChainModel,
     active: &'a Active,
@@ -135,12 +138,12 @@ struct Contacts<'a, S> {
     factors: TangentFactors,
 }
 
-impl<S: Precision> Kernel for Contacts<'_, S> {
+impl<S: Precision> Kernel for ContactTangents<'_, S> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Vector>(self) {
-        let mut on_guide = OnGuide::<S>::new();
+        let mut guide_sum = GuideSum::<S>::new();
         let layers = [(&self.interactions.inner, true), (&self.interactions.outer, false)];
         for (layer, inner) in layers {
             let (nodes, spans) = (&self.chain.nodes, &self.active.spans);
@@ -148,38 +151,39 @@ impl<S: Precision> Kernel for Contacts<'_, S> {
             for (station, touch) in layer.among(|station| spans[stations[station].0]) {
                 let (l, i) = stations[station];
                 let on_nodes = &S::on_nodes(&self.chain.kinds[self.chain.links[l].kind])[i];
-                let place = Place {
+                let contact = InSpan {
                     l,
                     at: [i == 0, i == nodes.elements(l)],
                     rows: if inner { &on_nodes.inner } else { &on_nodes.outer },
                 };
                 let tangent = touch.tangent(self.factors.stiffness, self.factors.damping);
                 if inner {
-                    place.add::<V, true>(self.to, &tangent);
-                } else if place.at[0] || place.at[1] {
-                    place.add::<V, false>(self.to, &tangent);
+                    contact.add::<V, true>(self.to, &tangent);
+                } else if contact.at[0] || contact.at[1] {
+                    contact.add::<V, false>(self.to, &tangent);
                 } else {
-                    if on_guide.span != l {
-                        on_guide.put::<V>(self.to);
-                        on_guide.span = l;
+                    if guide_sum.span != l {
+                        guide_sum.add_to_nodes::<V>(self.to);
+                        guide_sum.span = l;
                     }
-                    on_guide.add::<V>(&factors::<V, S>(&on_nodes.outer_joined, &tangent));
+                    guide_sum.add::<V>(&factors::<V, S>(&on_nodes.outer_joined, &tangent));
                 }
             }
         }
-        on_guide.put::<V>(self.to);
+        guide_sum.add_to_nodes::<V>(self.to);
     }
 }
 
-/// What outer contacts inside a span add to the guide's unknowns of both its ends, gathered before it is put where it
-/// belongs: columns of the top end, then of the bottom end; rows as [`OnNodes::outer_joined`].
-struct OnGuide<S> {
+/// The sum of the tangents of the wall contacts inside one span, over the guide's unknowns of both its ends: columns of the
+/// top end, then of the bottom end; rows as [`OnNodes::outer_joined`]. Summed before it is added to the nodes, since there
+/// are many per span.
+struct GuideSum<S> {
     span: usize,
     has_contacts: bool,
     columns: Aligned<[[S; NODE]; 12]>,
 }
 
-impl<S: Precision> OnGuide<S> {
+impl<S: Precision> GuideSum<S> {
     fn new() -> Self {
         Self {
             span: 0,
@@ -201,7 +205,7 @@ impl<S: Precision> OnGuide<S> {
     }
 
     #[inline(always)]
-    fn put<V: Vector>(&mut self, to: &mut Additions<S>) {
+    fn add_to_nodes<V: Vector>(&mut self, to: &mut Additions<S>) {
         if !self.has_contacts {
             return;
         }
@@ -234,23 +238,24 @@ impl<S: Precision> OnGuide<S> {
     }
 }
 
-/// Where a contact is.
-struct Place<'a, S> {
+/// A contact in its span.
+struct InSpan<'a, S> {
     /// Span.
     l: usize,
     /// Whether it is at its top or bottom end.
     at: [bool; 2],
-    /// What a local force puts on the nodes above and below.
+    /// The forces on the nodes above and below by a local force at the contact.
     rows: &'a [[[S; NODE]; 6]; 2],
 }
 
-/// The products of a contact on one node: their first factors and, to be read number by number, their second ones.
+/// The four products on by^T of a contact, on one node. `on` is kept in vectors, `by` in memory, since its numbers are
+/// read one at a time.
 struct Factors<L, S> {
     on: [L; 4],
     by: Aligned<[[S; NODE]; 4]>,
 }
 
-/// [`GapTangent`] on nodes, by what local forces put on them.
+/// [`GapTangent`] on nodes, `rows` being the forces on them by the six local ones.
 #[inline(always)]
 fn factors<V: Vector, S: Precision>(rows: &[[S; NODE]; 6], tangent: &GapTangent) -> Factors<S::Lanes<V>, S> {
     let of = |x: f64| S::Lanes::<V>::splat(S::of(x));
@@ -290,7 +295,7 @@ fn factors<V: Vector, S: Precision>(rows: &[[S; NODE]; 6], tangent: &GapTangent)
     }
 }
 
-impl<S: Precision> Place<'_, S> {
+impl<S: Precision> InSpan<'_, S> {
     /// [`GapTangent`] on a node.
     #[inline(always)]
     fn factors<V: Vector>(&self, end: usize, tangent: &GapTangent) -> Factors<S::Lanes<V>, S> {
@@ -306,7 +311,7 @@ impl<S: Precision> Place<'_, S> {
         } else {
             (6, Touching::Guide)
         };
-        // A station at a node moves with that node only.
+        // A station at a node moves with that node only, and is done here.
         for (end, columns) in [&TOP, &BOTTOM].into_iter().enumerate() {
             if self.at[end] {
                 let node = self.factors::<V>(end, tangent);

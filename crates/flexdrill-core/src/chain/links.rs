@@ -1,0 +1,96 @@
+//! The spans one by one: which matrices they share, where the pipe lies in them, what their weight does.
+
+use nalgebra::DVector;
+
+use super::ends;
+use super::nodes::Nodes;
+use super::slaving::{LinkMatrices, local_lateral};
+use crate::dynamics::state::Deflection;
+use crate::model::Model;
+use crate::simd::aligned::Aligned;
+
+/// A span.
+#[derive(Debug, Clone)]
+pub(super) struct Link {
+    /// Its matrices.
+    pub kind: usize,
+    /// Where the undeflected pipe lies at each station but the first: y, z (m).
+    pub offset: Aligned<[[f64; 8]; 2]>,
+    /// Squares of the inner clearance at those stations; beyond them what is never reached.
+    pub clearance_squared: Aligned<[f64; 8]>,
+    /// What the pipe's weight puts on its top end (N), along the axes of the link above.
+    pub weight_on_top: [f64; 3],
+    /// Lateral deflection of the inner stations under the weight of pipe and guide (m), as [`LinkMatrices::lateral`].
+    pub by_weight: Aligned<Deflection>,
+}
+
+/// The spans between `nodes`, whose matrices were `made` with them: like ones share theirs.
+pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (Vec<LinkMatrices>, Vec<Link>) {
+    let (mut kinds, mut links) = (Vec::<LinkMatrices>::new(), Vec::new());
+    for (l, made) in made.into_iter().enumerate() {
+        let (first, per) = (nodes.first(l), nodes.elements(l));
+        let kind = match kinds.iter().position(|kind| kind.is_close(&made)) {
+            Some(kind) => kind,
+            None => {
+                kinds.push(made);
+                kinds.len() - 1
+            }
+        };
+        let mut link = Link {
+            kind,
+            offset: Aligned([[0.0; 8]; 2]),
+            clearance_squared: Aligned([f64::MAX; 8]),
+            weight_on_top: [0.0; 3],
+            by_weight: Aligned([[0.0; 16]; 2]),
+        };
+        for i in 0..per {
+            let station = &model.stations[first + i + 1];
+            (link.offset[0][i], link.offset[1][i]) = (station.offset.x, station.offset.y);
+            link.clearance_squared[i] = station.inner_clearance * station.inner_clearance;
+        }
+        links.push(link);
+    }
+    (kinds, links)
+}
+
+/// Consistent forces of gravity in the chain's numbering.
+pub(super) fn weights(
+    model: &Model,
+    nodes: &Nodes,
+    kinds: &[LinkMatrices],
+    links: &mut [Link],
+    unknowns: usize,
+) -> Vec<f64> {
+    let mut out = vec![0.0; unknowns];
+    for (l, link) in links.iter_mut().enumerate() {
+        let (first, per) = (nodes.first(l), nodes.elements(l));
+        for body in 0..2 {
+            let mut weight = DVector::<f64>::zeros(6 * (per + 1));
+            for e in 0..per {
+                let element = if body == 0 {
+                    &model.pipe[first + e].weight
+                } else {
+                    &model.guide[first + e].weight
+                };
+                let mut part = weight.rows_mut(6 * e, 12);
+                part += element;
+            }
+            let kind = &kinds[link.kind];
+            let on_ends = kind.slaved[body].tr_mul(&weight);
+            let by_weight = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
+            for i in 1..per {
+                let at = local_lateral(model, first + i, body) * by_weight.rows(6 * (i - 1), 6);
+                (link.by_weight[body][i - 1], link.by_weight[body][8 + i - 1]) = (at[0], at[1]);
+            }
+            if body == 0 {
+                link.weight_on_top = [on_ends[0], on_ends[1], on_ends[2]];
+            }
+            let [top, bottom] = ends(l, body);
+            for i in 0..6 {
+                out[top + i] += on_ends[i];
+                out[bottom + i] += on_ends[6 + i];
+            }
+        }
+    }
+    out
+}
