@@ -1,0 +1,95 @@
+//! The tangent against the difference quotient of the residual.
+
+use super::*;
+
+/// The linear system that steps solve is the derivative of the residual that they judge by: the solution for a random
+/// right-hand side brings the residual's difference quotient back to it.
+fn check_derivative(tool: &ToolDescription) {
+    let model = Model::new(tool).unwrap();
+    let factors = Scheme::newmark(0.6).factors(5e-4);
+    let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.0, 1e4);
+    conditions.bit_torque = 90.0;
+    let instructions = Instructions::best();
+    let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
+    // No axial force: the tangent leaves geometric stiffness out.
+    let mut state = lively(&chain, 21);
+    clean(&chain, &mut state);
+    let mut room = Room::new(&model, instructions);
+    equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
+    assert!(room.interactions.inner.count() > 2, "no inner contact to test");
+    assert!(
+        tool.guide_fixed || room.interactions.outer.count() > 2,
+        "no outer contact to test"
+    );
+    let mut seed = 7;
+    let mut wanted: Vec<f64> = chain
+        .limits
+        .weights(Accuracy::Rest)
+        .iter()
+        .map(|weight| if *weight > 0.0 { random(&mut seed) } else { 0.0 })
+        .collect();
+    // The moments on rotations that follow from others are in balance whatever happens.
+    for (k, dependents) in chain.dependents.iter().enumerate() {
+        let slots = dependents.iter().map(|dependent| dependent.slot);
+        slots
+            .filter(|&slot| slot != FIRST_ROW)
+            .for_each(|slot| wanted[NODE * k + slot] = 0.0);
+    }
+    chain.residual.copy_from_slice(&wanted);
+    chain.prepare(&model, &conditions, factors);
+    equations(&model, &mut chain, &mut room)
+        .solve_in_double(&state, &conditions, factors)
+        .unwrap();
+    let solution = chain.correction.clone();
+    // The largest displacement moves by 1e-9 m: contact and stop laws are far from their ends, and forces of 1e6 N round
+    // to 1e-10 of them.
+    let by = 1e-9 / solution.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let mut residual = |by: f64| {
+        let mut moved = state.clone();
+        chain
+            .correction
+            .iter_mut()
+            .zip(&solution)
+            .for_each(|(to, x)| *to = by * x);
+        // New room each time, as the laws learn of friction from one correction to the next.
+        let mut room = Room::new(&model, instructions);
+        let mut newton = equations(&model, &mut chain, &mut room);
+        correct(&newton, &mut moved, factors);
+        newton.evaluate(&mut moved, &conditions, true);
+        chain.residual.clone()
+    };
+    let (high, low) = (residual(by), residual(-by));
+    let rounding = 1e6 * f64::EPSILON / by;
+    assert!(10.0 * rounding < 0.05, "the quotient must tell something");
+    for (unknown, wanted) in wanted.iter().enumerate() {
+        if chain.limits.weights(Accuracy::Rest)[unknown] > 0.0 {
+            let difference = (high[unknown] - low[unknown]) / (2.0 * by);
+            // The right-hand side is of order one; what the quotient rounds to is that of forces of 1e6 N over the step.
+            assert!(
+                (difference + wanted).abs() < 1e-4 + 10.0 * rounding,
+                "row {unknown}: {difference} against {}, rounding {rounding:e}",
+                -wanted
+            );
+        }
+    }
+}
+
+#[test]
+fn the_tangent_is_the_derivative_of_the_residual() {
+    for kind in [JointKind::Universal, JointKind::BallCage, JointKind::Revolute] {
+        let mut tool = small(6, 3);
+        tool.joint.kind = kind;
+        check_derivative(&tool);
+        tool.guide_fixed = true;
+        check_derivative(&tool);
+    }
+    let mut tool = small(6, 3);
+    tool.bit.inertia = 0.02;
+    tool.wob_path = WobPath::Shared;
+    tool.masses = vec![
+        mass(Location::Joint(1), Body::Pipe),
+        mass(Location::Station(1), Body::Pipe),
+        mass(Location::Station(4), Body::Guide),
+    ];
+    check_derivative(&tool);
+}

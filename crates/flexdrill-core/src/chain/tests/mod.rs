@@ -1,0 +1,175 @@
+//! The chain's equations are those of the whole tool seen through the slaving: residual, tangent and solution.
+
+mod against_stations;
+mod derivative;
+mod spans;
+mod windows;
+
+use nalgebra::{DMatrix, DVector, Matrix3};
+
+use crate::Instructions;
+use crate::chain::dependents::{FIRST_ROW, SECOND_ROW};
+use crate::chain::{Chain, ChainEquations, NODE, TIE};
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::energy::{EnergyPoint, JointForces};
+use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::interactions::Interactions;
+use crate::dynamics::newton::{Equations, Iteration, correct};
+use crate::dynamics::phases::Stopwatch;
+use crate::dynamics::scheme::Scheme;
+use crate::dynamics::state::State;
+use crate::dynamics::stations::Assembler;
+use crate::dynamics::tolerances::{Accuracy, Tolerances};
+use crate::elements::gap::Layer;
+use crate::elements::joint::Joint;
+use crate::model::Model;
+use crate::tool::description::LiveParameters;
+use crate::tool::{
+    Body, Direction, JointKind, LoadHistory, Location, PointLoad, PointMass, Support, ToolDescription, WobPath,
+};
+
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    (*seed >> 33) as f64 / f64::from(1_u32 << 31) * 2.0 - 1.0
+}
+
+fn small(links: usize, elements: usize) -> ToolDescription {
+    let mut tool = ToolDescription::paper().with_mesh(links, elements);
+    // A wide limit leaves some of the stops shut and some open.
+    tool.joint.limit = 0.26;
+    tool
+}
+
+/// Contacts that spans of a metre do not give way to.
+fn with_soft_contacts(mut tool: ToolDescription) -> ToolDescription {
+    (tool.inner.stiffness, tool.outer.stiffness) = (1e5, 2e5);
+    tool
+}
+
+fn mass(location: Location, body: Body) -> PointMass {
+    PointMass {
+        location,
+        body,
+        mass: 8.0,
+        axial_inertia: 0.05,
+        transverse_inertia: 0.03,
+        eccentricity: 0.02,
+        eccentricity_phase: 0.4,
+    }
+}
+
+fn load(location: Location, body: Body) -> PointLoad {
+    PointLoad {
+        location,
+        body,
+        direction: Direction::V,
+        history: LoadHistory::Constant(300.0),
+    }
+}
+
+/// Contact in both layers at about a third of the stations, inside spans too, at joints and at the first station.
+fn lively(chain: &Chain, seed: u64) -> State {
+    let mut seed = seed;
+    let mut state = chain.state();
+    for values in [&mut state.v, &mut state.a] {
+        values.iter_mut().for_each(|x| *x = random(&mut seed));
+    }
+    for node in state.q.chunks_exact_mut(NODE) {
+        let angle = 3.0 * random(&mut seed);
+        let active = if random(&mut seed) > 0.0 { 0.019 } else { 1e-4 };
+        (node[3], node[4], node[5]) = (1e-4 * random(&mut seed), active * angle.cos(), active * angle.sin());
+        let angle = 3.0 * random(&mut seed);
+        let active = if random(&mut seed) > 0.0 { 0.009 } else { 1e-4 };
+        (node[9], node[10], node[11]) = (1e-4 * random(&mut seed), active * angle.cos(), active * angle.sin());
+        // A twist that a joint carries: what is out of balance by more has multipliers that no motion has.
+        (node[0], node[12]) = (2.0 + 1e-3 * random(&mut seed), 5.0 * random(&mut seed));
+        // Near what the joint's row asks for.
+        node[6] = node[0] + 0.3 * random(&mut seed);
+        for k in [1, 2, 7, 8, 13, 14] {
+            node[k] = 0.05 * random(&mut seed);
+        }
+        node[TIE] = 1e-4 * random(&mut seed);
+    }
+    for (k, node) in chain.model.nodes.list.iter().enumerate() {
+        if node.joint.is_none() {
+            for values in [&mut state.q, &mut state.v, &mut state.a] {
+                values.copy_within(NODE * k..NODE * k + 3, NODE * k + 6);
+            }
+        }
+    }
+    state
+}
+
+/// The state with what is not in the equations at zero, as it is in motion.
+fn clean(chain: &Chain, state: &mut State) {
+    for (unknown, weight) in chain.limits.weights(Accuracy::Rest).iter().enumerate() {
+        let node = unknown / NODE * NODE;
+        if *weight == 0.0 && Some(unknown) != chain.model.places.driven {
+            (state.q[unknown], state.v[unknown], state.a[unknown]) = (0.0, 0.0, 0.0);
+        }
+        if chain.model.nodes.list[unknown / NODE].joint.is_none() {
+            for values in [&mut state.q, &mut state.v, &mut state.a] {
+                values.copy_within(node..node + 3, node + 6);
+            }
+        }
+    }
+}
+
+/// No force in any joint.
+fn no_forces(chain: &Chain) -> JointForces {
+    JointForces {
+        on_top: vec![[0.0; 3]; chain.spans()],
+        multipliers: vec![[0.0; 2]; chain.multipliers.len()],
+    }
+}
+
+/// What the chain's equations need apart from the chain.
+struct Room {
+    interactions: Interactions,
+    stopwatch: Stopwatch,
+}
+
+impl Room {
+    fn new(model: &Model, instructions: Instructions) -> Self {
+        Self {
+            interactions: Interactions::new(model, instructions),
+            stopwatch: Stopwatch::default(),
+        }
+    }
+}
+
+fn equations<'a>(model: &'a Model, chain: &'a mut Chain, room: &'a mut Room) -> ChainEquations<'a> {
+    ChainEquations {
+        model,
+        chain,
+        interactions: &mut room.interactions,
+        stopwatch: &mut room.stopwatch,
+    }
+}
+
+/// What the whole tool's unknowns are by each of the chain's and, in further columns, by the multiplier of each rotational
+/// row.
+fn slaving(chain: &Chain, model: &Model) -> DMatrix<f64> {
+    let n = chain.unknowns();
+    let rows = Joint::rotational_rows(model.description.joint.kind);
+    let mut out = DMatrix::zeros(model.unknowns(), n + rows * model.joints.len());
+    let (mut unit, mut full) = (chain.state(), State::at_rest(model));
+    for j in 0..n {
+        // Where the pipe passes a node in one piece, the rotations below are those above.
+        let one_piece = chain.model.nodes.list[j / NODE].joint.is_none();
+        let (above, below) = ((0..3).contains(&(j % NODE)), (6..9).contains(&(j % NODE)));
+        let with = if one_piece && above { j + 6 } else { j };
+        (unit.q[j], unit.q[with]) = (1.0, 1.0);
+        if !(one_piece && below) {
+            chain.show(model, &unit, &no_forces(chain), &mut full);
+            out.set_column(j, &DVector::from_column_slice(&full.q));
+        }
+        (unit.q[j], unit.q[with]) = (0.0, 0.0);
+    }
+    for joint in 0..model.joints.len() {
+        for row in 0..rows {
+            out[(model.multipliers(joint) + 3 + row, n + rows * joint + row)] = 1.0;
+        }
+    }
+    out
+}
