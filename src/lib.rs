@@ -25,7 +25,6 @@ pub mod cli;
 pub mod dashboard;
 pub mod dds;
 pub mod health;
-pub mod report;
 pub mod rig_inputs;
 pub mod ros;
 
@@ -33,3 +32,4 @@ pub use flexdrill_bag as bag;
 pub use flexdrill_field_log as field_log;
 pub use flexdrill_live as live;
 pub use flexdrill_messages as messages;
+pub use flexdrill_report as report;

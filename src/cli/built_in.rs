@@ -1,10 +1,10 @@
-//! Configurations that the program carries, so that every command works anywhere.
+//! Configurations compiled into the program, so that every command works without files.
 
 use std::path::Path;
 
 use flexdrill_config::{Config, ConfigError};
 
-/// A configuration of `config/` as it was when the program was built.
+/// A configuration of `config/`, as of the build.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum BuiltIn {
     /// The paper's case.
@@ -25,7 +25,7 @@ impl BuiltIn {
         }
     }
 
-    /// What errors and the node call it.
+    /// Its name in errors and in the node.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Default => "config/default.yaml (built in)",
@@ -42,7 +42,7 @@ impl BuiltIn {
         }
     }
 
-    /// The file that is given, else this one.
+    /// The configuration in `path`, or this one without a path.
     ///
     /// # Errors
     /// When the file cannot be read, or the configuration is refused.

@@ -1,4 +1,4 @@
-//! `flexdrill check CONFIG`: reads a configuration, says what it comes to or what is wrong with it.
+//! `flexdrill check CONFIG`: reads a configuration, and prints a summary or every problem in it.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ pub(super) struct CheckArgs {
     /// Print the complete configuration, defaults included, instead of the summary.
     #[arg(long)]
     full: bool,
-    /// Print the JSON Schema of all configurations, for editors, and check nothing.
+    /// Print the JSON Schema of configurations, for editors, and check no file.
     #[arg(long, conflicts_with_all = ["config", "full"])]
     schema: bool,
 }
@@ -75,7 +75,7 @@ impl fmt::Display for Summary<'_> {
         row(
             "clearance",
             format!(
-                "pipe-guide {:.2} mm (a link's chord takes up to {:.2} mm of it), guide-wall {:.2} mm",
+                "pipe-guide {:.2} mm (a link's chord uses up to {:.2} mm of it), guide-wall {:.2} mm",
                 config.inner_clearance() * 1e3,
                 config.chord_sagitta() * 1e3,
                 config.outer_clearance() * 1e3

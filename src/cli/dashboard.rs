@@ -1,4 +1,4 @@
-//! `flexdrill dashboard`: the page beside the rig.
+//! `flexdrill dashboard`: the rig page.
 
 mod browser;
 
@@ -15,10 +15,10 @@ use crate::dds::network::Network;
 use crate::ros::args::{NodeIdentity, RosArgs};
 use crate::ros::{DEFAULT_NODE_NAME, logging};
 
-/// Serve a page that shows a running twin, or a recording, in a browser; it may steer if asked to.
+/// Serve a page that shows a running twin or a recording in a browser; with --allow-control it also steers.
 #[derive(Debug, Args)]
 pub(super) struct DashboardArgs {
-    /// Where to listen. Beyond this machine, whoever reaches the address can look, and the token goes in the clear.
+    /// Address to listen at. At an address beyond this machine, any client can look, and the token is sent unencrypted.
     #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:8080")]
     listen: SocketAddr,
     /// Show this recording instead of a running twin: MCAP, SQLite or their folder.
@@ -33,14 +33,14 @@ pub(super) struct DashboardArgs {
     /// Name of the twin's node.
     #[arg(long, value_name = "NAME", default_value = DEFAULT_NODE_NAME)]
     node: String,
-    /// Let who shows the token steer, acknowledge and shelve alarms, pause and reset.
+    /// Let clients with the token steer, acknowledge and shelve alarms, pause and reset.
     #[arg(long)]
     allow_control: bool,
-    /// File with the token; without it a new one is made and printed.
+    /// File with the token; without it the program prints a new one.
     #[arg(long, value_name = "FILE", requires = "allow_control")]
     token_file: Option<PathBuf>,
-    /// Let a viewer from this page read the live data too, as https://viewer.example, or file:// for viewers that are opened
-    /// as files; pages of this machine and of Foxglove always may.
+    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file; pages
+    /// of this machine and of Foxglove are always admitted.
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
     /// Open the page in this machine's browser.
@@ -73,13 +73,13 @@ pub(super) fn run(args: &DashboardArgs) -> anyhow::Result<()> {
         origins: args.allow_origin.clone(),
         source,
     };
-    // The file that leads the browser to the page lasts as long as the page.
+    // The file that redirects the browser exists as long as the server runs.
     let redirect = OnceCell::new();
     let ready = |url: &str| {
         say!("dashboard at {url}");
         say!("live data for Foxglove at ws://{}/live; Ctrl-C ends it", host_of(url));
         if args.open {
-            // It is called once.
+            // `ready` is called once.
             let _ = redirect.set(browser::open(url));
         }
     };

@@ -1,8 +1,8 @@
-//! What somebody reads who starts flexdrill without arguments, or with a word that is no command.
+//! The texts for a start without arguments, or with an unknown command.
 
 use std::path::Path;
 
-/// Without arguments: what it is, and what to type.
+/// The text for a start without arguments.
 pub(super) const WELCOME: &str = "\
 flexdrill is the real-time digital twin of a flexible drilling tool, as a ROS 2 node. It reads the rig's rotary speed
 and weight on bit, solves the tool's motion in the well, and publishes bend of the joints, contact forces, the bit's
@@ -15,16 +15,16 @@ Begin with one of these:
   flexdrill watch                         see it in a second terminal
   flexdrill rig LOG.csv                   send a field log's speed and weight to it, in a third
   flexdrill replay LOG.csv --out RUN      run a field log or a bag through the model without waiting, into a bag
-  flexdrill report RUN --out DIR          make one page of a bag to send on
+  flexdrill report RUN --out DIR          make one page of a bag to pass on
 
   flexdrill check my_tool.yaml            is my configuration right?
   flexdrill verify                        is the model right? Closed-form cases, in a minute or two
 
-flexdrill --help lists all commands, flexdrill COMMAND --help says more of one.
+flexdrill --help lists all commands, flexdrill COMMAND --help describes one.
 ";
 
-/// Words that people type for a command that has another name here.
-const MEANT: [(&str, &[&str]); 11] = [
+/// Words of other programs for commands of this one.
+const SYNONYMS: [(&str, &[&str]); 11] = [
     ("run", &["start", "node", "launch", "twin", "serve", "simulate"]),
     ("run --record FILE.mcap", &["record", "rec", "log"]),
     ("rig LOG", &["play", "publish", "send", "feed"]),
@@ -38,12 +38,12 @@ const MEANT: [(&str, &[&str]); 11] = [
     ("--help", &["usage", "commands"]),
 ];
 
-/// Most letters to change, leave out, put in or swap in a word that is misspelt.
-const SLIPS: usize = 2;
+/// Largest edit distance of a misspelt word.
+const LARGEST_DISTANCE: usize = 2;
 
-/// What was probably meant by a first word that is none of the `commands`; `None` if nothing is near.
-pub(super) fn meant<'a>(word: &str, commands: impl Iterator<Item = &'a str>) -> Option<String> {
-    if let Some((command, _)) = MEANT.iter().find(|(_, words)| words.contains(&word)) {
+/// The command probably meant by a word that is none of the `commands`; `None` if no command is similar.
+pub(super) fn suggestion<'a>(word: &str, commands: impl Iterator<Item = &'a str>) -> Option<String> {
+    if let Some((command, _)) = SYNONYMS.iter().find(|(_, words)| words.contains(&word)) {
         return Some(format!("flexdrill {command}"));
     }
     let path = Path::new(word);
@@ -60,9 +60,9 @@ pub(super) fn meant<'a>(word: &str, commands: impl Iterator<Item = &'a str>) -> 
         }
         _ => {
             let near = |command: &'a str| (strsim::damerau_levenshtein(word, command), command);
-            let (slips, command) = commands.map(near).min()?;
-            // All letters of a short word changed is another word.
-            if slips > SLIPS || slips >= word.chars().count() {
+            let (distance, command) = commands.map(near).min()?;
+            // A short word with every letter changed is another word.
+            if distance > LARGEST_DISTANCE || distance >= word.chars().count() {
                 return None;
             }
             format!("flexdrill {command}")
@@ -74,28 +74,36 @@ pub(super) fn meant<'a>(word: &str, commands: impl Iterator<Item = &'a str>) -> 
 mod tests {
     const COMMANDS: [&str; 4] = ["run", "rig", "replay", "report"];
 
-    fn meant(word: &str) -> Option<String> {
-        super::meant(word, COMMANDS.into_iter())
+    fn suggested(word: &str) -> Option<String> {
+        super::suggestion(word, COMMANDS.into_iter())
     }
 
     #[test]
     fn a_file_or_another_programs_word_finds_its_command() {
-        assert_eq!(meant("start").unwrap(), "flexdrill run");
-        assert_eq!(meant("validate").unwrap(), "flexdrill check CONFIG");
-        assert!(meant("my_tool.yaml").unwrap().contains("run --config my_tool.yaml"));
-        assert!(meant("night.mcap").unwrap().starts_with("flexdrill report night.mcap"));
+        assert_eq!(suggested("start").unwrap(), "flexdrill run");
+        assert_eq!(suggested("validate").unwrap(), "flexdrill check CONFIG");
+        assert!(suggested("my_tool.yaml").unwrap().contains("run --config my_tool.yaml"));
+        assert!(
+            suggested("night.mcap")
+                .unwrap()
+                .starts_with("flexdrill report night.mcap")
+        );
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("metadata.yaml"), "").unwrap();
-        assert!(meant(&folder.path().display().to_string()).unwrap().contains("report"));
+        assert!(
+            suggested(&folder.path().display().to_string())
+                .unwrap()
+                .contains("report")
+        );
         for (word, command) in [
             ("rnu", "run"),
             ("reprot", "report"),
             ("replya", "replay"),
             ("rgi", "rig"),
         ] {
-            assert_eq!(meant(word).unwrap(), format!("flexdrill {command}"));
+            assert_eq!(suggested(word).unwrap(), format!("flexdrill {command}"));
         }
-        assert_eq!(meant("xyz"), None);
-        assert_eq!(meant("q"), None);
+        assert_eq!(suggested("xyz"), None);
+        assert_eq!(suggested("q"), None);
     }
 }

@@ -59,7 +59,7 @@ enum Command {
     Reference(reference::ReferenceArgs),
 }
 
-/// The command line cannot be used as it is: exit code 2.
+/// The command line is wrong: exit code 2.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 struct WrongUse(String);
@@ -73,15 +73,16 @@ impl WrongUse {
 const WRONG_USE: u8 = 2;
 const FAILED: u8 = 1;
 
-/// Says what is wrong with the command line, or what was asked for (`--help`), with the command that was probably meant,
-/// and ends the program.
+/// Prints what is wrong with the command line and the command probably meant, or the help requested, and ends the
+/// program.
 fn wrong_use(error: &clap::Error, arguments: &[OsString]) -> ! {
     if error.kind() == ErrorKind::InvalidSubcommand
         && let Some(word) = arguments.get(1).map(|word| word.to_string_lossy())
-        && let Some(command) = first_start::meant(&word, Cli::command().get_subcommands().map(clap::Command::get_name))
+        && let Some(command) =
+            first_start::suggestion(&word, Cli::command().get_subcommands().map(clap::Command::get_name))
     {
         tell!(
-            "error: '{}' is no command of flexdrill\n\n  try: {}\n",
+            "error: flexdrill has no command '{}'\n\n  try: {}\n",
             printable(&word),
             printable(&command)
         );
@@ -89,7 +90,7 @@ fn wrong_use(error: &clap::Error, arguments: &[OsString]) -> ! {
         std::process::exit(i32::from(WRONG_USE));
     }
     let printed = error.print();
-    // What was asked for, such as --help, is a result: where it cannot be printed, the command has failed.
+    // The output of --help is a result: if it cannot be printed, the command has failed.
     if !error.use_stderr()
         && let Err(why) = output::judge(printed.err().or_else(output::closed))
     {
@@ -99,17 +100,17 @@ fn wrong_use(error: &clap::Error, arguments: &[OsString]) -> ! {
     std::process::exit(error.exit_code());
 }
 
-/// What is wrong with a command line.
+/// Why a command line is wrong.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Misunderstood {
-    /// It only ends too early, as one that is quoted in part.
+    /// Whether it only ends too early, as a quotation of its beginning does.
     pub incomplete: bool,
-    /// The words that a user would read.
+    /// The text for the user.
     pub text: String,
 }
 
-/// The arguments outside and inside of `--ros-args`. With ROS 2 arguments and without a subcommand, as `ros2 run` and
-/// `ros2 launch` start a program, it is `run`.
+/// The arguments outside and inside `--ros-args`. With ROS 2 arguments and no subcommand, as `ros2 run` and `ros2 launch`
+/// start a program, the subcommand is `run`.
 fn split(given: Vec<OsString>) -> (Vec<OsString>, Vec<OsString>) {
     let is_ros = given.iter().any(|argument| argument == "--ros-args");
     let (mut arguments, ros_args) = args::split(given);
@@ -124,13 +125,13 @@ fn split(given: Vec<OsString>) -> (Vec<OsString>, Vec<OsString>) {
     (arguments, ros_args)
 }
 
-/// Whether a command line, the program's name first, can be understood; nothing is run.
+/// Parses a command line, which begins with the program's name, and runs nothing.
 ///
 /// # Errors
-/// What is wrong with it.
+/// Why it is wrong.
 pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), Misunderstood> {
     let (arguments, ros_args) = split(arguments.into_iter().map(OsString::from).collect());
-    // They were text before.
+    // The words come from text, so nothing is lost.
     let ros_args: Vec<String> = ros_args
         .iter()
         .map(|word| word.to_string_lossy().into_owned())
@@ -138,7 +139,7 @@ pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), Mis
     match Cli::try_parse_from(arguments) {
         Err(error) if error.use_stderr() => {
             let ends_early = [ErrorKind::MissingRequiredArgument, ErrorKind::MissingSubcommand];
-            // An option at the end, without the value that it takes.
+            // The line ends with an option that needs a value.
             let no_value = error.kind() == ErrorKind::InvalidValue
                 && matches!(error.get(ContextKind::InvalidValue), Some(ContextValue::String(value)) if value.is_empty());
             return Err(Misunderstood {
@@ -155,7 +156,7 @@ pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), Mis
     })
 }
 
-/// What follows `--ros-args`, which names nodes, topics and files of ROS 2 and is text.
+/// The arguments after `--ros-args` as text.
 fn as_text(arguments: Vec<OsString>) -> Result<Vec<String>, WrongUse> {
     let text = |argument: OsString| {
         argument.into_string().map_err(|argument| {
@@ -166,8 +167,8 @@ fn as_text(arguments: Vec<OsString>) -> Result<Vec<String>, WrongUse> {
     arguments.into_iter().map(text).collect()
 }
 
-/// An error and its causes in one line. A cause that the text before it has already is left out.
-fn in_words(error: &anyhow::Error) -> String {
+/// An error and its causes in one line. A cause that the text before it contains is omitted.
+fn one_line(error: &anyhow::Error) -> String {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {
         if text.is_empty() {
@@ -179,13 +180,13 @@ fn in_words(error: &anyhow::Error) -> String {
     text
 }
 
-/// Parses the command line, runs the subcommand, reports a failure on standard error. `no_output` says that the program
+/// Parses the command line, runs the subcommand, reports a failure on standard error. `no_output` states that the program
 /// was started without a standard output.
 pub fn main(no_output: bool) -> ExitCode {
     if no_output {
         output::close();
     }
-    // The node's own child, not a subcommand for people.
+    // The node starts itself with this hidden subcommand as its DDS process.
     if std::env::args_os()
         .nth(1)
         .is_some_and(|first| first == side::SUBCOMMAND)
@@ -199,7 +200,7 @@ pub fn main(no_output: bool) -> ExitCode {
     }
     let cli = Cli::try_parse_from(&arguments).unwrap_or_else(|error| wrong_use(&error, &arguments));
     if let Err(error) = signals::outlive_file_size_limit() {
-        tell!("warning: a limit of the file size will end the program: {error}");
+        tell!("warning: the program ends when a file reaches the size limit (ulimit -f): {error}");
     }
     let result = as_text(ros_args)
         .map_err(anyhow::Error::from)
@@ -207,7 +208,7 @@ pub fn main(no_output: bool) -> ExitCode {
     match result.and_then(|()| Ok(output::end()?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            tell!("error: {}", printable_lines(&in_words(&error)));
+            tell!("error: {}", printable_lines(&one_line(&error)));
             ExitCode::from(if error.is::<WrongUse>() { WRONG_USE } else { FAILED })
         }
     }
@@ -217,7 +218,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
     match command {
         Command::Run(args) => run::run(&args, ros_args),
         Command::Rig(args) => rig::run(&args, ros_args),
-        _ if !ros_args.is_empty() => Err(WrongUse::new("only `run` and `rig` take --ros-args").into()),
+        _ if !ros_args.is_empty() => Err(WrongUse::new("only `run` and `rig` accept --ros-args").into()),
         Command::Replay(args) => replay::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
@@ -244,12 +245,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_error_that_shows_its_cause_is_not_followed_by_it() {
+    fn a_cause_is_printed_once() {
         let missing = || std::io::Error::from_raw_os_error(2);
         let shown = output::NotPrinted(missing());
-        assert_eq!(in_words(&shown.into()).matches("No such file").count(), 1);
+        assert_eq!(one_line(&shown.into()).matches("No such file").count(), 1);
         let context = anyhow::Error::from(missing()).context("log.csv");
-        assert_eq!(in_words(&context), format!("log.csv: {}", missing()));
+        assert_eq!(one_line(&context), format!("log.csv: {}", missing()));
     }
 
     fn split_line(line: &str) -> (Vec<OsString>, Vec<OsString>) {

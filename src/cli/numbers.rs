@@ -1,6 +1,6 @@
-//! Numbers on the command line. What is no number that could be meant is refused in words, before anything is opened.
+//! Numbers on the command line, checked before any file is opened.
 
-/// A number that cannot be used.
+/// A number outside its bounds.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
 #[error("use a number from {low} to {high}{}{unit}", if unit.is_empty() { "" } else { " " })]
 pub(super) struct NumberError {
@@ -9,11 +9,11 @@ pub(super) struct NumberError {
     unit: &'static str,
 }
 
-/// Nearer to 0 than this is a slip of the pen, and not a small number.
+/// A number closer to 0 than this, yet not 0, is a typing error.
 const LEAST: f64 = 1e-9;
 
 fn number(text: &str, low: f64, high: f64, unit: &'static str) -> Result<f64, NumberError> {
-    // Neither comparison holds of NaN.
+    // NaN fails both comparisons.
     match text.trim().parse::<f64>() {
         Ok(value) if value >= low && value <= high && (value == 0.0 || value.abs() >= LEAST) => Ok(value),
         _ => Err(NumberError {
@@ -24,7 +24,7 @@ fn number(text: &str, low: f64, high: f64, unit: &'static str) -> Result<f64, Nu
     }
 }
 
-/// A time that something lasts (s): a millisecond to some months.
+/// A duration (s): a millisecond to some months.
 pub(super) fn seconds(text: &str) -> Result<f64, NumberError> {
     number(text, 1e-3, 1e7, "s")
 }
@@ -34,12 +34,12 @@ pub(super) fn time_step(text: &str) -> Result<f64, NumberError> {
     number(text, 1e-7, 1.0, "s")
 }
 
-/// A rotary speed (r/min), within what a configuration takes.
+/// A rotary speed (r/min), within the bounds of a configuration.
 pub(super) fn rpm(text: &str) -> Result<f64, NumberError> {
     number(text, -5000.0, 5000.0, "r/min")
 }
 
-/// A weight on bit (kN), within what a configuration takes.
+/// A weight on bit (kN), within the bounds of a configuration.
 pub(super) fn kilonewton(text: &str) -> Result<f64, NumberError> {
     number(text, 0.0, 2000.0, "kN")
 }
@@ -49,12 +49,12 @@ pub(super) fn turns(text: &str) -> Result<f64, NumberError> {
     number(text, 0.01, 10_000.0, "turns")
 }
 
-/// How many times faster than real time.
+/// A speed relative to real time.
 pub(super) fn rate(text: &str) -> Result<f64, NumberError> {
     number(text, 1e-3, 1e3, "times real time")
 }
 
-/// How many of something: what a machine can hold.
+/// A count, bounded by what a machine can hold.
 pub(super) fn count() -> clap::builder::RangedU64ValueParser<usize> {
     clap::builder::RangedU64ValueParser::<usize>::new().range(0..=1_000_000)
 }
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_cannot_be_meant_is_refused_with_the_bounds() {
+    fn implausible_numbers_are_refused_with_the_bounds() {
         type Parser = fn(&str) -> Result<f64, NumberError>;
         let parsers: [Parser; 6] = [seconds, time_step, rpm, kilonewton, turns, rate];
         for parse in parsers {

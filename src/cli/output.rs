@@ -1,7 +1,7 @@
-//! What is printed. Standard output may be full or closed, and so may standard error: that ends no run.
+//! Standard output and standard error. Either may be full or closed without ending a run.
 //!
-//! The first error of standard output is kept, and what comes after it is left out. [`end`] returns it, so that a command
-//! does not succeed whose result was not printed. Where the reader has gone (`| head`), it wanted no more.
+//! After the first error of standard output nothing more is printed, and [`end`] returns that error, so that a command
+//! whose result was not printed fails. A reader that has closed the pipe (`| head`) is not an error.
 
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write as _};
@@ -37,19 +37,19 @@ pub(super) use {say, say_text, tell, tell_text};
 pub(super) fn print(text: Arguments<'_>) {
     let mut failed = FAILED.lock().unwrap_or_else(PoisonError::into_inner);
     if failed.is_none() {
-        // A line that fails to be formatted is an error of the formatter too; there is none such here.
+        // `write_fmt` also reports errors of formatting, which does not occur here.
         *failed = io::stdout().lock().write_fmt(text).err();
     }
 }
 
-/// Writes to standard error. Where that fails there is nobody left to tell.
+/// Writes to standard error. A failure is ignored, as there is no other place to report it.
 pub(super) fn print_error(text: Arguments<'_>) {
     let _ = io::stderr().lock().write_fmt(text);
 }
 
-/// Why standard output does not have all that was printed.
+/// An error of standard output.
 #[derive(Debug, thiserror::Error)]
-#[error("standard output does not take what is printed: {0}; what is missing there was not written")]
+#[error("cannot write to standard output: {0}; the rest of the output is lost")]
 pub(super) struct NotPrinted(#[source] pub(super) io::Error);
 
 /// Error number of a file descriptor that is not open (EBADF).
@@ -58,32 +58,31 @@ const NOT_OPEN: i32 = 9;
 /// The error of a standard output that was not open at the start.
 static CLOSED: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
 
-/// To be called where standard output was not open when the program started. Rust's runtime opens /dev/null in its place,
-/// which takes everything.
+/// Marks standard output as closed. Rust's runtime has opened /dev/null in its place, which accepts everything.
 pub(super) fn close() {
     CLOSED.store(true, std::sync::atomic::Ordering::Relaxed);
     *FAILED.lock().unwrap_or_else(PoisonError::into_inner) = closed();
 }
 
-/// Why standard output takes nothing, where it was not open at the start.
+/// The error of a standard output that was closed at the start.
 pub(super) fn closed() -> Option<io::Error> {
     let closed = CLOSED.load(std::sync::atomic::Ordering::Relaxed);
     closed.then(|| io::Error::from_raw_os_error(NOT_OPEN))
 }
 
-/// Whether all was printed.
+/// Flushes standard output.
 ///
 /// # Errors
-/// When standard output did not take it and its reader was still there.
+/// When some output could not be written, unless its reader has closed the pipe.
 pub(super) fn end() -> Result<(), NotPrinted> {
     let mut failed = FAILED.lock().unwrap_or_else(PoisonError::into_inner);
     judge(failed.take().or_else(|| io::stdout().lock().flush().err()))
 }
 
-/// Whether an error of standard output is a failure.
+/// Ignores the error of a reader that has closed the pipe.
 ///
 /// # Errors
-/// When it is one, and not that of a reader that has gone.
+/// Every other error.
 pub(super) fn judge(error: Option<io::Error>) -> Result<(), NotPrinted> {
     match error {
         Some(error) if error.kind() != ErrorKind::BrokenPipe => Err(NotPrinted(error)),
@@ -91,7 +90,7 @@ pub(super) fn judge(error: Option<io::Error>) -> Result<(), NotPrinted> {
     }
 }
 
-/// Whether standard output takes nothing more.
+/// Whether standard output has failed.
 pub(super) fn has_failed() -> bool {
     FAILED.lock().unwrap_or_else(PoisonError::into_inner).is_some()
 }

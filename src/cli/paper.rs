@@ -19,7 +19,7 @@ use flexdrill_paper::{
 /// Runs the paper's case and writes its figures 9 to 17 (SVG, PNG, CSV), findings and a report.
 #[derive(Debug, Args)]
 pub struct PaperArgs {
-    /// Folder for the results; made if it is not there.
+    /// Folder for the results, created if necessary.
     #[arg(long)]
     out: PathBuf,
     /// The tool [default: config/paper.yaml, built in, the parameter set that agrees best].
@@ -40,10 +40,10 @@ pub struct PaperArgs {
     /// Values to change, as KEY=VALUE with the key's dotted path (may be given more than once).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Leave out the second run at half the step, which shows the step's error.
+    /// Omit the second run at half the step, which shows the step's error.
     #[arg(long)]
     no_step_check: bool,
-    /// Look for parameter sets instead: writes search.csv, a line per trial.
+    /// Search for parameter sets instead; writes search.csv with a line per trial.
     #[arg(long)]
     search: bool,
     #[command(flatten)]
@@ -56,13 +56,13 @@ struct PlanArgs {
     /// Mesh of the Latin hypercube [default: config/coarse.yaml, built in].
     #[arg(long, requires = "search")]
     coarse: Option<PathBuf>,
-    /// Mesh of all else [default: config/default.yaml, built in].
+    /// Mesh of all other stages [default: config/default.yaml, built in].
     #[arg(long, requires = "search")]
     full: Option<PathBuf>,
     /// Points of the Latin hypercube.
     #[arg(long, default_value_t = 60, requires = "search", value_parser = numbers::count())]
     points: usize,
-    /// Descents (evolution strategy) from the best trials that lie apart.
+    /// Descents (evolution strategy) from the best trials that are far apart.
     #[arg(long, default_value_t = 2, requires = "search", value_parser = numbers::count())]
     descents: usize,
     /// Generations of each descent.
@@ -85,10 +85,14 @@ const SEARCH_TURNS: f64 = 4.0;
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When a configuration is refused, a run fails or its energy audit does, or a file cannot be written.
+/// When a configuration is refused, a run or its energy audit fails, or a file cannot be written.
 pub fn run(args: &PaperArgs) -> anyhow::Result<()> {
-    std::fs::create_dir_all(&args.out).with_context(|| format!("cannot make {}", args.out.display()))?;
-    if args.search { look_for(args) } else { draw(args) }
+    std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
+    if args.search {
+        search_parameters(args)
+    } else {
+        draw(args)
+    }
 }
 
 fn case(args: &PaperArgs) -> anyhow::Result<Case> {
@@ -101,7 +105,7 @@ fn case(args: &PaperArgs) -> anyhow::Result<Case> {
         let (key, value) = change
             .split_once('=')
             .ok_or_else(|| super::WrongUse::new(format!("--set {change}: expected KEY=VALUE")))?;
-        // A whole number stays one: `tool.links` takes no other.
+        // A whole number stays whole, as `tool.links` requires.
         let whole = value.parse::<i64>().map(serde_json::Value::from);
         let number = || value.parse::<f64>().map(serde_json::Value::from);
         let value = whole.or_else(|_| number()).unwrap_or_else(|_| value.into());
@@ -174,7 +178,7 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
+fn search_parameters(args: &PaperArgs) -> anyhow::Result<()> {
     let plan = Plan {
         coarse: BuiltIn::Coarse.or_file(args.plan.coarse.as_deref())?,
         full: BuiltIn::Default.or_file(args.plan.full.as_deref())?,
@@ -198,7 +202,7 @@ fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
     };
     let trials = search::run(&plan, known, |trial| -> anyhow::Result<()> {
         table.write_record(trial.csv())?;
-        // A long search that is stopped keeps what it has.
+        // A long search that is stopped keeps the trials so far.
         table.flush()?;
         progress.at((trial.index + 1) as f64);
         Ok(())
@@ -214,14 +218,14 @@ fn look_for(args: &PaperArgs) -> anyhow::Result<()> {
             let name = "best.yaml";
             let config = trial.config(&plan.full)?;
             write_text(Path::new(&args.out), name, &config.to_yaml()?)?;
-            say!("written: {}", args.out.join(name).display());
+            say!("wrote {}", args.out.join(name).display());
         }
     }
     say!("{} trials: {}", trials.len(), path.display());
     Ok(())
 }
 
-/// Lines of the table that a stopped search left, if there is one.
+/// Lines of the table of a search that was stopped, if there is one.
 fn earlier_lines(path: &Path) -> anyhow::Result<Vec<Vec<String>>> {
     if !path.exists() {
         return Ok(Vec::new());

@@ -1,4 +1,4 @@
-//! A progress bar on a terminal, a line now and then elsewhere.
+//! A progress bar on a terminal; elsewhere a line at intervals.
 
 use crate::cli::output::tell;
 use std::io::IsTerminal;
@@ -6,24 +6,25 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Time between two lines where there is no terminal.
+/// Time between two lines without a terminal.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
-/// What is counted.
+/// The unit of the progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Of {
-    /// s of model time.
+enum Unit {
+    /// Seconds of model time.
     ModelTime,
-    Things,
-    /// 0 to 1.
+    /// A number of items.
+    Items,
+    /// A share, 0 to 1.
     Share,
 }
 
-/// Progress of model time towards an end (s).
+/// Progress of a command, towards an end.
 pub(super) struct Progress {
     bar: Option<ProgressBar>,
     end: f64,
-    of: Of,
+    unit: Unit,
     began: Instant,
     printed: Instant,
 }
@@ -33,7 +34,7 @@ impl Progress {
     pub(super) fn new(end: f64) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new((end * 1e3) as u64);
-            // The template is a constant; were it wrong, the plain bar would do.
+            // The template is a constant; if it were wrong, the default style would remain.
             if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  {eta} left") {
                 bar.set_style(style);
             }
@@ -43,33 +44,33 @@ impl Progress {
         Self {
             bar,
             end,
-            of: Of::ModelTime,
+            unit: Unit::ModelTime,
             began: now,
             printed: now,
         }
     }
 
-    /// A bar of how much is done (0 to 1).
+    /// A bar for a share (0 to 1).
     pub(super) fn share() -> Self {
         Self {
-            of: Of::Share,
+            unit: Unit::Share,
             ..Self::new(1.0)
         }
     }
 
-    /// A bar up to a number of things.
+    /// A bar for a number of items.
     pub(super) fn counted(end: f64) -> Self {
         Self {
-            of: Of::Things,
+            unit: Unit::Items,
             ..Self::new(end)
         }
     }
 
-    /// The model is at `time` (s).
+    /// Sets the progress, in its unit.
     pub(super) fn at(&mut self, time: f64) {
         let wall = self.began.elapsed().as_secs_f64();
         let speed = if wall > 0.0 { time / wall } else { 0.0 };
-        if self.of == Of::Share {
+        if self.unit == Unit::Share {
             if let Some(bar) = &self.bar {
                 bar.set_position((time * 1e3) as u64);
             } else if self.printed.elapsed() >= LINE_EVERY {
@@ -78,7 +79,7 @@ impl Progress {
             }
             return;
         }
-        if self.of == Of::Things {
+        if self.unit == Unit::Items {
             if let Some(bar) = &self.bar {
                 bar.set_position((time * 1e3) as u64);
                 bar.set_message(format!("{time} of {}", self.end));
@@ -101,7 +102,7 @@ impl Progress {
         self.began.elapsed().as_secs_f64()
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(super) fn done(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

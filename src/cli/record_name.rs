@@ -1,12 +1,12 @@
-//! The name of a recording, with the time of the start where it asks for that: a supervisor starts the same command
-//! again, and no recording is overwritten.
+//! The name of a recording, which may contain the time of the start, so that a supervisor can run the same command again
+//! without overwriting a recording.
 
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use flexdrill_text::compact_date_time;
 
-/// What stands for the time of the start.
+/// The placeholder for the time of the start.
 const START: &str = "{start}";
 
 /// The path with every `{start}` replaced by the time `now`, UTC, such as `20261122T011019Z`.
@@ -25,7 +25,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn the_start_stands_in_the_name_where_it_is_asked_for() {
+    fn the_placeholder_becomes_the_time_of_the_start() {
         let now = UNIX_EPOCH + Duration::from_secs(1_700_000_000);
         let named = |path: &str| at_start(Path::new(path), now);
         assert_eq!(named("/var/run_{start}"), Path::new("/var/run_20231114T221320Z"));

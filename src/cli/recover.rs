@@ -1,4 +1,4 @@
-//! `flexdrill recover IN --out OUT`: makes a whole bag of what a stopped recording left.
+//! `flexdrill recover IN --out OUT`: writes a complete bag from an interrupted recording.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use crate::bag;
 use crate::cli::output::{say, tell};
 use flexdrill_text::printable;
 
-/// Make a whole bag of one that was cut short or damaged.
+/// Write a complete bag from one that was cut short or damaged.
 #[derive(Debug, clap::Args)]
 pub struct RecoverArgs {
     /// Bag: an .mcap or .db3 file, or a folder with such files.
@@ -19,10 +19,10 @@ pub struct RecoverArgs {
     out: PathBuf,
 }
 
-/// Runs it: a table of topics and messages on standard output, what was lost on standard error.
+/// Prints a table of topics and messages on standard output, and the losses on standard error.
 ///
 /// # Errors
-/// When the input is not a bag, nothing can be read of it, or the output cannot be written.
+/// When the input is not a bag, has no readable message, or the output cannot be written.
 pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
     let bar = ProgressBar::new(0).with_style(
         ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} messages {eta}")
@@ -43,7 +43,7 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
         tell!("left out: {}", printable(&damage.to_string()));
     }
     for gap in &recovered.gaps {
-        tell!("lost while it was recorded: {gap}");
+        tell!("lost during the recording: {gap}");
     }
     for (topic, count) in recovered.topics.iter().zip(&recovered.recording.per_topic) {
         say!(
@@ -58,7 +58,7 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
         recovered.recording.path.display()
     );
     if recovered.recording.messages == 0 {
-        anyhow::bail!("{} holds no message that can be read", args.input.display());
+        anyhow::bail!("{} has no readable message", args.input.display());
     }
     Ok(())
 }

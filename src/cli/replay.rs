@@ -1,4 +1,4 @@
-//! `flexdrill replay`: a bag or a field log through the model as fast as it goes.
+//! `flexdrill replay`: runs a bag or a field log through the model as fast as possible.
 
 mod alarms;
 mod incidents;
@@ -23,11 +23,11 @@ use crate::cli::output::{say, say_text, tell};
 use crate::messages::topics;
 use flexdrill_text::printable;
 
-/// Run a bag or a field log through the model as fast as it goes, into a bag.
+/// Run a bag or a field log through the model as fast as possible, into a bag.
 ///
-/// One of our recordings is replayed with its own configuration and applied inputs: the outputs are the same to the
-/// bit. A bag that others made of the twin (ros2 bag record -a) is replayed from where it begins, and what is not exact
-/// then is said. From other bags and from field logs the inputs are taken.
+/// A recording of flexdrill is replayed with its own configuration and applied inputs: the outputs are the same to the
+/// bit. A bag of the twin that another program recorded (ros2 bag record -a) is replayed from its beginning, and the
+/// command states what is not exact. Of other bags and of field logs, the rig's inputs are used.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
     /// Bag (MCAP, SQLite or their folder) or field log (CSV).
@@ -35,18 +35,18 @@ pub(super) struct ReplayArgs {
     /// Bag to write: FILE.mcap or a folder.
     #[arg(long, value_name = "OUT", required_unless_present = "foxglove")]
     out: Option<PathBuf>,
-    /// Show a recording as it is to Foxglove and Lichtblick, which play, pause and jump; 127.0.0.1:8765 is their default. With
-    /// --out, what was written there.
+    /// Show a recording unchanged in Foxglove and Lichtblick, which play, pause and seek; 127.0.0.1:8765 is their default.
+    /// With --out, show the new bag.
     #[arg(long, value_name = "ADDRESS:PORT")]
     foxglove: Option<SocketAddr>,
-    /// Let a viewer from this page in too, as https://viewer.example, or file:// for viewers that are opened as files; pages
-    /// of this machine and of Foxglove always may.
+    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file; pages
+    /// of this machine and of Foxglove are always admitted.
     #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
     allow_origin: Vec<String>,
-    /// Configuration, where the input does not bring its own; without it the paper's case, built in.
+    /// Configuration, if the input has none of its own; default: the paper's case, built in.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// At most so much model time (s).
+    /// Longest model time (s).
     #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
     /// Also write the incidents (whirl, stick-slip, shock) as JSON.
@@ -63,21 +63,22 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         replay(args, out)?;
     }
     let Some(address) = args.foxglove else { return Ok(()) };
-    let shown = args.out.as_deref().unwrap_or(&args.input);
-    if !source::is_bag(shown)? {
+    let recording = args.out.as_deref().unwrap_or(&args.input);
+    if !source::is_bag(recording)? {
         return Err(WrongUse::new(format!(
-            "{}: --foxglove shows a recording; with --out FILE.mcap this log is replayed into one first",
-            shown.display()
+            "{}: --foxglove needs a recording; add --out FILE.mcap to replay this log into one first",
+            recording.display()
         ))
         .into());
     }
-    show::show(shown, address, &args.allow_origin)
+    show::show(recording, address, &args.allow_origin)
 }
 
 fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     if source::is_bag(&args.input)? && recording::is_ours(&bag::open(&args.input)?) {
         if args.config.is_some() || args.source.is_given() {
-            return Err(WrongUse::new("a recording of flexdrill brings its own configuration and inputs: leave out --config, --from, --to and --mapping, or use another bag").into());
+            return Err(WrongUse::new("a recording of flexdrill has its own configuration and inputs: omit --config, --from, --to and --mapping, or use \
+                 another bag").into());
         }
         let script = recording::Script::read(&args.input)?;
         let exactness = script.exactness();
@@ -90,7 +91,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
         let done = if script.is_empty() {
             let samples = args.source.read(&args.input).with_context(|| {
                 format!(
-                    "{}: nothing in it says what drove the model, neither {} nor the rig's inputs",
+                    "{}: it does not record what drove the model, neither {} nor the rig's inputs",
                     args.input.display(),
                     topics::APPLIED_INPUTS.name
                 )
@@ -101,7 +102,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
         };
         finish(done, args.incidents.as_deref())?;
         match exactness.departures.as_slice() {
-            [] => say!("  exact: nothing of what drove the model is missing in the recording"),
+            [] => say!("  exact: the recording has everything that drove the model"),
             departures => say!("  not exact: {}", printable(&departures.join("; "))),
         }
         return Ok(());
@@ -113,7 +114,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     finish(done, args.incidents.as_deref())
 }
 
-/// Ends the bag, says what the replay came to, and writes the incidents to `json`.
+/// Ends the bag, prints the summary of the replay, and writes the incidents to `json`.
 fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow::Result<()> {
     progress.done();
     let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);

@@ -1,4 +1,4 @@
-//! `flexdrill rig`: plays a log into the twin as a rig would.
+//! `flexdrill rig`: publishes a log's inputs in real time, as a rig does.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -16,9 +16,9 @@ use flexdrill_core::inputs::InputKind;
 
 /// Time between two lines of progress.
 const REPORT_INTERVAL: Duration = Duration::from_secs(5);
-/// A sample is never followed by the next within less than this: what is overdue is left out, not sent in a burst.
+/// Shortest time between two samples: overdue samples are left out instead of sent in a burst.
 const LEAST_GAP: Duration = Duration::from_millis(2);
-/// Time for discovery before the first sample.
+/// Time for discovery before the first sample, and for delivery after the last.
 const DISCOVERY: Duration = Duration::from_millis(300);
 
 /// Publish a field log's or a bag's inputs in real time.
@@ -26,13 +26,13 @@ const DISCOVERY: Duration = Duration::from_millis(300);
 pub(super) struct RigArgs {
     /// Field log (CSV) or bag (MCAP, SQLite or their folder).
     log: PathBuf,
-    /// Speed: 2 plays twice as fast.
+    /// Speed relative to real time; 2 plays twice as fast.
     #[arg(long, default_value_t = 1.0, value_parser = numbers::rate)]
     rate: f64,
-    /// Begin again at the end.
+    /// Restart at the end of the log.
     #[arg(long = "loop")]
     again: bool,
-    /// DDS domain, 0 to 232; wins over ROS_DOMAIN_ID.
+    /// DDS domain, 0 to 232; overrides ROS_DOMAIN_ID.
     #[arg(long, value_name = "ID")]
     domain: Option<u16>,
     /// Namespace of the node and its topics.
@@ -89,7 +89,7 @@ async fn play(node: &RigNode, samples: &[Sample], rate: f64, again: bool) {
         if !again {
             return;
         }
-        say!("from the beginning again");
+        say!("restarted from the beginning");
     }
 }
 
@@ -106,11 +106,11 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
         let due = Duration::from_secs_f64(at(sample) / rate);
         tokio::time::sleep_until((began + due).into()).await;
         let now = began.elapsed().as_secs_f64() * rate;
-        // Of all that is due by now the newest of each input counts.
+        // Of all samples due by now, only the newest of each input is sent.
         let mut batch: [Option<f64>; 2] = [None; 2];
         while let Some(sample) = samples.get(next).filter(|sample| at(sample) <= now) {
             next += 1;
-            // A number alone cannot say that it is bad.
+            // The topic carries a bare number, which cannot be marked as bad, so a bad sample is not sent.
             if sample.stamp.is_none_or(|stamp| !stamp.bad) {
                 left_out += u64::from(batch[sample.kind.index()].replace(sample.value).is_some());
             }
@@ -125,12 +125,12 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
             reported = Instant::now();
             let show = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}"));
             let late = if left_out > 0 {
-                format!(", {left_out} left out because others came at the same time")
+                format!(", {left_out} left out because a newer one was due at the same time")
             } else {
                 String::new()
             };
             say!(
-                "{now:.0} of {:.0} s: {} r/min, {} kN, {sent} samples sent{late}, {} listening",
+                "{now:.0} of {:.0} s: {} r/min, {} kN, {sent} samples sent{late}, subscribers: {}",
                 at(last),
                 show(newest[0]),
                 show(newest[1]),
@@ -139,7 +139,7 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
         }
         tokio::time::sleep(LEAST_GAP).await;
     }
-    // The last samples reach the other side before the node goes.
+    // The last samples need time to arrive before the node leaves the network.
     tokio::time::sleep(DISCOVERY).await;
     say!("end of the log after {:.1} s: {sent} samples sent", at(last));
 }

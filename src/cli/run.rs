@@ -23,57 +23,58 @@ use crate::ros::{DEFAULT_NODE_NAME, logging};
 use flexdrill_config::Config;
 use flexdrill_core::twin::Output;
 
-/// The configuration of a node that is given none.
+/// Name of the configuration of a node without a given one.
 const DEFAULT_CONFIG_NAME: &str = BuiltIn::Default.name();
 
 /// Run the twin as a ROS 2 node.
 #[derive(Debug, Args)]
 #[command(
     after_help = "ROS 2 arguments follow --ros-args, up to -- or the end: -r from:=to, -r __ns:=/rig_7, -r __node:=name, \
-    -p name:=value, --params-file FILE, --log-level LEVEL. With them `run` may be left out, as in `ros2 run flexdrill flexdrill --ros-args \
+    -p name:=value, --params-file FILE, --log-level LEVEL. With them `run` may be omitted, as in `ros2 run flexdrill flexdrill --ros-args \
     -p config_file:=FILE`.\nEvery key of the configuration is a parameter of the same dotted name; \
-    -p and parameter files win over the configuration file.\nROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and \
-    RMW_IMPLEMENTATION are followed; RUST_LOG sets the log filter."
+    -p and parameter files override the configuration file.\nROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and \
+    RMW_IMPLEMENTATION are honoured; RUST_LOG sets the log filter."
 )]
 pub(super) struct RunArgs {
     /// Configuration (YAML), also as the parameter config_file; without it the paper's case, built in.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Record inputs and outputs: FILE.mcap, or a folder as rosbag2 makes them. {start} in the name becomes the time of
-    /// the start (UTC), for a supervisor that starts the same command again.
+    /// Record inputs and outputs into FILE.mcap, or into a folder as rosbag2 does. {start} in the name becomes the time
+    /// of the start (UTC), for a supervisor that runs the same command again.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
-    /// DDS domain, 0 to 232; wins over ROS_DOMAIN_ID.
+    /// DDS domain, 0 to 232; overrides ROS_DOMAIN_ID.
     #[arg(long, value_name = "ID")]
     domain: Option<u16>,
     /// Namespace of the node and its topics.
     #[arg(long, value_name = "NS", default_value = "/")]
     namespace: String,
-    /// How services are answered: auto (each client as it asks), enhanced (rmw_fastrtps) or cyclone (rmw_cyclonedds).
+    /// Mapping of services: auto (as each client uses), enhanced (rmw_fastrtps) or cyclone (rmw_cyclonedds).
     #[arg(long, value_name = "MAPPING", default_value = "auto")]
     service_mapping: ServiceMapping,
-    /// Be a managed node of ROS 2: begin unconfigured, model time standing still, and follow ~/change_state.
+    /// Run as a managed node of ROS 2: start unconfigured, with model time stopped, and follow ~/change_state.
     #[arg(long)]
     lifecycle: bool,
-    /// End after so much model time (s), or when model time has stood still for so long, as without /clock.
+    /// End after this much model time (s), or when model time has been stopped for as long, as without /clock.
     #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
-    /// Folder that keeps acknowledged and shelved alarms over a restart; default $XDG_STATE_HOME/flexdrill or
+    /// Folder for the acknowledged and shelved alarms, which survive a restart; default $XDG_STATE_HOME/flexdrill or
     /// ~/.local/state/flexdrill.
     #[arg(long, value_name = "DIR")]
     state_dir: Option<PathBuf>,
-    /// Also show what is published over WebSocket, to Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Nothing that
-    /// a viewer sends acts on the twin, unless --allow-control is given too.
+    /// Also publish over WebSocket, for Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Viewers cannot act on the
+    /// twin without --allow-control.
     #[arg(long, value_name = "ADDRESS:PORT")]
     foxglove: Option<SocketAddr>,
-    /// Let a viewer from this page in too, as https://viewer.example, or file:// for viewers that are opened as files; pages
-    /// of this machine and of Foxglove always may.
+    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file; pages
+    /// of this machine and of Foxglove are always admitted.
     #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
     allow_origin: Vec<String>,
-    /// Let a viewer that opens ws://ADDRESS:PORT/?token=TOKEN set parameters, call services and drive; the token is printed.
+    /// Let a viewer at ws://ADDRESS:PORT/?token=TOKEN set parameters, call services and drive; the program prints the
+    /// token.
     #[arg(long, requires = "foxglove")]
     allow_control: bool,
-    /// File with the token; without it a new one is made.
+    /// File with the token; without it the program generates one.
     #[arg(long, value_name = "FILE", requires = "allow_control")]
     token_file: Option<PathBuf>,
     /// Start from a state that ~/save_checkpoint has written. A recording of such a run cannot be replayed.
@@ -142,14 +143,14 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The configuration to read, none for the one that is built in: that of the option or of the parameter `config_file`.
-/// `named` is the parameter with where it was given.
+/// The configuration file of the option or of the parameter `config_file`; `None` for the built-in one. `named` is the
+/// parameter with its origin.
 ///
 /// # Errors
-/// When both are given and they are not the same file.
+/// When both are given and are different files.
 fn chosen_config<'a>(option: Option<&'a Path>, named: Option<(&'a str, &str)>) -> Result<Option<&'a Path>, WrongUse> {
     let Some((path, origin)) = named else { return Ok(option) };
-    // What a node with the built-in configuration shows, and `ros2 param dump` writes.
+    // A node with the built-in configuration has this value, and `ros2 param dump` writes it.
     let named = (path != DEFAULT_CONFIG_NAME).then(|| Path::new(path));
     let is_same =
         |a: &Path, b: &Path| a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
@@ -202,7 +203,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             format!("{} [{}, {unit}]", setup.topic_name(topic)?, topic.kind.ros_type),
         );
     }
-    let (topic, units) = (&topics::RIG_INPUTS, "both, with their time");
+    let (topic, units) = (&topics::RIG_INPUTS, "both, with stamp");
     row(
         "input",
         format!("{} [{}, {units}]", setup.topic_name(topic)?, topic.kind.ros_type),
@@ -220,7 +221,10 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     }
     match &setup.alarm_state {
         Some(path) => row("alarm state", path.display().to_string()),
-        None => row("alarm state", "not kept: no home folder; give --state-dir".to_owned()),
+        None => row(
+            "alarm state",
+            "not kept, because there is no home folder; use --state-dir".to_owned(),
+        ),
     }
     if let Some(live) = &setup.live {
         row("live", format!("ws://{}", live.address));
@@ -268,13 +272,13 @@ fn print_summary(summary: &RunSummary) {
         failed_steps,
         ..
     } = summary.status;
-    let stood_still = match steps_stood_still {
+    let not_taken = match steps_stood_still {
         0 => String::new(),
-        steps => format!(", {steps} stood still (paused or failed)"),
+        steps => format!(", {steps} not taken (paused or failed)"),
     };
     say!(
         "ended after {model_time:.2} s of model time: {step_count} steps, {steps_skipped} skipped, {deadline_misses} late, \
-         {halved_steps} halved, {failed_steps} failed{stood_still}"
+         {halved_steps} halved, {failed_steps} failed{not_taken}"
     );
     if let Some(recording) = &summary.recording {
         let files = match recording.files {
@@ -291,11 +295,11 @@ fn print_summary(summary: &RunSummary) {
                 refused: 0,
                 ..recording.losses
             };
-            say!("{} messages did not get into the recording: {lost}", recording.lost);
+            say!("{} messages are missing in the recording: {lost}", recording.lost);
         }
         if recording.doubtful > 0 {
             say!(
-                "{} messages of the recording may be lost: the disk refused to keep them",
+                "{} messages of the recording may be lost: the disk failed to sync them",
                 recording.doubtful
             );
         }

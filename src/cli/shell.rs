@@ -1,4 +1,4 @@
-//! `flexdrill completions` and `flexdrill man`: made from the command line itself.
+//! `flexdrill completions` and `flexdrill man`, generated from the definition of the command line.
 
 use std::path::PathBuf;
 
@@ -13,20 +13,20 @@ use crate::cli::output::say_text;
 #[derive(Debug, Args)]
 #[command(after_help = "Bash: flexdrill completions bash > ~/.local/share/bash-completion/completions/flexdrill")]
 pub(super) struct CompletionsArgs {
-    /// Which shell.
+    /// The shell.
     shell: Shell,
 }
 
 /// Write man pages, flexdrill.1 and one for each command.
 #[derive(Debug, Args)]
 pub(super) struct ManArgs {
-    /// Folder to write to; made if it is not there.
+    /// Output folder, created if necessary.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }
 
 pub(super) fn completions(args: &CompletionsArgs) {
-    // By way of memory: the generator does not tell what a full disk does.
+    // The script is generated in memory, because the generator does not report errors of its output.
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "flexdrill", &mut script);
     say_text!("{}", String::from_utf8_lossy(&script));
@@ -35,7 +35,7 @@ pub(super) fn completions(args: &CompletionsArgs) {
 /// # Errors
 /// When the folder or a page cannot be written.
 pub(super) fn man(args: &ManArgs) -> anyhow::Result<()> {
-    let failed = || format!("the man pages could not be written to {}", args.out.display());
+    let failed = || format!("cannot write the man pages to {}", args.out.display());
     std::fs::create_dir_all(&args.out).with_context(failed)?;
     clap_mangen::generate_to(Cli::command(), &args.out).with_context(failed)
 }

@@ -1,5 +1,5 @@
-//! Ctrl-C, SIGTERM and a terminal that goes away: the first asks for an orderly end, a later one insists. A file size
-//! limit is an error of a write.
+//! Ctrl-C, SIGTERM and a closed terminal: the first signal requests an orderly end, a later one forces it. Reaching a file
+//! size limit becomes an error of the write.
 
 use crate::cli::output::tell;
 use std::io;
@@ -13,33 +13,32 @@ use tokio::signal::unix::{Signal, SignalKind, signal};
 /// Exit code after a forced end, as shells know it from SIGINT.
 const FORCED: i32 = 130;
 
-/// Signals that come this soon after the first are the same request: a supervisor sends one to the process and one to
-/// its group.
+/// A signal this soon after the first is the same request: a supervisor signals both the process and its group.
 const SAME_REQUEST: Duration = Duration::from_secs(2);
 
-/// Time after the first request within which everything has ended or hangs: the solver's last step, what is left to be
-/// published, and the end of a recording on a disk that does not answer.
+/// Time after the first request within which an orderly end completes: the solver's last step, the last messages, and the
+/// end of a recording on a disk that does not respond. Beyond it something hangs.
 const ORDERLY_END: Duration = Duration::from_secs(20);
 
-/// What a request to end means.
+/// Effect of a further signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Request {
-    /// The first was meant.
+    /// It belongs to the first request.
     Same,
-    /// The end of the recording is on its way, and is waited for.
+    /// The program ends when the recording has ended.
     Wait,
-    /// At once.
-    Insist,
+    /// The program ends at once.
+    Force,
 }
 
-/// What a request means that comes so long after the first.
+/// The effect of a signal at a time after the first.
 fn meaning(after: Duration, recording: bool) -> Request {
     if after < SAME_REQUEST {
         Request::Same
     } else if recording && after < ORDERLY_END {
         Request::Wait
     } else {
-        Request::Insist
+        Request::Force
     }
 }
 
@@ -51,13 +50,13 @@ impl Signals {
         kinds.into_iter().map(signal).collect::<Result<_, _>>().map(Self)
     }
 
-    /// Done at the next of them.
+    /// Completes at the next signal.
     async fn next(&mut self) {
         select_all(self.0.iter_mut().map(|signal| Box::pin(signal.recv()))).await;
     }
 }
 
-/// Signals that ask for the end. That of a terminal that goes away is left alone where it is ignored, as under nohup.
+/// The signals that request the end. SIGHUP is not among them if the process ignores it, as under nohup.
 fn requests() -> Vec<SignalKind> {
     let mut kinds = vec![SignalKind::interrupt(), SignalKind::terminate()];
     if !ignores_hangup(&std::fs::read_to_string("/proc/self/status").unwrap_or_default()) {
@@ -66,15 +65,15 @@ fn requests() -> Vec<SignalKind> {
     kinds
 }
 
-/// Whether a process's status says that it ignores SIGHUP, the first of its mask.
+/// Whether a process ignores SIGHUP, by the first bit of the mask in its status.
 fn ignores_hangup(status: &str) -> bool {
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
         .is_some_and(|mask| mask & 1 == 1)
 }
 
-/// Done when the process is first asked to end. After that, another request ends it at once; while it is recording,
-/// once the end of the recording is written or cannot be.
+/// Completes at the first request to end. Afterwards another request ends the process at once; during a recording it
+/// ends when the recording is complete or cannot be completed.
 ///
 /// # Errors
 /// When the handlers cannot be installed.
@@ -84,43 +83,43 @@ pub(super) fn shutdown(recording: bool) -> io::Result<impl Future<Output = ()>> 
         signals.next().await;
         let first = Instant::now();
         tokio::spawn(async move {
-            let mut insisted = false;
+            let mut forced = false;
             loop {
                 let left = ORDERLY_END.saturating_sub(first.elapsed());
                 tokio::select! {
                     () = signals.next() => {}
-                    () = tokio::time::sleep(left), if insisted => break,
+                    () = tokio::time::sleep(left), if forced => break,
                 }
                 match meaning(first.elapsed(), recording) {
                     Request::Same => {}
-                    Request::Wait if insisted => {}
+                    Request::Wait if forced => {}
                     Request::Wait => {
-                        insisted = true;
+                        forced = true;
                         tell!(
-                            "the end of the recording is being written; that takes at most {} s",
+                            "writing the end of the recording; this takes at most {} s",
                             left.as_secs()
                         );
                     }
-                    Request::Insist => break,
+                    Request::Force => break,
                 }
             }
-            tell!("ended at once");
+            tell!("forced to end");
             std::process::exit(FORCED);
         });
     })
 }
 
-/// A file that reaches the limit of its size (`ulimit -f`) is an error of that write, as on a full disk, and not the
-/// end of the process.
+/// Makes reaching a file size limit (`ulimit -f`) an error of the write, as on a full disk, instead of the end of the
+/// process.
 ///
 /// # Errors
 /// When the handler cannot be installed.
 pub(super) fn outlive_file_size_limit() -> io::Result<()> {
-    // Nobody asks for the flag: a handler that does nothing of note is all that is needed.
+    // The flag is never read: any handler prevents the signal from ending the process.
     signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false))).map(drop)
 }
 
-/// A flag that SIGINT, SIGTERM and SIGHUP set, so that a terminal is always given back as it was.
+/// A flag that SIGINT, SIGTERM and SIGHUP set, so that the terminal is always restored.
 ///
 /// # Errors
 /// When the handlers cannot be installed.
@@ -144,21 +143,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn under_nohup_a_terminal_that_goes_away_ends_nothing() {
+    fn under_nohup_a_closed_terminal_ends_nothing() {
         assert!(ignores_hangup("Name:\tflexdrill\nSigIgn:\t0000000000001001\n"));
         assert!(!ignores_hangup("SigIgn:\t0000000000001000\n"));
         assert!(!ignores_hangup(""));
     }
 
     #[test]
-    fn signals_close_together_are_one_request_and_a_recording_is_always_ended() {
+    fn signals_close_together_are_one_request_and_a_recording_is_completed() {
         let after = |seconds: f64, recording| meaning(Duration::from_secs_f64(seconds), recording);
         for recording in [false, true] {
             assert_eq!(after(0.0, recording), Request::Same);
             assert_eq!(after(1.9, recording), Request::Same);
-            assert_eq!(after(21.0, recording), Request::Insist);
+            assert_eq!(after(21.0, recording), Request::Force);
         }
-        assert_eq!(after(2.1, false), Request::Insist);
+        assert_eq!(after(2.1, false), Request::Force);
         assert_eq!(after(2.1, true), Request::Wait);
         assert_eq!(after(19.0, true), Request::Wait);
     }

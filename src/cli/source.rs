@@ -14,7 +14,7 @@ use crate::messages::{Message, RigInputs, topics};
 use crate::rig_inputs::stamped;
 use flexdrill_core::inputs::{InputKind, Stamp};
 
-/// A sample at an instant.
+/// A timed sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sample {
     /// ns since 1970; of a field log, since its first row.
@@ -23,7 +23,7 @@ pub(super) struct Sample {
     pub(super) kind: InputKind,
     /// In the unit of the input's topic: r/min or kN.
     pub(super) value: f64,
-    /// What a sample of `rig/inputs` says of itself; the skew is the configuration's to allow.
+    /// Stamp and quality of a sample of `rig/inputs`; the configuration sets the allowed skew.
     pub(super) stamp: Option<Stamp>,
 }
 
@@ -34,21 +34,21 @@ impl Sample {
     }
 }
 
-/// Which part of a source is used, and how its columns are read.
+/// The part of a source to use, and the mapping of its columns.
 #[derive(Debug, Args)]
 pub(super) struct SourceArgs {
-    /// Mapping of a field log's columns (YAML). Default: the only YAML file beside the log.
+    /// Mapping of a field log's columns (YAML). Default: the only YAML file in the log's folder.
     #[arg(long, value_name = "FILE")]
     mapping: Option<PathBuf>,
-    /// Begin so many seconds after the start, or at a row of a field log (row:6345, as an editor numbers it).
-    #[arg(long, value_name = "PLACE")]
+    /// Begin this many seconds after the start, or at a row of a field log (row:6345, as an editor numbers it).
+    #[arg(long, value_name = "POSITION")]
     from: Option<Position>,
-    /// End there.
-    #[arg(long, value_name = "PLACE")]
+    /// End at this position, given in the same form.
+    #[arg(long, value_name = "POSITION")]
     to: Option<Position>,
 }
 
-/// Whether a path is a bag, not a text file.
+/// Whether a path is a bag and not a text file.
 ///
 /// # Errors
 /// When it cannot be read.
@@ -61,15 +61,15 @@ pub(super) fn is_bag(path: &Path) -> anyhow::Result<bool> {
 }
 
 impl SourceArgs {
-    /// Whether any of them was given.
+    /// Whether any option was given.
     pub(super) fn is_given(&self) -> bool {
         self.mapping.is_some() || self.from.is_some() || self.to.is_some()
     }
 
-    /// The samples in the order of their times. What is wrong in a field log is reported on standard error.
+    /// The samples in the order of time. The report of a field log is printed on standard error.
     ///
     /// # Errors
-    /// When the source cannot be read or holds none.
+    /// When the source cannot be read or has no sample.
     pub(super) fn read(&self, path: &Path) -> anyhow::Result<Vec<Sample>> {
         let mut samples = if is_bag(path)? {
             self.part_of_bag(path, from_bag(path)?)?
@@ -77,16 +77,16 @@ impl SourceArgs {
             self.log_samples(path)?
         };
         if samples.is_empty() {
-            bail!("{}: no sample of rotary speed or weight on bit in it", path.display());
+            bail!("{}: it has no sample of rotary speed or weight on bit", path.display());
         }
-        // Stable: samples of one instant stay in the order of the source.
+        // The sort is stable: samples of the same time keep the order of the source.
         samples.sort_by_key(|sample| sample.time);
         Ok(samples)
     }
 
-    /// Those between --from and --to.
+    /// The samples between --from and --to.
     fn part_of_bag(&self, path: &Path, mut samples: Vec<Sample>) -> anyhow::Result<Vec<Sample>> {
-        let seconds_of = |place: Option<Position>, default: f64| match place {
+        let seconds_of = |position: Option<Position>, default: f64| match position {
             None => Ok(default),
             Some(Position::Time(seconds)) => Ok(seconds),
             Some(Position::Row(row)) => Err(WrongUse::new(format!("row:{row}: a bag has no rows; give seconds"))),
@@ -110,7 +110,7 @@ impl SourceArgs {
     fn log_samples(&self, path: &Path) -> anyhow::Result<Vec<Sample>> {
         let mapping_file = match &self.mapping {
             Some(file) => file.clone(),
-            None => mapping_beside(path)?,
+            None => only_mapping_in_folder_of(path)?,
         };
         let mapping = Mapping::load(&mapping_file)?;
         let range = field_log::Range {
@@ -120,7 +120,7 @@ impl SourceArgs {
         let (sequence, report) = field_log::read_range(path, &mapping, &range)?;
         tell_text!("{report}");
         let samples = sequence.inputs.iter().map(|input| Sample {
-            // Times of a log begin at 0 and are at most some years.
+            // Times of a log begin at 0 and span some years at most, so they fit.
             time: (input.time * 1e9).round() as i64,
             kind: input.kind,
             value: input.value,
@@ -131,7 +131,7 @@ impl SourceArgs {
 }
 
 /// The only YAML file in the folder of a log.
-fn mapping_beside(log: &Path) -> anyhow::Result<PathBuf> {
+fn only_mapping_in_folder_of(log: &Path) -> anyhow::Result<PathBuf> {
     let folder = match log.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -149,8 +149,8 @@ fn mapping_beside(log: &Path) -> anyhow::Result<PathBuf> {
     match found.as_slice() {
         [only] => Ok(only.clone()),
         _ => Err(WrongUse::new(format!(
-            "{}: {} YAML files beside it; say with --mapping FILE which column is what (config/field_logs/rig_1hz.yaml \
-             is an example)",
+            "{}: its folder has {} YAML files, so the mapping is not clear; name it with --mapping FILE \
+             (config/field_logs/rig_1hz.yaml is an example)",
             log.display(),
             found.len()
         ))
@@ -164,20 +164,20 @@ fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
     let stamped = bag.topic(topics::RIG_INPUTS.name).map(|topic| topic.name.clone());
     let names: Vec<Option<String>> = match (plain, stamped) {
         ([Ok(speed), Ok(weight)], stamped) => vec![Some(speed), Some(weight), stamped.ok()],
-        // Without the plain ones, the stamped one has both.
+        // Without the plain topics, the stamped topic has both inputs.
         ([speed, weight], Ok(stamped)) => vec![speed.ok(), weight.ok(), Some(stamped)],
         ([speed, weight], Err(_)) => {
             let error = speed.and(weight).err().map(anyhow::Error::from);
             let missing = error.unwrap_or_else(|| anyhow::anyhow!("no inputs"));
-            return Err(missing.context(format!("{}: a rig's bag has both inputs", path.display())));
+            return Err(missing.context(format!("{}: the bag needs both inputs of the rig", path.display())));
         }
     };
     let types = [Float64::ROS_TYPE, Float64::ROS_TYPE, RigInputs::ROS_TYPE];
-    let place = |name: &str, ros_type: &str| {
+    let role = |name: &str, ros_type: &str| {
         let named = |(known, wanted): (&Option<String>, &str)| known.as_deref() == Some(name) && wanted == ros_type;
         names.iter().zip(types).position(named)
     };
-    bag.select(|topic| place(&topic.name, &topic.ros_type).is_some());
+    bag.select(|topic| role(&topic.name, &topic.ros_type).is_some());
     let mut samples = Vec::new();
     for message in bag.by_ref() {
         let message = message?;
@@ -190,7 +190,7 @@ fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
                 stamp,
             });
         };
-        match place(&message.topic.name, &message.topic.ros_type) {
+        match role(&message.topic.name, &message.topic.ros_type) {
             Some(0) => add(InputKind::RotarySpeed, message.decode::<Float64>()?.data, None),
             Some(1) => add(InputKind::WeightOnBit, message.decode::<Float64>()?.data, None),
             _ => {
@@ -205,7 +205,7 @@ fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
     }
     for cut in bag.cuts() {
         tell!(
-            "{} was cut short ({}); what is there is used",
+            "{} was cut short ({}); the samples up to there are used",
             cut.path.display(),
             cut.reason
         );

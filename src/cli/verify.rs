@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::cli::output::say;
 use flexdrill_verify::{CASES, title};
 
-/// Runs the closed-form verification cases and compares them with theory; fails when one is off.
+/// Runs the closed-form verification cases and compares them with theory; fails when one is outside its limit.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
     /// Only cases whose name contains this.
@@ -27,7 +27,7 @@ pub fn run(args: &VerifyArgs) -> anyhow::Result<()> {
         .collect();
     anyhow::ensure!(
         !cases.is_empty(),
-        "no verification case is named like {:?}",
+        "no verification case has a name that contains {:?}",
         args.only.as_deref().unwrap_or("")
     );
     let bar = if std::io::stderr().is_terminal() {

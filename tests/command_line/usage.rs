@@ -117,7 +117,7 @@ fn a_closed_standard_output_is_a_failure_with_a_word() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(1), "{arguments}: {said}");
         assert!(
-            said.contains("standard output does not take what is printed: Bad file descriptor"),
+            said.contains("cannot write to standard output: Bad file descriptor"),
             "{said}"
         );
         // What the system says is said once.

@@ -473,7 +473,7 @@ fn a_pause_is_no_lateness() {
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
     let said = twin.said();
-    assert!(said.contains("stood still (paused or failed)"), "{said}");
+    assert!(said.contains("not taken (paused or failed)"), "{said}");
     assert!(!said.contains("not in real time"), "{said}");
 }
 

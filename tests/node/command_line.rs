@@ -156,7 +156,7 @@ fn a_rig_drives_the_twin_and_both_end_on_signals() {
         .arg(root().join("config/field_logs/demo.csv"));
     command.args(["--from", "60", "--rate", "5", "--loop", "--namespace", "/rig_7"]);
     let mut rig = Program::start(command);
-    assert!(rig.wait_for("listening").contains("1 listening"));
+    assert!(rig.wait_for("subscribers").contains("subscribers: 1"));
     // Another domain hears nothing of it.
     peer.subscribe("/rig_7/twin/status", "flexdrill/msg/TwinStatus", "reliable");
     assert!(peer.take("/rig_7/twin/status", 1, 1.0).is_empty());
@@ -237,7 +237,7 @@ fn a_standard_output_that_takes_nothing_is_told_and_ends_no_run() {
                 "{arguments:?} on {out}: {said}"
             );
             assert_eq!(
-                said.contains("standard output does not take what is printed: No space left"),
+                said.contains("cannot write to standard output: No space left"),
                 told,
                 "{arguments:?} on {out}: {said}"
             );

@@ -9,6 +9,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use flexdrill::alarms::AlarmId;
 use flexdrill::bag::{self, Recorder, Topic};
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::std_msgs::{Float64, Header};
@@ -16,6 +17,7 @@ use flexdrill::messages::topics::{self, TopicInfo};
 use flexdrill::messages::{
     AlarmEvent, AppliedInputs, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus, to_cdr,
 };
+use flexdrill_core::inputs::InputKind;
 
 /// An instant of the rig's clock (ns): 2023-11-14 22:13:20 UTC.
 const START: i64 = 1_700_000_000_000_000_000;
@@ -249,8 +251,8 @@ fn alarms_and_health_are_told_and_texts_of_others_stay_text() {
     }
 }
 
-/// The same weight on three ways, each with messages of its own rhythm, has one mean: samples once per second, what the
-/// model is asked for on change and every second, the bit at 50 Hz. It rises from 0 to 10 kN within a second, from 5 s on.
+/// The same weight on three topics, each with its own rate, has one mean: samples once per second, accepted inputs on change
+/// and every second, the bit at 50 Hz. It rises from 0 to 10 kN within a second, from 5 s on.
 #[test]
 fn means_are_over_time_in_one_window() {
     let folder = tempfile::tempdir().unwrap();
@@ -293,17 +295,20 @@ fn means_are_over_time_in_one_window() {
     };
     // 0 to 5 s, half of 10 kN to 6 s, 10 kN to 20 s. Samples of 1 Hz know of the ramp at its end only.
     let exact = (0.5 * 10.0 + 14.0 * 10.0) / 18.0;
-    for (what, off) in [
-        ("received", 5.0 / 18.0),
-        ("asked of the model", 0.02),
-        ("at the bit", 0.02),
-    ] {
+    for (what, off) in [("received", 5.0 / 18.0), ("accepted", 0.02), ("at the bit", 0.02)] {
         assert!(
             (mean(what) - exact).abs() <= off + 0.005,
             "{what}: {} instead of {exact}",
             mean(what)
         );
     }
+}
+
+/// The report knows the alarms about inputs by their ids, because a recording has nothing else.
+#[test]
+fn alarms_about_inputs_have_the_ids_of_the_catalogue() {
+    let ids = InputKind::ALL.map(|kind| AlarmId::of_input(kind).id());
+    assert_eq!(flexdrill::report::INPUT_ALARMS, ids);
 }
 
 #[test]
@@ -324,7 +329,10 @@ fn of_several_twins_one_is_asked_for_and_of_none_the_next_step_is_said() {
     let output = flexdrill(&["report", text(&path), "--out", text(&out)]);
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1));
-    assert!(said.contains("namespaces /a, /b; say which with --namespace"), "{said}");
+    assert!(
+        said.contains("namespaces /a, /b; choose one with --namespace"),
+        "{said}"
+    );
     let (page, _) = report(&path, &["--namespace", "/b"]);
     assert!(page.contains("<td class=\"n\">222</td>") && !page.contains("<td class=\"n\">111</td>"));
 

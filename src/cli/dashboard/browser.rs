@@ -1,5 +1,5 @@
-//! Opens the page in this machine's browser without showing the token to others: what a program is started with stands
-//! in the list of processes, for all users to read.
+//! Opens the page in this machine's browser without revealing the token: every user can read the arguments of a program
+//! in the list of processes.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write as _;
@@ -10,13 +10,12 @@ use std::process::{Command, Stdio};
 use crate::cli::output::tell;
 use crate::live::fill_random;
 
-/// A page in a file that only its owner may read, which leads the browser to an address. It is removed when this is
-/// dropped.
+/// A page in a file readable by its owner only, which redirects the browser to an address. Dropping it removes the file.
 #[derive(Debug)]
 pub(super) struct Redirect(PathBuf);
 
 impl Redirect {
-    /// To an address, in a folder.
+    /// Writes a redirect to `url` into `folder`.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -43,7 +42,7 @@ impl Redirect {
 
 impl Drop for Redirect {
     fn drop(&mut self) {
-        // The browser has read it, or the user has opened the printed address.
+        // By now the browser has read the file, or the user has opened the printed URL.
         let _ = std::fs::remove_file(&self.0);
     }
 }
@@ -62,13 +61,12 @@ fn escaped(text: &str) -> String {
     escaped
 }
 
-/// Has the desktop open an address, by a private file where it holds a token. Without a desktop, the printed address
-/// has to do.
+/// Lets the desktop open a URL, through a private file if the URL has a token. Without a desktop it prints a hint.
 pub(super) fn open(url: &str) -> Option<Redirect> {
     match try_open(url) {
         Ok(redirect) => redirect,
         Err(error) => {
-            tell!("no browser could be opened ({error}); open the printed address yourself");
+            tell!("cannot open a browser ({error}); open the printed address in one");
             None
         }
     }
@@ -78,7 +76,7 @@ fn try_open(url: &str) -> anyhow::Result<Option<Redirect>> {
     let program = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
     let mut command = Command::new(program);
     let redirect = if url.contains('#') {
-        // Where the session has one, only its user may enter this folder.
+        // Only the session's user can enter this folder, if the session has one.
         let folder = std::env::var_os("XDG_RUNTIME_DIR").map_or_else(std::env::temp_dir, PathBuf::from);
         let redirect = Redirect::write(&folder, url)?;
         command.arg(&redirect.0);
@@ -103,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_redirect_is_its_owners_alone_and_goes_with_the_program() {
+    fn only_the_owner_can_read_the_redirect_and_it_is_removed() {
         let folder = tempfile::tempdir().unwrap();
         let redirect = Redirect::write(folder.path(), "http://127.0.0.1:8080/#token=a\"&<b").unwrap();
         let mode = std::fs::metadata(&redirect.0).unwrap().permissions().mode();

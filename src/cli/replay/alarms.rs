@@ -1,4 +1,4 @@
-//! The alarms of a replay, grouped, and the figures by which an alarm system is judged.
+//! The alarms of a replay, grouped, and the key figures of the alarm system.
 
 use std::fmt;
 
@@ -6,14 +6,14 @@ use crate::alarms::AlarmId;
 use crate::messages::{AlarmEvent, words};
 use flexdrill_alarms::Figures;
 
-/// What of one alarm there was.
+/// All occurrences of one alarm.
 #[derive(Debug, Clone, Default)]
 struct Group {
-    /// The event of its highest priority; of several the first.
+    /// The first event of its highest priority.
     worst: Option<AlarmEvent>,
     annunciations: u64,
     first: f64,
-    /// Since when it stands.
+    /// Begin of the present occurrence (s).
     active_since: Option<f64>,
     active: f64,
 }
@@ -23,7 +23,7 @@ struct Group {
 pub(super) struct AlarmTally {
     groups: Vec<Group>,
     now: f64,
-    /// Of the whole run.
+    /// Key figures of the whole run.
     pub(super) figures: Figures,
 }
 
@@ -38,20 +38,20 @@ impl Default for AlarmTally {
 }
 
 impl AlarmTally {
-    /// Takes the events up to an instant (s).
-    pub(super) fn take(&mut self, now: f64, events: Vec<AlarmEvent>) {
+    /// Adds the events up to an instant (s).
+    pub(super) fn add(&mut self, now: f64, events: Vec<AlarmEvent>) {
         self.now = now;
         for event in events {
             let Some(index) = AlarmId::ALL.iter().position(|id| id.id() == event.id) else {
                 continue;
             };
-            self.groups[index].take(now, event);
+            self.groups[index].add(now, event);
         }
     }
 }
 
 impl Group {
-    fn take(&mut self, now: f64, event: AlarmEvent) {
+    fn add(&mut self, now: f64, event: AlarmEvent) {
         match event.change {
             AlarmEvent::ACTIVATED => self.active_since = Some(now),
             AlarmEvent::RETURNED | AlarmEvent::SUPPRESSED => {
@@ -71,7 +71,7 @@ impl Group {
         }
     }
 
-    /// Until an instant (s).
+    /// Total time active up to an instant (s).
     fn active(&self, now: f64) -> f64 {
         self.active + self.active_since.map_or(0.0, |since| now - since)
     }
@@ -97,12 +97,12 @@ impl fmt::Display for AlarmTally {
             self.figures.watched / 60.0,
             match self.figures.per_hour {
                 Some(rate) => format!("{rate:.1} per hour"),
-                None => "per hour: not before a full hour".to_owned(),
+                None => "rate per hour not known before a full hour".to_owned(),
             }
         )?;
         writeln!(
             f,
-            "  {:<8} {:<26} {:>5} {:>9} {:>8}  what was seen at the worst",
+            "  {:<8} {:<26} {:>5} {:>9} {:>8}  evidence at the worst moment",
             "priority", "alarm", "times", "first s", "for s"
         )?;
         for (group, worst) in rows {
@@ -127,7 +127,7 @@ impl fmt::Display for AlarmTally {
             self.figures.most_in_ten_minutes,
             match self.figures.flood_share {
                 Some(share) => format!("{:.2} % of the time", 100.0 * share),
-                None => "not before a full 10 min".to_owned(),
+                None => "not known before a full 10 min".to_owned(),
             },
             self.figures.most_repeats
         )

@@ -1,4 +1,4 @@
-//! Inputs with times, from a field log or anybody's bag, through the same conditioner as live samples.
+//! Timed inputs of a field log or of another program's bag, passed through the same conditioner as live samples.
 
 use std::path::Path;
 
@@ -40,19 +40,19 @@ pub(super) fn replay(
         }
     })?;
     let mut progress = Progress::new(span);
-    let mut waiting = samples.iter().peekable();
+    let mut remaining = samples.iter().peekable();
     let mut applied: Option<RunInputs> = None;
     let mut refused = 0_u64;
     while player.step() < steps {
         let now = player.time_of(player.step());
         let due = |sample: &&Sample| sample.since(first) <= now;
-        while let Some(sample) = waiting.next_if(due) {
+        while let Some(sample) = remaining.next_if(due) {
             let at = sample.since(first);
-            let taken = match sample.stamp {
+            let offered = match sample.stamp {
                 None => conditioner.offer(sample.kind, sample.value, at),
                 Some(stamp) => conditioner.offer_stamped(sample.kind, sample.value, at, &Stamp { max_skew, ..stamp }),
             };
-            if let Err(rejection) = taken {
+            if let Err(rejection) = offered {
                 refused += 1;
                 if refused <= 10 {
                     tell!("at {at:.2} s: {rejection}");
@@ -76,12 +76,12 @@ pub(super) fn replay(
             applied = Some(inputs);
         }
         for _ in 0..per_period.min(steps - player.step()) {
-            player.advance_surely()?;
+            player.advance_or_fail()?;
         }
         progress.at(player.time_of(player.step()));
     }
     if refused > 0 {
-        tell!("{refused} samples were refused in all");
+        tell!("{refused} samples were refused in total");
     }
     Ok((player, progress))
 }

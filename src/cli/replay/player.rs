@@ -1,4 +1,4 @@
-//! Drives a run as fast as it goes and writes what the node would have published.
+//! Drives a run as fast as possible and records what the node would have published.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation};
 use flexdrill_realtime::monotonic;
 
-/// Topics that a replay can give: those that do not speak of wall-clock time.
+/// The topics of a replay: all that do not depend on wall-clock time.
 fn replayed() -> impl Iterator<Item = &'static TopicInfo> {
     topics::ALL
         .iter()
@@ -32,23 +32,23 @@ enum WriteError {
     Bag(#[from] BagError),
 }
 
-/// A run on its way into a bag.
+/// A run that is recorded into a bag.
 pub(super) struct Player {
     run: Run,
     config: Config,
     /// Publishing rates at the start: no output is recorded less often.
-    begun: Rates,
+    initial_rates: Rates,
     frame: Frame,
     outputs: Outputs,
     alarms: AlarmBook,
     recorder: Recorder,
     topics: Vec<&'static TopicInfo>,
-    /// What is printed at the end.
+    /// The summary that is printed at the end.
     pub tally: Tally,
 }
 
 impl Player {
-    /// Builds the model and begins the bag. `start` is in ns since 1970; `name` makes topics absolute.
+    /// Builds the model and creates the bag. `start` is in ns since 1970; `name` makes topics absolute.
     pub(super) fn new(
         config: Config,
         start: i64,
@@ -69,7 +69,7 @@ impl Player {
             run,
             outputs: Outputs::new(&config, start),
             alarms: AlarmBook::fresh(Arc::new(config.clone()), start),
-            begun: config.outputs.rates,
+            initial_rates: config.outputs.rates,
             config,
             recorder,
             topics,
@@ -98,17 +98,17 @@ impl Player {
         self.run.simulation().joint_stations()
     }
 
-    /// What drives the run now.
+    /// The inputs in force.
     pub(super) fn inputs(&self) -> RunInputs {
         self.run.applied()
     }
 
-    /// The refinement of steps that the motion asks for: nothing here has to keep pace.
+    /// The refinement of steps that the motion requires. A replay always grants it, because it has no deadline.
     pub(super) fn wanted_refinement(&self) -> u32 {
         self.run.wanted_refinement()
     }
 
-    /// Takes over a changed configuration.
+    /// Adopts a changed configuration.
     pub(super) fn reconfigure(&mut self, config: Config) {
         self.outputs.reconfigure(&config);
         self.alarms.reconfigure(&Arc::new(config.clone()));
@@ -116,8 +116,8 @@ impl Player {
     }
 
     /// Publishing rates at the start.
-    pub(super) fn begun(&self) -> &Rates {
-        &self.begun
+    pub(super) fn initial_rates(&self) -> &Rates {
+        &self.initial_rates
     }
 
     /// The present configuration.
@@ -125,7 +125,7 @@ impl Player {
         &self.config
     }
 
-    /// Lets new values act; at the start and after a reset the state is shown.
+    /// Applies new inputs. At the start and after a reset it also records the state.
     pub(super) fn apply(&mut self, inputs: &RunInputs, changes: &[ParameterChange], first: bool) -> anyhow::Result<()> {
         self.run.apply(inputs);
         let ticks = self.run.ticks();
@@ -135,10 +135,10 @@ impl Player {
         if inputs.reset {
             self.tally.resets += 1;
         }
-        if first || inputs.reset { self.show() } else { Ok(()) }
+        if first || inputs.reset { self.capture() } else { Ok(()) }
     }
 
-    /// One step.
+    /// Takes one step.
     ///
     /// # Errors
     /// When the step fails or the bag cannot be written.
@@ -146,18 +146,18 @@ impl Player {
         match self.run.advance() {
             StepOutcome::Advanced { iterations, halvings } => {
                 self.tally.step(iterations, halvings);
-                self.show()?;
+                self.capture()?;
                 Ok(Ok(()))
             }
             StepOutcome::Failed(failure) => Ok(Err(failure)),
         }
     }
 
-    /// One step that must not fail.
-    pub(super) fn advance_surely(&mut self) -> anyhow::Result<()> {
+    /// Takes one step; a failed step is an error.
+    pub(super) fn advance_or_fail(&mut self) -> anyhow::Result<()> {
         if let Err(failure) = self.advance()? {
             bail!(
-                "step {} at model time {:.4} s failed: {}; what was replayed until then is in the bag",
+                "step {} at model time {:.4} s failed: {}; the bag holds the replay up to there",
                 self.step(),
                 failure.time,
                 failure
@@ -166,7 +166,7 @@ impl Player {
         Ok(())
     }
 
-    fn show(&mut self) -> anyhow::Result<()> {
+    fn capture(&mut self) -> anyhow::Result<()> {
         if self.run.due().is_empty() {
             return Ok(());
         }
@@ -187,7 +187,7 @@ impl Player {
                 .alarms
                 .publish(header, stamp, |encoded| write(recorder, topics, encoded))?;
             let run = (stamp - self.outputs.instant(0)) as f64 * 1e-9;
-            self.tally.alarms.take(run, events);
+            self.tally.alarms.add(run, events);
         }
         self.tally.publishing(monotonic::now().saturating_sub(began));
         Ok(())

@@ -1,7 +1,9 @@
-//! A recording of ours again: its configuration, its applied inputs step by step, the same outputs to the bit.
+//! Replays a recording of flexdrill: its configuration and its applied inputs, step by step, give the same outputs to the
+//! bit.
 //!
-//! A bag that somebody else began while the twin ran (`ros2 bag record -a`) begins with the first applied inputs that
-//! it heard. The model's state at that step is in no message, so that its replay begins with a tool at rest.
+//! A bag that another program began to record while the twin ran (`ros2 bag record -a`) begins with the first applied
+//! inputs that the program received. No message holds the model's state at that step, so its replay begins with the tool
+//! at rest.
 
 use std::path::Path;
 
@@ -18,16 +20,16 @@ use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_text::printable;
 
-/// How a replay can differ from what was recorded.
+/// Possible differences between a replay and the recorded run.
 #[derive(Debug, Default)]
 pub(super) struct Exactness {
-    /// Why it is not the same to the bit.
+    /// Reasons why it is not the same to the bit.
     pub departures: Vec<String>,
-    /// What else is to be known.
+    /// Further notes.
     pub notes: Vec<String>,
 }
 
-/// What of a recording is needed.
+/// Everything in a recording that drives a replay.
 pub(super) struct Script {
     session: SessionInfo,
     applied: Vec<AppliedInputs>,
@@ -37,17 +39,17 @@ pub(super) struct Script {
     last_step: u64,
     /// Messages that the recording lost.
     gaps: Vec<Gap>,
-    /// Parts of it that cannot be read.
+    /// Damaged parts of the recording.
     damaged: Vec<String>,
 }
 
-/// Whether a bag is a recording of the twin, by us or others: it says what the run was made with.
+/// Whether a bag is a recording of the twin: it holds the session with the configuration.
 pub(super) fn is_ours(bag: &Bag) -> bool {
     bag.topics().iter().any(|topic| topic.ros_type == SessionInfo::ROS_TYPE)
 }
 
 impl Script {
-    /// Reads what drives the run.
+    /// Reads a recording.
     pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
         let mut bag = bag::open(path)?;
         let wanted = [
@@ -76,7 +78,7 @@ impl Script {
         let (mut status_step, mut newest_stamp) = (0, None);
         for message in bag.by_ref() {
             let message = match message {
-                // What is lost with it shows by the numbers of the messages around it.
+                // The sequence numbers of the messages around a damaged part show the loss.
                 Err(error @ BagError::Damaged { .. }) => {
                     damaged.push(error.to_string());
                     continue;
@@ -104,12 +106,12 @@ impl Script {
         }
         for cut in bag.cuts() {
             tell!(
-                "{} was cut short ({}); what is there is replayed",
+                "{} was cut short ({}); the replay ends there",
                 cut.path.display(),
                 cut.reason
             );
         }
-        let session = session.with_context(|| format!("{}: it holds no {}", path.display(), topics::SESSION.name))?;
+        let session = session.with_context(|| format!("{}: it has no {}", path.display(), topics::SESSION.name))?;
         let last_step = status_step.max(step_of(newest_stamp, &session, &applied));
         Ok(Self {
             session,
@@ -121,7 +123,7 @@ impl Script {
         })
     }
 
-    /// Whether nothing says what drove the model: the bag was begun and ended between two messages that do.
+    /// Whether the recording has no applied inputs: it began and ended between two such messages.
     pub(super) fn is_empty(&self) -> bool {
         self.applied.is_empty()
     }
@@ -129,7 +131,7 @@ impl Script {
     /// The configuration at the start of the run.
     ///
     /// # Errors
-    /// When it is not one of this version.
+    /// When this version cannot read it.
     pub(super) fn config(&self) -> anyhow::Result<Config> {
         Ok(Config::from_text(
             "the recorded configuration",
@@ -137,19 +139,19 @@ impl Script {
         )?)
     }
 
-    /// How a replay of it can differ from what was recorded.
+    /// Possible differences between its replay and the recorded run.
     pub(super) fn exactness(&self) -> Exactness {
         let mut exactness = Exactness::default();
         let Some(first) = self.applied.first() else {
             exactness.departures.push(format!(
-                "the recording holds no {}: the inputs are taken as they were received, and conditioned anew",
+                "the recording has no {}: the inputs are used as received, and conditioned again",
                 topics::APPLIED_INPUTS.name
             ));
             return exactness;
         };
         if first.step > 0 && !first.reset {
             exactness.departures.push(format!(
-                "the recording begins at step {} of the run, and the model's state at that step is not in it: \
+                "the recording begins at step {} of the run and does not have the model's state at that step: \
                  the replay begins there with the tool at rest",
                 first.step
             ));
@@ -157,8 +159,8 @@ impl Script {
         for gap in &self.gaps {
             if gap.topic.ros_type == AppliedInputs::ROS_TYPE {
                 exactness.departures.push(format!(
-                    "the recording has a gap, and what drove the model meanwhile is missing ({gap}): \
-                     the replay goes on with the inputs before it"
+                    "the recording has a gap in the applied inputs ({gap}): \
+                     the replay continues with the inputs before it"
                 ));
             } else {
                 exactness.notes.push(format!("the recording has a gap ({gap})"));
@@ -167,7 +169,7 @@ impl Script {
         let damaged = self.damaged.iter();
         exactness
             .notes
-            .extend(damaged.map(|damage| format!("left out of the recording: {damage}")));
+            .extend(damaged.map(|damage| format!("the recording is damaged: {damage}")));
         if self.session.version != env!("CARGO_PKG_VERSION") {
             exactness.departures.push(format!(
                 "recorded with flexdrill {}, replayed with {}: outputs may differ",
@@ -186,7 +188,7 @@ impl Script {
             .map_or_else(|| format!("/{}", topic.name), |(_, name)| name.clone())
     }
 
-    /// Replays it into `out`, at most `duration` s of model time.
+    /// Replays the recording into `out`, at most `duration` s of model time.
     pub(super) fn replay(&self, out: &Path, duration: Option<f64>) -> anyhow::Result<(Player, Progress)> {
         let config = self.config()?;
         let time_step = config.solver.time_step;
@@ -206,7 +208,7 @@ impl Script {
         };
         for (index, message) in self.applied.iter().enumerate() {
             if base.step(message.step) != Some(player.step()) {
-                // A message that says so was lost: the model had gone back to its start.
+                // The steps do not fit, so a message with a reset was lost.
                 let inputs = RunInputs {
                     reset: true,
                     ..player.inputs()
@@ -218,13 +220,13 @@ impl Script {
             let changes = changes_of(message);
             let values = changes.iter().map(|change| (&change.name, change.value));
             let changed = player.config().with_values("recorded parameters", values)?;
-            // What is sent again every second changes nothing.
+            // The twin repeats all values every second; only a difference is a change.
             if changed != *player.config() {
                 player.reconfigure(changed);
             }
             let inputs = RunInputs {
                 skipped: message.skipped_steps.saturating_sub(base.skipped),
-                ..run_inputs(message, player.config(), player.begun())
+                ..run_inputs(message, player.config(), player.initial_rates())
             };
             player.apply(&inputs, &changes, index == 0)?;
             if message.reset {
@@ -257,7 +259,7 @@ impl Script {
     }
 }
 
-/// Where the replay's counting begins in the recording's.
+/// Origin of the replay's counts within the recording's.
 struct Base {
     /// Instant of the replay's step 0 (ns since 1970).
     start: i64,
@@ -283,13 +285,13 @@ impl Base {
         }
     }
 
-    /// A step of the recording as the replay counts it; none of before.
+    /// The replay's number of a recorded step; `None` before its beginning.
     fn step(&self, recorded: u64) -> Option<u64> {
         recorded.checked_sub(self.step)
     }
 }
 
-/// How far a replay has come.
+/// Progress of a replay.
 struct Pace {
     /// Steps taken, over all resets.
     taken: u64,
@@ -301,7 +303,7 @@ struct Pace {
 impl Pace {
     fn advance(&mut self, player: &mut Player, until: u64) -> anyhow::Result<()> {
         while player.step() < until && self.taken < self.most {
-            player.advance_surely()?;
+            player.advance_or_fail()?;
             self.taken += 1;
             self.progress.at(self.taken as f64 * self.time_step);
         }
@@ -316,12 +318,12 @@ fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]
     };
     let before = if last.reset { 0 } else { last.step };
     let since = (newest - last.header.stamp.to_nanoseconds()) as f64 * 1e-9 / session.time_step;
-    // An output older than the last change of inputs says nothing of the steps after it.
+    // An output older than the last change of inputs gives no step after it.
     before + since.round().max(0.0) as u64
 }
 
-/// What drives the model, as a recorded message has it. In recordings of a twin that did not tell who asked for its
-/// parameters that list is empty, and steps were taken whole.
+/// Decodes the applied inputs. Older twins did not publish who set a parameter, nor the refinement of steps; for their
+/// messages that list is empty, and steps are whole.
 fn applied_inputs(message: &BagMessage) -> Result<AppliedInputs, BagError> {
     let schema = &message.topic.schema;
     if schema.is_empty() || schema.contains("refinement") {

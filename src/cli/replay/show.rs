@@ -1,4 +1,4 @@
-//! A recording shown live: played at its own times to Foxglove and Lichtblick, which play, pause and jump.
+//! Plays a recording to Foxglove and Lichtblick in its own time; they play, pause and seek.
 
 use std::net::SocketAddr;
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::ros::args::RosArgs;
 use crate::ros::logging;
 use flexdrill_text::printable;
 
-/// Plays a bag at `address` until the process is asked to end.
+/// Plays a bag at `address` until a signal requests the end.
 pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyhow::Result<()> {
     logging::start(&RosArgs::default());
     let listener = live::listen("--foxglove", address)?;
@@ -38,12 +38,12 @@ pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyh
     })
 }
 
-/// Reads the latched topics through, on a thread that is left behind at the end: it only reads.
+/// Reads the latched topics on a thread of its own. The thread only reads, so nothing waits for its end.
 fn read_states(path: &Path, states: Arc<LatchedStates>) -> anyhow::Result<()> {
     let mut bag = bag::open(path)?;
     bag.select(|topic| topic.qos.iter().any(|qos| qos.transient_local));
     std::thread::Builder::new().name("reader".into()).spawn(move || {
-        // What cannot be read is told by the player, when it comes there.
+        // The player reports unreadable parts when it reaches them.
         for message in bag.flatten() {
             states.observe(&message);
         }

@@ -1,4 +1,4 @@
-//! What a replay came to, for a person.
+//! The summary of a replay.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
 
-/// The largest value of something and where and when it was.
+/// The largest value of a quantity, with its depth and time.
 #[derive(Debug, Clone, Copy, Default)]
 struct Peak {
     value: f64,
@@ -33,10 +33,10 @@ impl Peak {
     }
 }
 
-/// Counted and kept over a replay.
+/// Counts and extremes over a replay.
 #[derive(Debug, Default)]
 pub(super) struct Tally {
-    /// Times that the model went back to its start.
+    /// Number of resets.
     pub resets: u64,
     /// Alarms and their figures.
     pub alarms: AlarmTally,
@@ -57,10 +57,10 @@ pub(super) struct Tally {
     publish: u64,
 }
 
-/// How far the motion could be trusted.
+/// Quality of the model over the replay.
 #[derive(Debug, Default)]
 struct QualityTally {
-    /// Snapshots per level, of those that were judged.
+    /// Number of judged snapshots by level.
     judged: [u64; 3],
     /// The first of the worst level.
     worst: ModelQuality,
@@ -92,7 +92,7 @@ impl QualityTally {
     }
 }
 
-/// What aged, and where.
+/// Ageing by location.
 #[derive(Debug, Default)]
 struct WearTally {
     ageing: Ageing,
@@ -100,7 +100,7 @@ struct WearTally {
     station_depth: Vec<f64>,
 }
 
-/// Joints that the summary names.
+/// Number of joints that the summary names.
 const JOINTS_NAMED: usize = 3;
 
 impl WearTally {
@@ -110,15 +110,15 @@ impl WearTally {
         self.station_depth.clone_from(&snapshot.contacts.measured_depth);
     }
 
-    /// The joints that age fastest, each against the fastest.
+    /// The joints that age fastest, each relative to the fastest.
     fn joints(&self) -> String {
         let mut order: Vec<(usize, f64)> = self.ageing.relative_damage().enumerate().collect();
         order.sort_by(|a, b| b.1.total_cmp(&a.1));
         let name = |&(joint, share): &(usize, f64)| {
             let part = if self.ageing.stop_damage[joint] >= self.ageing.bending_damage[joint] {
-                "its stop"
+                "stop"
             } else {
-                "the link below"
+                "link below"
             };
             format!(
                 "joint {} at {:.2} m ({part}, {:.0} %)",
@@ -140,7 +140,7 @@ impl WearTally {
         }
     }
 
-    /// Where friction takes most, per layer.
+    /// The work of friction, and its largest share, by layer.
     fn friction(&self) -> String {
         let most = |layer: usize| {
             let work = &self.ageing.friction_work[layer];
@@ -179,12 +179,12 @@ impl Tally {
         }
     }
 
-    /// Adds time that went into messages (ns).
+    /// Adds time spent on messages (ns).
     pub(super) fn publishing(&mut self, time: u64) {
         self.publish += time;
     }
 
-    /// Where the model's time went.
+    /// Sets the computing time by phase.
     pub(super) fn phases(&mut self, times: PhaseTimes) {
         self.phases = times;
     }
@@ -223,12 +223,12 @@ impl Tally {
         });
     }
 
-    /// What reached a level, in the order of its beginning.
+    /// The incidents, in the order of their begin.
     pub(super) fn incidents(&mut self) -> Vec<Incident> {
         std::mem::take(&mut self.incidents).finish()
     }
 
-    /// Prints it. `wall` is how long it took (s), `time_step` the model's (s).
+    /// Prints the summary. `wall` is the wall time of the replay (s), `time_step` the model's step (s).
     pub(super) fn print(&self, wall: f64, time_step: f64) {
         let row = |name: &str, value: String| say!("  {name:<22} {value}");
         let model = self.steps as f64 * time_step;
@@ -262,18 +262,18 @@ impl Tally {
                 format!("{split}, deepest 1/{}", 1_u64 << deepest.min(63))
             },
         );
-        let place = |peak: &Peak| format!("at {:.2} m, model time {:.2} s", peak.depth, peak.time);
+        let at = |peak: &Peak| format!("at {:.2} m, model time {:.2} s", peak.depth, peak.time);
         row(
             "largest pipe-guide force",
-            format!("{:.0} N {}", self.pipe_guide.value, place(&self.pipe_guide)),
+            format!("{:.0} N {}", self.pipe_guide.value, at(&self.pipe_guide)),
         );
         row(
             "largest guide-wall force",
-            format!("{:.0} N {}", self.guide_wall.value, place(&self.guide_wall)),
+            format!("{:.0} N {}", self.guide_wall.value, at(&self.guide_wall)),
         );
         row(
             "largest bend",
-            format!("{:.2} deg {}", rad_to_deg(self.bend.value), place(&self.bend)),
+            format!("{:.2} deg {}", rad_to_deg(self.bend.value), at(&self.bend)),
         );
         if self.joints_at_limit > 0 {
             row(
@@ -282,7 +282,7 @@ impl Tally {
                     "up to {}, stop moment up to {:.0} N m {}",
                     self.joints_at_limit,
                     self.stop.value,
-                    place(&self.stop)
+                    at(&self.stop)
                 ),
             );
         } else {
@@ -299,14 +299,14 @@ impl Tally {
             };
             row("model quality", self.quality.text());
             row("energy error", format!("{:.3} J{share}", last.energy_error));
-            row("ages fastest", self.wear.joints());
+            row("fastest ageing", self.wear.joints());
             row("work of friction", self.wear.friction());
             row("rejected sub-steps", last.rejected.to_string());
             row("whirl warnings", format!("{} changes of level", last.warnings));
         }
     }
 
-    /// Mean per step and phase.
+    /// Mean computing time per step, by phase.
     fn time_per_step(&self) -> String {
         let micros = |time: u64| time as f64 * 1e-3 / self.steps as f64;
         let phases = Phase::ALL.map(|phase| (phase.name(), self.phases.of(phase)));
@@ -323,7 +323,7 @@ impl Tally {
     }
 }
 
-/// The bit: the last station.
+/// The location of the bit: the last station.
 fn bit_location(snapshot: &Snapshot) -> IncidentLocation {
     location(
         snapshot,
@@ -332,7 +332,7 @@ fn bit_location(snapshot: &Snapshot) -> IncidentLocation {
     )
 }
 
-/// The station that was struck.
+/// The location of the shock.
 fn shock_location(snapshot: &Snapshot) -> IncidentLocation {
     let body = if snapshot.shock.layer == 0 {
         Body::Pipe

@@ -1,20 +1,20 @@
-//! Which part of the time a code stood.
+//! Shares of time of the values of a code.
 
 use std::collections::BTreeMap;
 
-use super::history::HELD;
+use crate::history::HELD;
 
-/// Codes of successive messages. Each stands until the next message, at most for [`HELD`].
+/// The codes of successive messages. Each holds until the next message, at most for [`HELD`].
 #[derive(Debug, Default)]
-pub(super) struct Shares {
-    /// s.
+pub(crate) struct Shares {
+    /// Time of each code (s).
     times: BTreeMap<u8, f64>,
     last: Option<(f64, u8)>,
 }
 
 impl Shares {
-    /// Takes the code of a message at a time from the beginning (s).
-    pub(super) fn push(&mut self, time: f64, code: u8) {
+    /// Adds the code of a message at a time (s from the beginning).
+    pub(crate) fn push(&mut self, time: f64, code: u8) {
         if let Some((before, last)) = self.last {
             let held = (time - before).clamp(0.0, HELD);
             *self.times.entry(last).or_default() += held;
@@ -24,19 +24,19 @@ impl Shares {
     }
 
     /// Whether there was no message.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.times.is_empty()
     }
 
-    /// Whether a code stood at some time.
-    pub(super) fn has(&self, code: u8) -> bool {
+    /// Whether a code has occurred.
+    pub(crate) fn has(&self, code: u8) -> bool {
         self.times.contains_key(&code)
     }
 
     /// Codes and their shares of the time (0 to 1).
-    pub(super) fn iter(&self) -> impl Iterator<Item = (u8, f64)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (u8, f64)> {
         let all: f64 = self.times.values().sum();
-        // A single message has stood for no time, and is all that is known.
+        // A single message holds for no time, yet it is all that is known.
         let equal = 1.0 / self.times.len().max(1) as f64;
         self.times
             .iter()
@@ -44,7 +44,7 @@ impl Shares {
     }
 
     /// The share of a code (0 to 1).
-    pub(super) fn of(&self, code: u8) -> f64 {
+    pub(crate) fn of(&self, code: u8) -> f64 {
         self.iter()
             .find(|(known, _)| *known == code)
             .map_or(0.0, |(_, share)| share)
@@ -67,7 +67,7 @@ mod tests {
         }
         assert!((shares.of(1) - 0.25).abs() < 1e-9, "{}", shares.of(1));
         assert!((shares.of(3) - 0.75).abs() < 1e-9, "{}", shares.of(3));
-        // A silence of an hour is nobody's.
+        // A silence of an hour belongs to no code.
         shares.push(3604.0, 1);
         assert!((shares.of(3) - 5.5 / 6.5).abs() < 1e-9, "{}", shares.of(3));
         let mut single = Shares::default();

@@ -1,18 +1,18 @@
-//! Inputs and the transfer of torque.
+//! The inputs and the transfer of torque.
 
 use maud::{Markup, html};
 
 use super::drawn;
 use super::health::shares;
 use super::text::{number, percent};
-use crate::messages::words;
-use crate::report::ReportError;
-use crate::report::history::History;
-use crate::report::plots;
-use crate::report::reading::Summary;
+use crate::ReportError;
+use crate::history::History;
+use crate::plots;
+use crate::reading::Summary;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_messages::words;
 
-/// `window` (s): the time over which the mean is taken; all of it where there is none.
+/// A row of the table; the mean is taken over `window` (s), or over the whole recording without one.
 fn row(what: &str, unit: &str, history: &History, factor: f64, window: Option<[f64; 2]>) -> Markup {
     html! {
         @if let Some(range) = history.range() {
@@ -30,7 +30,7 @@ fn head(what: &str) -> Markup {
     html! { thead { tr { th { (what) } th.n { "least" } th.n { "mean" } th.n { "largest" } th { "unit" } } } }
 }
 
-/// What drove the model.
+/// The section about the inputs.
 pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
     let drive = &summary.drive;
     let (rpm, kn) = (rad_per_s_to_rpm(1.0), n_to_kn(1.0));
@@ -38,8 +38,7 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
     let window = drive.common_window();
     let figure = drawn(
         plots::inputs(summary),
-        "Received: as the rig sent it. Asked of the model: what passed the checks, before the slew limit. Pale: least to \
-         largest.",
+        "Received: as the rig sent it. Accepted: after the checks, before the slew limit. Pale: least to largest.",
     )?;
     Ok(html! {
         section {
@@ -48,21 +47,21 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                 (head("quantity"))
                 tbody {
                     (row("rotary speed, received", "r/min", &drive.received.rotary_speed, rpm, window))
-                    (row("rotary speed, asked of the model", "r/min", &drive.asked.rotary_speed, rpm, window))
+                    (row("rotary speed, accepted", "r/min", &drive.accepted.rotary_speed, rpm, window))
                     (row("weight on bit, received", "kN", &drive.received.weight_on_bit, kn, window))
-                    (row("weight on bit, asked of the model", "kN", &drive.asked.weight_on_bit, kn, window))
+                    (row("weight on bit, accepted", "kN", &drive.accepted.weight_on_bit, kn, window))
                     (row("weight on bit, at the bit", "kN", &drive.bit.weight_on_bit, kn, window))
                 }
             }
             @if let Some([from, to]) = window {
                 p {
                     "Means are over time, from " (number(from)) " to " (number(to)) " s, in which all of these are known. \
-                     Least and largest are of the whole recording."
+                     Least and largest values are those of the whole recording."
                 }
             }
             @if !summary.health.inputs.is_empty() {
                 table {
-                    thead { tr { th { "input" } th { "its state, share of the time" } th { "driven by" } th.n { "refused" } } }
+                    thead { tr { th { "input" } th { "state, share of the time" } th { "driven by" } th.n { "refused" } } }
                     tbody {
                         @for (name, states) in &summary.health.inputs {
                             @let index = newest.and_then(|status| status.input_name.iter().position(|known| known == name));
@@ -77,7 +76,7 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                 }
             } @else if !drive.input_quality.is_empty() {
                 p {
-                    "State of the inputs, the worse of both: " (shares(&drive.input_quality, words::input_state)) "."
+                    "State of the inputs, the worse of the two: " (shares(&drive.input_quality, words::input_state)) "."
                 }
             }
             (figure)
@@ -85,24 +84,24 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
     })
 }
 
-/// What reached the bit.
+/// The section about the torque at the bit.
 pub(super) fn torque(summary: &Summary) -> Result<Markup, ReportError> {
     let drive = &summary.drive;
     let figure = drawn(
         plots::torque(summary),
-        "Torque through the uppermost joint and of the rock against the bit. A stick-slip index of 1 or more: the bit \
-         stands at times.",
+        "Torque through the uppermost joint, and torque of the rock on the bit. At a stick-slip index of 1 or more the \
+         bit stops at times.",
     )?;
     Ok(html! {
         section {
             h2 { "Transfer of torque" }
             @match drive.transfer.means() {
                 Some([top, bit]) => p {
-                    "While the drive turned, " (number(top)) " N m went in at the uppermost joint and " (number(bit))
-                    " N m came to the bit on average: " b { (percent(bit / top)) } ". Friction along the tool took "
+                    "While the drive turned, the mean torque was " (number(top)) " N m at the uppermost joint and " (number(bit))
+                    " N m at the bit: " b { (percent(bit / top)) } ". Friction along the tool consumed "
                     (number(top - bit)) " N m."
                 },
-                None => p { "The drive did not turn, or the bag has not both torques." },
+                None => p { "The drive did not turn, or the bag lacks one of the two torques." },
             }
             table {
                 (head("quantity"))

@@ -2,19 +2,19 @@
 
 use std::f64::consts::TAU;
 
-use super::history::{History, Stretch};
-use super::is_quantity;
-use super::places::{Orbit, Worst};
-use super::reading::Summary;
+use crate::history::{History, Segment};
+use crate::is_quantity;
+use crate::locations::{Measure, Orbit};
+use crate::reading::Summary;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
 use flexdrill_plot::{Figure, Legend, Line, Panel};
 
-/// Below so many samples per turn the line between two of them would invent a path.
+/// Samples per turn from which they are joined by a line; with fewer, the line would show a path that is not known.
 const LINE_FROM: f64 = 8.0;
-/// Height of a row of panels, in the units of a width of 1080.
+/// Height of a row of panels, for a width of 1080.
 const ROW: u32 = 300;
 
-/// Seconds, minutes or hours, whichever suits a recording's length.
+/// A time axis in seconds, minutes or hours, depending on the recording's length.
 struct Axis {
     label: &'static str,
     unit: f64,
@@ -44,9 +44,9 @@ impl Axis {
         points.into_iter().map(|(time, y)| (time / self.unit, y)).collect()
     }
 
-    /// A history as what lies between its extremes, and its mean.
+    /// Adds a history as a band between its extremes, and its mean.
     fn draw(&self, mut panel: Panel, name: &str, color: usize, history: &History, factor: f64) -> Panel {
-        for (index, Stretch { mean, outline }) in history.stretches(factor).into_iter().enumerate() {
+        for (index, Segment { mean, outline }) in history.segments(factor).into_iter().enumerate() {
             let name = if index == 0 { name } else { "" };
             panel = panel
                 .line(Line::new("", self.scaled(outline)).area().color(color))
@@ -60,7 +60,7 @@ fn has_lines(panel: &Panel) -> bool {
     panel.lines.iter().any(|line| !line.points.is_empty())
 }
 
-/// A figure of those panels that show something; `None` without any.
+/// A figure of the panels that have lines; `None` without any.
 fn figure(name: &'static str, columns: usize, height: u32, panels: Vec<Panel>) -> Option<Figure> {
     let panels: Vec<Panel> = panels.into_iter().filter(has_lines).collect();
     (!panels.is_empty()).then(|| Figure {
@@ -82,22 +82,22 @@ fn kn() -> f64 {
 }
 
 /// Speeds and weight over time.
-pub(super) fn inputs(summary: &Summary) -> Option<Figure> {
+pub(crate) fn inputs(summary: &Summary) -> Option<Figure> {
     let axis = Axis::of(summary);
     let drive = &summary.drive;
     let mut speed = axis.panel("Rotary speed", "r/min");
     speed = axis.draw(speed, "bit", 0, &drive.bit.rotary_speed, rpm());
-    speed = axis.draw(speed, "asked of the model", 1, &drive.asked.rotary_speed, rpm());
+    speed = axis.draw(speed, "accepted", 1, &drive.accepted.rotary_speed, rpm());
     speed = axis.draw(speed, "received", 6, &drive.received.rotary_speed, rpm());
     let mut weight = axis.panel("Weight on bit", "kN");
     weight = axis.draw(weight, "at the bit", 0, &drive.bit.weight_on_bit, kn());
-    weight = axis.draw(weight, "asked of the model", 1, &drive.asked.weight_on_bit, kn());
+    weight = axis.draw(weight, "accepted", 1, &drive.accepted.weight_on_bit, kn());
     weight = axis.draw(weight, "received", 6, &drive.received.weight_on_bit, kn());
     figure("inputs", 1, ROW, vec![speed, weight])
 }
 
-/// Torque on top and at the bit, and what swings.
-pub(super) fn torque(summary: &Summary) -> Option<Figure> {
+/// Torque at the uppermost joint and at the bit, stick-slip and lateral acceleration.
+pub(crate) fn torque(summary: &Summary) -> Option<Figure> {
     let axis = Axis::of(summary);
     let drive = &summary.drive;
     let mut torque = axis.panel("Torque", "N m");
@@ -113,9 +113,9 @@ pub(super) fn torque(summary: &Summary) -> Option<Figure> {
 }
 
 /// Forces and moments along the tool.
-pub(super) fn envelopes(summary: &Summary) -> Option<Figure> {
-    let places = &summary.places;
-    let (stations, joints) = (&places.station_depth, &places.joint_depth);
+pub(crate) fn envelopes(summary: &Summary) -> Option<Figure> {
+    let locations = &summary.locations;
+    let (stations, joints) = (&locations.station_depth, &locations.joint_depth);
     let along = "measured depth from the kick-off (m)";
     let mut panels = Vec::new();
     for (layer, title) in ["Normal force, pipe on guide", "Normal force, guide on wall"]
@@ -124,14 +124,14 @@ pub(super) fn envelopes(summary: &Summary) -> Option<Figure> {
     {
         panels.push(
             Panel::new(title, along, "kN")
-                .line(Line::new("largest", places.peak[layer].curve(stations, kn(), |s| s.max)).color(1))
-                .line(Line::new("RMS", places.rms[layer].curve(stations, kn(), |s| s.rms())).color(0))
+                .line(Line::new("largest", locations.peak[layer].curve(stations, kn(), |s| s.max)).color(1))
+                .line(Line::new("RMS", locations.rms[layer].curve(stations, kn(), |s| s.rms())).color(0))
                 .from_zero(),
         );
     }
     for (title, unit, envelope, factor) in [
-        ("Axial force, tension positive", "kN", &places.axial_force, kn()),
-        ("Torque through the joints", "N m", &places.torque, 1.0),
+        ("Axial force, tension positive", "kN", &locations.axial_force, kn()),
+        ("Torque through the joints", "N m", &locations.torque, 1.0),
     ] {
         panels.push(
             Panel::new(title, along, unit)
@@ -145,89 +145,105 @@ pub(super) fn envelopes(summary: &Summary) -> Option<Figure> {
     }
     panels.push(
         Panel::new("Shear force through the joints", along, "kN")
-            .line(Line::new("largest", places.shear_force.curve(joints, kn(), |s| s.max)).color(1))
-            .line(Line::new("RMS", places.shear_force.curve(joints, kn(), |s| s.rms())).color(0))
+            .line(Line::new("largest", locations.shear_force.curve(joints, kn(), |s| s.max)).color(1))
+            .line(Line::new("RMS", locations.shear_force.curve(joints, kn(), |s| s.rms())).color(0))
             .from_zero(),
     );
     let limit = joints
         .iter()
         .copied()
-        .zip(places.limit.iter().map(|limit| rad_to_deg(*limit)))
+        .zip(locations.limit.iter().map(|limit| rad_to_deg(*limit)))
         .filter(|(x, y)| is_quantity(*x) && is_quantity(*y))
         .collect();
     panels.push(
         Panel::new("Bend of the joints", along, "deg")
-            .line(Line::new("largest", places.bend.curve(joints, rad_to_deg(1.0), |s| s.max)).color(1))
-            .line(Line::new("mean", places.bend.curve(joints, rad_to_deg(1.0), |s| s.mean())).color(0))
+            .line(Line::new("largest", locations.bend.curve(joints, rad_to_deg(1.0), |s| s.max)).color(1))
+            .line(Line::new("mean", locations.bend.curve(joints, rad_to_deg(1.0), |s| s.mean())).color(0))
             .line(Line::new("stop begins", limit).dashed().color(6))
             .from_zero(),
     );
     panels.push(
         Panel::new("Moment of the joints' stops", along, "N m")
-            .line(Line::new("largest", places.stop_moment.curve(joints, 1.0, |s| s.max)).color(1))
-            .line(Line::new("RMS", places.stop_moment.curve(joints, 1.0, |s| s.rms())).color(0))
+            .line(Line::new("largest", locations.stop_moment.curve(joints, 1.0, |s| s.max)).color(1))
+            .line(Line::new("RMS", locations.stop_moment.curve(joints, 1.0, |s| s.rms())).color(0))
             .from_zero(),
     );
     panels.push(
         Panel::new("Time in contact", along, "%")
-            .line(Line::new("pipe on guide", places.contact[0].curve(stations, 100.0, |s| s.mean())).color(0))
-            .line(Line::new("guide on wall", places.contact[1].curve(stations, 100.0, |s| s.mean())).color(1))
+            .line(
+                Line::new(
+                    "pipe on guide",
+                    locations.contact[0].curve(stations, 100.0, |s| s.mean()),
+                )
+                .color(0),
+            )
+            .line(
+                Line::new(
+                    "guide on wall",
+                    locations.contact[1].curve(stations, 100.0, |s| s.mean()),
+                )
+                .color(1),
+            )
             .from_zero(),
     );
     figure("envelopes", 2, ROW, panels)
 }
 
-/// A place whose orbit is shown.
-pub(super) struct OrbitOf<'a> {
+/// An orbit to show.
+pub(crate) struct OrbitOf<'a> {
     pub joint: usize,
-    pub worst: Worst,
+    pub measure: Measure,
     pub orbit: &'a Orbit,
 }
 
 impl OrbitOf<'_> {
-    /// Samples per turn of the tool, infinite while it stands.
-    pub(super) fn samples_per_turn(&self) -> f64 {
+    /// Samples per turn of the tool; infinite if it does not turn.
+    pub(crate) fn samples_per_turn(&self) -> f64 {
         let [first, last] = self.orbit.span;
         let interval = (last - first) / (self.orbit.points.len().max(2) - 1) as f64;
         TAU / (self.orbit.spin.abs() * interval)
     }
 }
 
-/// Orbits at the worst places, each joint once per measure.
-pub(super) fn worst_orbits(summary: &Summary) -> Vec<OrbitOf<'_>> {
-    let places = &summary.places;
+/// Orbits at the worst locations, each joint once per measure.
+pub(crate) fn worst_orbits(summary: &Summary) -> Vec<OrbitOf<'_>> {
+    let locations = &summary.locations;
     let mut found: Vec<OrbitOf<'_>> = Vec::new();
-    for worst in Worst::ALL {
-        let depths: Vec<f64> = match worst {
-            Worst::PipeGuide => places
+    for measure in Measure::ALL {
+        let depths: Vec<f64> = match measure {
+            Measure::PipeGuide => locations
                 .worst_stations(0)
                 .iter()
-                .map(|s| places.station_depth[*s])
+                .map(|s| locations.station_depth[*s])
                 .collect(),
-            Worst::GuideWall => places
+            Measure::GuideWall => locations
                 .worst_stations(1)
                 .iter()
-                .map(|s| places.station_depth[*s])
+                .map(|s| locations.station_depth[*s])
                 .collect(),
-            Worst::Whirl => places.worst_whirl().iter().map(|place| place.measured_depth).collect(),
+            Measure::Whirl => locations
+                .worst_whirl()
+                .iter()
+                .map(|station| station.measured_depth)
+                .collect(),
         };
-        // Two of each measure, so that all are seen.
+        // Two of each measure, so that every measure is shown.
         for depth in depths.into_iter().take(2) {
-            if let Some((joint, orbit)) = places.orbit(worst, depth)
+            if let Some((joint, orbit)) = locations.orbit(measure, depth)
                 && !found
                     .iter()
                     .any(|known| known.joint == joint && known.orbit.span == orbit.span)
             {
-                found.push(OrbitOf { joint, worst, orbit });
+                found.push(OrbitOf { joint, measure, orbit });
             }
         }
     }
     found
 }
 
-/// The orbits, with the room that the pipe has in the bore.
-pub(super) fn orbits(summary: &Summary) -> Option<Figure> {
-    let room = summary
+/// The orbits, with the lateral clearance of the pipe in the bore.
+pub(crate) fn orbits(summary: &Summary) -> Option<Figure> {
+    let clearance = summary
         .config
         .as_ref()
         .map(|config| config.inner_clearance() + config.outer_clearance());
@@ -248,11 +264,11 @@ pub(super) fn orbits(summary: &Summary) -> Option<Figure> {
             } else {
                 path.thin()
             };
-            let depth = summary.places.joint_depth.get(of.joint).copied().unwrap_or(f64::NAN);
-            let why = match of.worst {
-                Worst::PipeGuide => "force on the guide",
-                Worst::GuideWall => "force on the wall",
-                Worst::Whirl => "whirl",
+            let depth = summary.locations.joint_depth.get(of.joint).copied().unwrap_or(f64::NAN);
+            let why = match of.measure {
+                Measure::PipeGuide => "force on the guide",
+                Measure::GuideWall => "force on the wall",
+                Measure::Whirl => "whirl",
             };
             let mut panel = Panel::new(
                 format!("Joint {:02}, {depth:.2} m: {why}", of.joint + 1),
@@ -263,10 +279,10 @@ pub(super) fn orbits(summary: &Summary) -> Option<Figure> {
             .equal()
             .down()
             .legend(Legend::Row);
-            if let Some(room) = room {
+            if let Some(clearance) = clearance {
                 let circle = (0..=90).map(|k| {
                     let angle = TAU * f64::from(k) / 90.0;
-                    (mm * room * angle.cos(), mm * room * angle.sin())
+                    (mm * clearance * angle.cos(), mm * clearance * angle.sin())
                 });
                 panel = panel.line(Line::new("", circle.collect()).dashed().color(6));
             }
@@ -277,7 +293,7 @@ pub(super) fn orbits(summary: &Summary) -> Option<Figure> {
 }
 
 /// Pace of the model.
-pub(super) fn pace(summary: &Summary) -> Option<Figure> {
+pub(crate) fn pace(summary: &Summary) -> Option<Figure> {
     let axis = Axis::of(summary);
     let health = &summary.health;
     let factor = axis.draw(

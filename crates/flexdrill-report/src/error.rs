@@ -1,44 +1,44 @@
-//! Why there is no report.
+//! Errors of a report.
 
 use std::path::PathBuf;
 
-use crate::bag::BagError;
+use flexdrill_bag::BagError;
 use flexdrill_plot::DrawError;
 
-/// Why there is no report.
+/// Why no report was written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The bag cannot be read.
     #[error(transparent)]
     Bag(#[from] BagError),
-    /// The bag holds nothing that the twin has published.
+    /// The bag has none of the twin's topics.
     #[error(
-        "{path}: none of its topics is the twin's, there are {present}; run the rig's inputs through the model first: \
+        "{path}: none of its topics is the twin's; it has {present}. Run the rig's inputs through the model first: \
          flexdrill replay {path} --out OUT.mcap",
         path = path.display()
     )]
     NoTwin {
-        /// Bag.
+        /// The bag.
         path: PathBuf,
         /// Its topics.
         present: String,
     },
-    /// The bag holds several twins.
-    #[error("{path}: it holds twins in the namespaces {namespaces}; say which with --namespace", path = path.display())]
+    /// The bag has several twins.
+    #[error("{path}: the bag has twins in the namespaces {namespaces}; choose one with --namespace", path = path.display())]
     SeveralTwins {
-        /// Bag.
+        /// The bag.
         path: PathBuf,
         /// Their namespaces.
         namespaces: String,
     },
-    /// The bag holds no twin of that namespace.
-    #[error("{path}: no twin in the namespace {wanted}, but in {namespaces}", path = path.display())]
+    /// The bag has no twin in the requested namespace.
+    #[error("{path}: the bag has no twin in the namespace {wanted}, only in {namespaces}", path = path.display())]
     OtherNamespace {
-        /// Bag.
+        /// The bag.
         path: PathBuf,
-        /// Namespace asked for.
+        /// The requested namespace.
         wanted: String,
-        /// Those that there are.
+        /// The namespaces of its twins.
         namespaces: String,
     },
     /// A figure could not be drawn.
@@ -47,9 +47,9 @@ pub enum ReportError {
     /// The page could not be written.
     #[error("cannot write the report {path}: {source}", path = path.display())]
     Write {
-        /// Page.
+        /// The page.
         path: PathBuf,
-        /// Why not.
+        /// The operating system's error.
         source: std::io::Error,
     },
 }

@@ -1,27 +1,30 @@
-//! Quantities along the tool: what they came to at each place over the whole recording.
+//! Quantities along the tool: their statistics over the whole recording, by station or joint.
 
-use super::history::HELD;
-use super::is_quantity;
+use crate::history::HELD;
+use crate::is_quantity;
 
-/// One quantity at each place.
+/// Statistics of one quantity, by station or joint.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Envelope {
-    places: Vec<Statistics>,
+pub(crate) struct Envelope {
+    points: Vec<Statistics>,
+    /// Time of the last message (s).
     last: Option<f64>,
 }
 
-/// One quantity at one place.
+/// Statistics of one quantity at one station or joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Statistics {
+pub(crate) struct Statistics {
     pub min: f64,
     pub max: f64,
-    /// When it was largest in size (s from the beginning).
+    /// Time of the largest magnitude (s from the beginning).
     pub when: f64,
-    /// Of values times the time since the message before (s).
+    /// Sum of values times the time since the message before (value times s).
     area: f64,
+    /// The same of squares.
     squares: f64,
+    /// Sum of these times (s).
     weight: f64,
-    /// Of the first value, which has no time.
+    /// The first value, which has no time before it.
     first: f64,
     count: u64,
 }
@@ -56,13 +59,13 @@ impl Statistics {
         self.count += 1;
     }
 
-    /// Largest size.
-    pub(super) fn size(&self) -> f64 {
+    /// Largest magnitude.
+    pub(crate) fn size(&self) -> f64 {
         self.max.abs().max(self.min.abs())
     }
 
-    /// Over time.
-    pub(super) fn mean(&self) -> f64 {
+    /// Mean over time.
+    pub(crate) fn mean(&self) -> f64 {
         if self.weight > 0.0 {
             self.area / self.weight
         } else {
@@ -71,7 +74,7 @@ impl Statistics {
     }
 
     /// Root mean square over time.
-    pub(super) fn rms(&self) -> f64 {
+    pub(crate) fn rms(&self) -> f64 {
         if self.weight > 0.0 {
             (self.squares / self.weight).sqrt()
         } else {
@@ -81,50 +84,50 @@ impl Statistics {
 }
 
 impl Envelope {
-    /// Takes the values of an instant, one per place; they count for the time since the message before, which is what a
-    /// root mean square of a message covers. Its caller has seen to it that the places are the same each time.
-    pub(super) fn push(&mut self, time: f64, values: impl IntoIterator<Item = f64>) {
+    /// Adds the values of an instant, one per station or joint. They are weighted with the time since the message before,
+    /// because the RMS values in a message cover that time. The caller ensures that the stations never change.
+    pub(crate) fn push(&mut self, time: f64, values: impl IntoIterator<Item = f64>) {
         let weight = self.last.map_or(0.0, |last| (time - last).clamp(0.0, HELD));
         self.last = Some(time);
         for (index, value) in values.into_iter().enumerate() {
-            if index == self.places.len() {
-                self.places.push(NOTHING);
+            if index == self.points.len() {
+                self.points.push(NOTHING);
             }
-            self.places[index].push(time, weight, value);
+            self.points[index].push(time, weight, value);
         }
     }
 
-    /// Place by place; `None` where nothing finite was said.
-    pub(super) fn at(&self, place: usize) -> Option<&Statistics> {
-        self.places.get(place).filter(|statistics| statistics.count > 0)
+    /// The statistics at an index; `None` without a finite value.
+    pub(crate) fn at(&self, index: usize) -> Option<&Statistics> {
+        self.points.get(index).filter(|statistics| statistics.count > 0)
     }
 
-    /// Points over `x`, one per place: `of` the statistics times `factor`.
-    pub(super) fn curve(&self, x: &[f64], factor: f64, of: impl Fn(&Statistics) -> f64) -> Vec<(f64, f64)> {
+    /// The curve of `of` times `factor` over `x`, one point per index.
+    pub(crate) fn curve(&self, x: &[f64], factor: f64, of: impl Fn(&Statistics) -> f64) -> Vec<(f64, f64)> {
         x.iter()
             .enumerate()
-            .filter_map(|(place, x)| Some((*x, factor * of(self.at(place)?))))
+            .filter_map(|(index, x)| Some((*x, factor * of(self.at(index)?))))
             .filter(|(x, y)| is_quantity(*x) && is_quantity(*y))
             .collect()
     }
 
-    /// What lies between least and largest, as an outline.
-    pub(super) fn outline(&self, x: &[f64], factor: f64) -> Vec<(f64, f64)> {
+    /// The outline of the band between least and largest value.
+    pub(crate) fn outline(&self, x: &[f64], factor: f64) -> Vec<(f64, f64)> {
         let mut outline = self.curve(x, factor, |s| s.max);
         outline.extend(self.curve(x, factor, |s| s.min).into_iter().rev());
         outline
     }
 
-    /// The places with the largest size, at least `apart` from each other along `x`, the largest first.
-    pub(super) fn largest(&self, x: &[f64], apart: f64, count: usize) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.places.len().min(x.len()))
-            .filter(|place| self.at(*place).is_some_and(|s| s.size() > 0.0))
+    /// The indices with the largest magnitudes, at least `apart` from each other along `x`, the largest first.
+    pub(crate) fn largest(&self, x: &[f64], apart: f64, count: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.points.len().min(x.len()))
+            .filter(|index| self.at(*index).is_some_and(|s| s.size() > 0.0))
             .collect();
-        order.sort_by(|a, b| self.places[*b].size().total_cmp(&self.places[*a].size()));
+        order.sort_by(|a, b| self.points[*b].size().total_cmp(&self.points[*a].size()));
         let mut found: Vec<usize> = Vec::new();
-        for place in order {
-            if found.len() < count && found.iter().all(|other| (x[*other] - x[place]).abs() >= apart) {
-                found.push(place);
+        for index in order {
+            if found.len() < count && found.iter().all(|other| (x[*other] - x[index]).abs() >= apart) {
+                found.push(index);
             }
         }
         found
@@ -136,14 +139,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_keeps_its_extremes_and_when() {
+    fn extremes_keep_their_time() {
         let mut envelope = Envelope::default();
         envelope.push(0.0, [1.0, -2.0, f64::NAN]);
         envelope.push(1.0, [3.0, -6.0, f64::NAN]);
         envelope.push(2.0, [2.0, 1.0, f64::NAN]);
         let second = envelope.at(1).unwrap();
         assert_eq!((second.min, second.max, second.when), (-6.0, 1.0, 1.0));
-        // Each value counts for the second before it; the first has none.
+        // Each value has the weight of the second before it; the first has none.
         assert!((envelope.at(0).unwrap().mean() - 2.5).abs() < 1e-15);
         assert!((envelope.at(0).unwrap().rms() - (13.0_f64 / 2.0).sqrt()).abs() < 1e-15);
         assert!(envelope.at(2).is_none());

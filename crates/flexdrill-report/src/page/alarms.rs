@@ -3,15 +3,15 @@
 use maud::{Markup, html};
 
 use super::priority_class;
-use super::text::{capital, duration, number, percent, place};
-use crate::messages::words;
-use crate::report::incidents::Incident;
-use crate::report::reading::Summary;
+use super::text::{capital, duration, location, number, percent};
+use crate::incidents::Incident;
+use crate::reading::Summary;
+use flexdrill_messages::words;
 
-/// Most incidents that the page lists; the worst ones where there are more.
+/// Largest number of incidents listed; the worst ones, if there are more.
 const ROWS: usize = 60;
 
-/// What called for somebody.
+/// The section about alarms.
 pub(super) fn section(summary: &Summary) -> Markup {
     let incidents = &summary.incidents;
     let mut groups: Vec<_> = incidents.groups.values().collect();
@@ -22,12 +22,12 @@ pub(super) fn section(summary: &Summary) -> Markup {
         section {
             h2 { "Alarms and incidents" }
             @if !summary.has_alarms() {
-                p { "The bag says nothing of alarms." }
+                p { "The bag has no messages about alarms." }
             } @else if groups.is_empty() {
-                p { "No alarm stood." }
+                p { "No alarm occurred." }
             } @else {
                 table {
-                    thead { tr { th { "priority" } th { "alarm" } th.n { "times" } th.n { "in all" } th { "what the driller can do" } th { "what the engineer can do" } } }
+                    thead { tr { th { "priority" } th { "alarm" } th.n { "times" } th.n { "total time" } th { "what the driller can do" } th { "what the engineer can do" } } }
                     tbody { @for group in &groups {
                         tr {
                             td { (priority(group.priority)) }
@@ -41,20 +41,20 @@ pub(super) fn section(summary: &Summary) -> Markup {
                 }
                 h3 { "Incidents" }
                 table {
-                    thead { tr { th.n { "at (s)" } th.n { "for" } th { "priority" } th { "alarm" } th { "where" } th { "what was seen at the worst" } } }
+                    thead { tr { th.n { "at (s)" } th.n { "for" } th { "priority" } th { "alarm" } th { "where" } th { "evidence at the worst moment" } } }
                     tbody { @for incident in &listed { (row(incident)) } }
                 }
-                @if left_out > 0 { p { "And " (left_out) " more, none worse than these." } }
+                @if left_out > 0 { p { "And " (left_out) " more, of no higher priority." } }
             }
             @if let Some(list) = &incidents.newest {
                 p.note {
                     @if list.annunciations_per_hour.is_finite() {
-                        (number(list.annunciations_per_hour)) " calls per hour; "
-                    } @else { "Calls per hour: not before a full hour; " }
+                        (number(list.annunciations_per_hour)) " annunciations per hour; "
+                    } @else { "Annunciations per hour: not known before a full hour; " }
                     @if list.flood_share.is_finite() {
                         (percent(list.flood_share)) " of the time in flood (more than 10 in 10 min); "
-                    } @else { "time in flood: not before a full 10 min; " }
-                    (list.unacknowledged) " to be acknowledged at the end."
+                    } @else { "time in flood: not known before a full 10 min; " }
+                    (list.unacknowledged) " not acknowledged at the end."
                 }
             }
         }
@@ -74,14 +74,14 @@ fn row(incident: &Incident) -> Markup {
                 None => "to the end",
             } }
             td { (priority(incident.priority)) }
-            td { (capital(&incident.name)) @if !incident.known_by.is_empty() { small { " known to " (incident.known_by) } } }
-            td { (place(incident.body, incident.measured_depth, incident.inclination)) }
+            td { (capital(&incident.name)) @if !incident.acknowledged_by.is_empty() { small { " acknowledged by " (incident.acknowledged_by) } } }
+            td { (location(incident.body, incident.measured_depth, incident.inclination)) }
             td { (incident.evidence) }
         }
     }
 }
 
-/// The worst, in the order of their beginning.
+/// The worst incidents, in the order of their begin.
 fn listed(all: &[Incident]) -> Vec<&Incident> {
     let mut order: Vec<usize> = (0..all.len()).collect();
     order.sort_by_key(|index| std::cmp::Reverse(all[*index].priority));

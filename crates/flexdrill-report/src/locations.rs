@@ -1,36 +1,36 @@
-//! What happened where: envelopes along the tool, whirl, and the orbits at the worst places in their worst moments.
+//! Envelopes along the tool, whirl by station, and the orbits of the worst joints around their worst instants.
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::along::Envelope;
-use super::is_quantity;
-use crate::messages::{ContactForces, JointDeflections, WhirlState};
+use crate::envelope::Envelope;
+use crate::is_quantity;
+use flexdrill_messages::{ContactForces, JointDeflections, WhirlState};
 
-/// Samples of an orbit: four seconds at the usual 50 Hz.
+/// Number of samples of an orbit: four seconds at the usual 50 Hz.
 const WINDOW: usize = 200;
-/// Places that are named of each kind.
-pub(super) const NAMED: usize = 3;
-/// Share of the tool's length within which places count as one.
+/// Number of locations listed by each measure.
+pub(crate) const NAMED: usize = 3;
+/// Share of the tool's length within which two locations count as one.
 const APART: f64 = 0.1;
 
-/// What a place can be the worst by.
+/// The measures by which a location is the worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Worst {
+pub(crate) enum Measure {
     PipeGuide,
     GuideWall,
     Whirl,
 }
 
-impl Worst {
-    pub(super) const ALL: [Self; 3] = [Self::PipeGuide, Self::GuideWall, Self::Whirl];
+impl Measure {
+    pub(crate) const ALL: [Self; 3] = [Self::PipeGuide, Self::GuideWall, Self::Whirl];
 }
 
-/// Time, and of each joint its place across the hole (m) and the spin of the link below (rad/s).
+/// Time (s), and for each joint its lateral position (m) and the spin of the link below (rad/s).
 type Sample = (f64, Vec<[f64; 2]>, Vec<f64>);
 
-/// Motion of a joint about its worst moment: horizontal and towards the low side, from the bore's axis (m).
+/// Path of a joint around its worst instant: horizontal and towards the low side, from the bore's axis (m).
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Orbit {
+pub(crate) struct Orbit {
     pub points: Vec<[f64; 2]>,
     /// First and last sample (s from the beginning).
     pub span: [f64; 2],
@@ -38,18 +38,18 @@ pub(super) struct Orbit {
     pub spin: f64,
 }
 
-/// The worst moment of one joint by one measure, and the samples about it once they are there.
+/// The worst instant of one joint by one measure, and the orbit around it once its samples are complete.
 #[derive(Debug, Clone, Default)]
-struct Moment {
+struct WorstInstant {
     score: f64,
-    /// Samples until the window is to be kept.
+    /// Number of samples until the orbit is complete.
     wait: Option<usize>,
     orbit: Orbit,
 }
 
-/// Whirl at one watched place of one pipe.
+/// Whirl at one watched station of one pipe.
 #[derive(Debug, Clone, Default)]
-pub(super) struct WhirlPlace {
+pub(crate) struct WhirlStation {
     pub body: u8,
     pub measured_depth: f64,
     pub inclination: f64,
@@ -57,7 +57,7 @@ pub(super) struct WhirlPlace {
     pub kinds: BTreeMap<u8, u64>,
     pub evaluations: u64,
     pub severity: u8,
-    /// Of the worst moment.
+    /// Kind at the worst instant, as all fields below.
     pub kind: u8,
     pub time: f64,
     pub ratio: f64,
@@ -66,15 +66,15 @@ pub(super) struct WhirlPlace {
     pub friction_power: f64,
 }
 
-impl WhirlPlace {
+impl WhirlStation {
     fn score(&self) -> (u8, f64) {
         (self.severity, self.clearance_ratio)
     }
 }
 
-/// Everything along the tool.
+/// Everything by location along the tool.
 #[derive(Debug, Default)]
-pub(super) struct Places {
+pub(crate) struct Locations {
     pub joint_depth: Vec<f64>,
     pub joint_inclination: Vec<f64>,
     pub bend: Envelope,
@@ -87,43 +87,43 @@ pub(super) struct Places {
 
     pub station_depth: Vec<f64>,
     pub station_inclination: Vec<f64>,
-    /// Largest in each publishing interval, pipe on guide and guide on wall.
+    /// Largest force in each publishing interval: pipe on guide, guide on wall.
     pub peak: [Envelope; 2],
-    /// Root mean square over each publishing interval.
+    /// RMS force over each publishing interval.
     pub rms: [Envelope; 2],
     pub shock: [Envelope; 2],
     /// 1 while the layer touches.
     pub contact: [Envelope; 2],
 
-    pub whirl: Vec<WhirlPlace>,
+    pub whirl: Vec<WhirlStation>,
 
-    /// Messages of another mesh than the first, which were left out.
+    /// Number of messages with another mesh than the first, which were left out.
     pub other_mesh: u64,
 
     recent: VecDeque<Sample>,
-    moments: [Vec<Moment>; 3],
+    instants: [Vec<WorstInstant>; 3],
     /// Joint nearest to each station.
     nearest: Vec<usize>,
 }
 
-/// Whether places are where something can be, and all arrays have one entry for each.
-fn complete<const N: usize>(places: &[f64], arrays: [&Vec<f64>; N]) -> bool {
-    places.iter().all(|place| is_quantity(*place)) && arrays.iter().all(|array| array.len() == places.len())
+/// Whether the depths are plausible, and all arrays have one entry for each.
+fn complete<const N: usize>(depths: &[f64], arrays: [&Vec<f64>; N]) -> bool {
+    depths.iter().all(|depth| is_quantity(*depth)) && arrays.iter().all(|array| array.len() == depths.len())
 }
 
-/// The entry nearest to a place.
+/// The index of the entry nearest to a depth.
 fn nearest(depths: &[f64], depth: f64) -> Option<usize> {
     (0..depths.len()).min_by(|a, b| (depths[*a] - depth).abs().total_cmp(&(depths[*b] - depth).abs()))
 }
 
-impl Places {
-    pub(super) fn joints(&mut self, time: f64, m: JointDeflections) {
+impl Locations {
+    pub(crate) fn joints(&mut self, time: f64, m: JointDeflections) {
         if self.joint_depth.is_empty() && complete(&m.measured_depth, []) {
             self.joint_depth.clone_from(&m.measured_depth);
             self.joint_inclination.clone_from(&m.inclination);
             self.limit.clone_from(&m.limit_angle);
-            for moments in &mut self.moments {
-                moments.resize(m.measured_depth.len(), Moment::default());
+            for instants in &mut self.instants {
+                instants.resize(m.measured_depth.len(), WorstInstant::default());
             }
         }
         let arrays = [
@@ -152,18 +152,18 @@ impl Places {
         }
         let at = m.lateral_y.into_iter().zip(m.lateral_z).map(|(y, z)| [y, z]).collect();
         self.recent.push_back((time, at, m.spin_rate));
-        for moments in &mut self.moments {
-            for (joint, moment) in moments.iter_mut().enumerate() {
-                match moment.wait {
-                    Some(0) => moment.keep(&self.recent, joint),
-                    Some(samples) => moment.wait = Some(samples - 1),
+        for instants in &mut self.instants {
+            for (joint, instant) in instants.iter_mut().enumerate() {
+                match instant.wait {
+                    Some(0) => instant.keep(&self.recent, joint),
+                    Some(samples) => instant.wait = Some(samples - 1),
                     None => {}
                 }
             }
         }
     }
 
-    pub(super) fn contacts(&mut self, time: f64, m: ContactForces) {
+    pub(crate) fn contacts(&mut self, time: f64, m: ContactForces) {
         if self.station_depth.is_empty() && complete(&m.measured_depth, []) {
             self.station_depth.clone_from(&m.measured_depth);
             self.station_inclination.clone_from(&m.inclination);
@@ -188,13 +188,13 @@ impl Places {
                 .filter_map(|depth| nearest(&self.joint_depth, *depth))
                 .collect();
         }
-        for (worst, peaks) in [
-            (Worst::PipeGuide, &m.pipe_guide_normal_peak),
-            (Worst::GuideWall, &m.guide_wall_normal_peak),
+        for (measure, peaks) in [
+            (Measure::PipeGuide, &m.pipe_guide_normal_peak),
+            (Measure::GuideWall, &m.guide_wall_normal_peak),
         ] {
             for (station, peak) in peaks.iter().enumerate() {
                 if let Some(joint) = self.nearest.get(station) {
-                    self.score(worst, *joint, *peak);
+                    self.score(measure, *joint, *peak);
                 }
             }
         }
@@ -217,8 +217,8 @@ impl Places {
         outer.push(time, m.guide_wall_shock);
     }
 
-    pub(super) fn whirl(&mut self, time: f64, m: &WhirlState) {
-        let places = m.measured_depth.len();
+    pub(crate) fn whirl(&mut self, time: f64, m: &WhirlState) {
+        let stations = m.measured_depth.len();
         let arrays = [
             &m.inclination,
             &m.whirl_ratio,
@@ -227,39 +227,39 @@ impl Places {
             &m.friction_power,
         ];
         if self.whirl.is_empty() {
-            self.whirl.resize(places, WhirlPlace::default());
+            self.whirl.resize(stations, WhirlStation::default());
         }
         let codes = [&m.body, &m.kind, &m.severity];
-        if self.whirl.len() != places
+        if self.whirl.len() != stations
             || !complete(&m.measured_depth, arrays)
-            || codes.iter().any(|codes| codes.len() != places)
+            || codes.iter().any(|codes| codes.len() != stations)
         {
             self.other_mesh += 1;
             return;
         }
-        for (index, place) in self.whirl.iter_mut().enumerate() {
-            place.body = m.body[index];
-            place.measured_depth = m.measured_depth[index];
-            place.inclination = m.inclination[index];
-            place.evaluations += 1;
-            *place.kinds.entry(m.kind[index]).or_default() += 1;
+        for (index, station) in self.whirl.iter_mut().enumerate() {
+            station.body = m.body[index];
+            station.measured_depth = m.measured_depth[index];
+            station.inclination = m.inclination[index];
+            station.evaluations += 1;
+            *station.kinds.entry(m.kind[index]).or_default() += 1;
             let now = (m.severity[index], m.clearance_ratio[index]);
-            if m.kind[index] != WhirlState::NONE && now > place.score() {
-                (place.severity, place.clearance_ratio) = now;
-                place.kind = m.kind[index];
-                place.time = time;
-                place.ratio = m.whirl_ratio[index];
-                place.duty = m.contact_duty[index];
-                place.friction_power = m.friction_power[index];
+            if m.kind[index] != WhirlState::NONE && now > station.score() {
+                (station.severity, station.clearance_ratio) = now;
+                station.kind = m.kind[index];
+                station.time = time;
+                station.ratio = m.whirl_ratio[index];
+                station.duty = m.contact_duty[index];
+                station.friction_power = m.friction_power[index];
             }
         }
         for index in
-            (0..places).filter(|index| m.body[*index] == WhirlState::PIPE && m.kind[*index] != WhirlState::NONE)
+            (0..stations).filter(|index| m.body[*index] == WhirlState::PIPE && m.kind[*index] != WhirlState::NONE)
         {
             if let Some(joint) = nearest(&self.joint_depth, m.measured_depth[index]) {
-                // A level weighs more than any share of the gap.
+                // A level outweighs any clearance ratio.
                 self.score(
-                    Worst::Whirl,
+                    Measure::Whirl,
                     joint,
                     f64::from(m.severity[index]) * 100.0 + m.clearance_ratio[index],
                 );
@@ -267,73 +267,73 @@ impl Places {
         }
     }
 
-    fn score(&mut self, worst: Worst, joint: usize, score: f64) {
-        if let Some(moment) = self.moments[worst as usize].get_mut(joint)
-            && score > moment.score
+    fn score(&mut self, measure: Measure, joint: usize, score: f64) {
+        if let Some(instant) = self.instants[measure as usize].get_mut(joint)
+            && score > instant.score
         {
-            moment.score = score;
-            moment.wait = Some(WINDOW / 2);
+            instant.score = score;
+            instant.wait = Some(WINDOW / 2);
         }
     }
 
-    /// Keeps the windows that the recording's end has cut short.
-    pub(super) fn finish(&mut self) {
-        for moments in &mut self.moments {
-            for (joint, moment) in moments.iter_mut().enumerate() {
-                if moment.wait.is_some() {
-                    moment.keep(&self.recent, joint);
+    /// Keeps the orbits that the end of the recording has cut short.
+    pub(crate) fn finish(&mut self) {
+        for instants in &mut self.instants {
+            for (joint, instant) in instants.iter_mut().enumerate() {
+                if instant.wait.is_some() {
+                    instant.keep(&self.recent, joint);
                 }
             }
         }
         self.recent.clear();
     }
 
-    /// Length along the bore within which places count as one (m).
+    /// Distance along the bore within which two locations count as one (m).
     fn apart(depths: &[f64]) -> f64 {
         APART * (depths.last().copied().unwrap_or(0.0) - depths.first().copied().unwrap_or(0.0)).abs()
     }
 
-    /// Stations with the largest peaks of a layer, 0 pipe on guide, 1 guide on wall.
-    pub(super) fn worst_stations(&self, layer: usize) -> Vec<usize> {
+    /// Stations with the largest peak forces of a layer: 0 pipe on guide, 1 guide on wall.
+    pub(crate) fn worst_stations(&self, layer: usize) -> Vec<usize> {
         let apart = Self::apart(&self.station_depth);
         self.peak[layer].largest(&self.station_depth, apart, NAMED)
     }
 
-    /// Places with the worst whirl, at least at the level WATCH.
-    pub(super) fn worst_whirl(&self) -> Vec<&WhirlPlace> {
-        let mut order: Vec<&WhirlPlace> = self.whirl.iter().filter(|place| place.severity > 0).collect();
+    /// Stations with the worst whirl, at least at the level WATCH.
+    pub(crate) fn worst_whirl(&self) -> Vec<&WhirlStation> {
+        let mut order: Vec<&WhirlStation> = self.whirl.iter().filter(|station| station.severity > 0).collect();
         order.sort_by(|a, b| {
             b.severity
                 .cmp(&a.severity)
                 .then(b.clearance_ratio.total_cmp(&a.clearance_ratio))
         });
         let apart = Self::apart(&self.joint_depth);
-        let mut found: Vec<&WhirlPlace> = Vec::new();
-        for place in order {
-            let near = |other: &&WhirlPlace| {
-                other.body == place.body && (other.measured_depth - place.measured_depth).abs() < apart
+        let mut found: Vec<&WhirlStation> = Vec::new();
+        for station in order {
+            let near = |other: &&WhirlStation| {
+                other.body == station.body && (other.measured_depth - station.measured_depth).abs() < apart
             };
             if found.len() < NAMED && !found.iter().any(near) {
-                found.push(place);
+                found.push(station);
             }
         }
         found
     }
 
-    /// The joint nearest to a place, and its orbit in the moment that was worst there.
-    pub(super) fn orbit(&self, worst: Worst, depth: f64) -> Option<(usize, &Orbit)> {
+    /// The joint nearest to a depth, and its orbit around its worst instant.
+    pub(crate) fn orbit(&self, measure: Measure, depth: f64) -> Option<(usize, &Orbit)> {
         let joint = nearest(&self.joint_depth, depth)?;
-        let orbit = &self.moments[worst as usize].get(joint)?.orbit;
+        let orbit = &self.instants[measure as usize].get(joint)?.orbit;
         (orbit.points.len() > 1).then_some((joint, orbit))
     }
 
-    /// The joint nearest to a place.
-    pub(super) fn nearest_joint(&self, depth: f64) -> Option<usize> {
+    /// The joint nearest to a depth.
+    pub(crate) fn nearest_joint(&self, depth: f64) -> Option<usize> {
         nearest(&self.joint_depth, depth)
     }
 }
 
-impl Moment {
+impl WorstInstant {
     fn keep(&mut self, recent: &VecDeque<Sample>, joint: usize) {
         self.wait = None;
         let samples = || {
@@ -389,39 +389,39 @@ mod tests {
     }
 
     #[test]
-    fn the_orbit_is_that_about_the_worst_moment() {
-        let mut places = Places::default();
+    fn the_orbit_surrounds_the_worst_instant() {
+        let mut locations = Locations::default();
         for index in 0..1000 {
-            places.joints(index as f64, joints(index));
-            places.contacts(index as f64, contacts(if index == 400 { 9.0 } else { 1.0 }));
+            locations.joints(index as f64, joints(index));
+            locations.contacts(index as f64, contacts(if index == 400 { 9.0 } else { 1.0 }));
         }
-        places.finish();
-        assert_eq!(places.worst_stations(0)[0], 2);
-        let (joint, orbit) = places.orbit(Worst::PipeGuide, 1.4).unwrap();
+        locations.finish();
+        assert_eq!(locations.worst_stations(0)[0], 2);
+        let (joint, orbit) = locations.orbit(Measure::PipeGuide, 1.4).unwrap();
         assert_eq!(joint, 1);
         assert_eq!(orbit.points.len(), WINDOW);
         let middle = 0.5 * (orbit.span[0] + orbit.span[1]);
-        // The window is even, and the forces come after the joints: within a sample or two of the middle.
+        // The window is even, and the forces follow the joints, so the instant is within two samples of the middle.
         assert!((middle - 400.0).abs() <= 2.0, "{middle}");
         assert!(orbit.points.contains(&[-400.0, 0.0]));
-        assert_eq!(places.orbit(Worst::Whirl, 1.4), None);
+        assert_eq!(locations.orbit(Measure::Whirl, 1.4), None);
     }
 
     #[test]
     fn a_message_of_another_mesh_or_without_its_arrays_is_left_out() {
-        let mut places = Places::default();
-        places.joints(0.0, joints(0));
+        let mut locations = Locations::default();
+        locations.joints(0.0, joints(0));
         let mut other = joints(1);
         other.measured_depth = vec![0.5, 1.6];
-        places.joints(1.0, other);
+        locations.joints(1.0, other);
         let mut cut = joints(2);
         cut.torque.pop();
-        places.joints(2.0, cut);
-        places.contacts(0.0, contacts(1.0));
+        locations.joints(2.0, cut);
+        locations.contacts(0.0, contacts(1.0));
         let mut cut = contacts(7.0);
         cut.state.clear();
-        places.contacts(1.0, cut);
-        assert_eq!(places.other_mesh, 3);
-        assert_eq!(places.peak[0].at(2).unwrap().max, 1.0);
+        locations.contacts(1.0, cut);
+        assert_eq!(locations.other_mesh, 3);
+        assert_eq!(locations.peak[0].at(2).unwrap().max, 1.0);
     }
 }

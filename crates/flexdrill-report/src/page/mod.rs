@@ -1,9 +1,9 @@
-//! The page: one HTML file with its figures and style inside.
+//! The page: one HTML file that contains its figures and style.
 
 mod alarms;
 mod drive;
 mod health;
-mod places;
+mod locations;
 mod text;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -11,7 +11,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use self::text::{capital, duration, number, percent, times};
 use super::ReportError;
 use super::reading::Summary;
-use crate::messages::{Alarm, TwinStatus, words};
+use flexdrill_messages::{Alarm, TwinStatus, words};
 use flexdrill_plot::{Figure, svg};
 use flexdrill_text::date_time;
 
@@ -47,8 +47,8 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
                 (missing(summary))
                 (drive::inputs(summary)?)
                 (alarms::section(summary))
-                (places::worst(summary)?)
-                (places::envelopes(summary)?)
+                (locations::worst(summary)?)
+                (locations::envelopes(summary)?)
                 (drive::torque(summary)?)
                 (health::section(summary)?)
                 (limits())
@@ -59,7 +59,7 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
     Ok(page.into_string())
 }
 
-/// What was run when.
+/// Time, twin and tool of the recording.
 fn facts(summary: &Summary) -> Markup {
     let session = summary.session.as_ref();
     html! {
@@ -84,20 +84,20 @@ fn facts(summary: &Summary) -> Markup {
     }
 }
 
-/// The few numbers that a reader looks for first.
+/// The most important numbers.
 fn tiles(summary: &Summary) -> Markup {
     let worst = summary.incidents.worst();
     let end = summary.seconds();
-    // Both inputs end together with the log: one tile, for the first of them.
+    // Both inputs end together with the log, so one tile covers them.
     let silent = summary
         .incidents
         .inputs_at_the_end()
         .min_by(|a, b| a.start.total_cmp(&b.start));
     let drive = &summary.drive;
-    let places = &summary.places;
+    let locations = &summary.locations;
     let peak = |layer: usize| {
-        let station = places.worst_stations(layer).first().copied()?;
-        Some((places.peak[layer].at(station)?.max, places.station_depth[station]))
+        let station = locations.worst_stations(layer).first().copied()?;
+        Some((locations.peak[layer].at(station)?.max, locations.station_depth[station]))
     };
     html! {
         div.tiles {
@@ -114,7 +114,7 @@ fn tiles(summary: &Summary) -> Markup {
             @if let Some(incident) = silent {
                 div.tile.unknown {
                     b { (duration((end - incident.start).max(0.0))) } "without inputs at the end"
-                    small { "the log or the rig had ended; the model was held, then brought to its safe values" }
+                    small { "the log or the rig had ended; the model held its inputs, then ramped them to the safe values" }
                 }
             }
             @for (layer, name) in ["pipe on guide", "guide on wall"].into_iter().enumerate() {
@@ -155,17 +155,17 @@ fn missing(summary: &Summary) -> Markup {
     }
 }
 
-/// What the numbers are not.
+/// Notes on the meaning of the numbers.
 fn limits() -> Markup {
     html! {
         section {
             h2 { "How to read it" }
             ul {
-                li { "Forces, orbits and torque are the model's, not measured: the rig gave rotary speed and weight on bit." }
-                li { "Times count from the first message. Curves show the mean, pale bands all between least and largest." }
+                li { "Forces, orbits and torque are computed by the model, not measured; the rig supplied rotary speed and weight on bit." }
+                li { "Times count from the first message. Curves show the mean, pale bands the range from least to largest." }
                 li { "Measured depth counts along the bore from the kick-off; joint 01 is the uppermost." }
-                li { "Fluid, cuttings, thread play and wear are among what the model leaves out; the manual's first page, "
-                     "Limits of the model, says how much each may matter." }
+                li { "The model does not include fluid, cuttings, thread play and wear, among others; the manual's page "
+                     "Limits of the model states how much each may matter." }
             }
         }
     }
@@ -182,7 +182,7 @@ fn configuration(summary: &Summary) -> Markup {
                     dt { "Resets" } dd { (summary.drive.resets) }
                 }
                 @if !summary.drive.changes.is_empty() {
-                    h3 { "Changed while it ran" }
+                    h3 { "Parameter changes during the run" }
                     table {
                         thead { tr { th.n { "at (s)" } th { "parameter" } th.n { "new value" } } }
                         tbody { @for change in &summary.drive.changes {
@@ -192,7 +192,7 @@ fn configuration(summary: &Summary) -> Markup {
                     @if summary.drive.more_changes > 0 { p { "And " (summary.drive.more_changes) " more." } }
                 }
                 @if let Some(problem) = &summary.config_problem {
-                    p.warning { "This version of flexdrill cannot use it: " (problem) }
+                    p.warning { "This version of flexdrill cannot read this configuration: " (problem) }
                 }
                 pre { (session.configuration) }
             } @else {
@@ -202,7 +202,7 @@ fn configuration(summary: &Summary) -> Markup {
     }
 }
 
-/// A figure as it stands in the page; nothing where there is nothing to draw.
+/// A figure with its caption; empty when there is nothing to draw.
 fn drawn(figure: Option<Figure>, caption: &str) -> Result<Markup, ReportError> {
     let Some(figure) = figure else {
         return Ok(html! {});
@@ -231,12 +231,12 @@ impl Summary {
         self.end.saturating_sub(self.start) as f64 * 1e-9
     }
 
-    /// Whether the bag says anything of alarms.
+    /// Whether the bag has messages about alarms.
     fn has_alarms(&self) -> bool {
         self.incidents.newest.is_some() || !self.incidents.groups.is_empty()
     }
 
-    /// Share of the status messages that call the model good, and how that is to be shown.
+    /// Share of the time in which the model's quality is good, and the style for it.
     fn trust(&self) -> Option<(f64, &'static str)> {
         let quality = &self.health.quality;
         let class = if quality.has(TwinStatus::QUALITY_POOR) {

@@ -1,40 +1,40 @@
-//! How the twin itself fared: pace, model, recording.
+//! Health of the twin: pace, model and recording.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::history::History;
-use super::shares::Shares;
-use crate::messages::TwinStatus;
+use crate::history::History;
+use crate::shares::Shares;
+use flexdrill_messages::TwinStatus;
 
-/// Most publishers of an input that are named.
+/// Largest number of publishers of an input that are named.
 const DRIVERS: usize = 8;
 
-/// What the status messages say.
+/// Summary of the status messages.
 #[derive(Debug, Default)]
-pub(super) struct Health {
+pub(crate) struct Health {
     pub messages: u64,
     pub real_time_factor: History,
     pub lateness: History,
     pub step_time_p99: History,
     pub step_time_max: f64,
-    /// Model quality.
+    /// Shares of the model's quality.
     pub quality: Shares,
     /// The newest cause of a quality that is not good.
     pub quality_cause: String,
-    /// State of each input.
+    /// Shares of each input's states.
     pub inputs: BTreeMap<String, Shares>,
     /// Publishers that drove each input.
     pub drivers: BTreeMap<String, BTreeSet<String>>,
-    /// State of the twin.
+    /// Shares of the twin's states.
     pub states: Shares,
-    /// Longest time between two heartbeats (s), and when (s from the beginning).
+    /// Longest time between two heartbeats (s), and its begin (s from the beginning).
     pub longest_silence: (f64, f64),
     pub newest: Option<TwinStatus>,
     last_time: Option<f64>,
 }
 
 impl Health {
-    pub(super) fn status(&mut self, time: f64, status: TwinStatus) {
+    pub(crate) fn status(&mut self, time: f64, status: TwinStatus) {
         self.messages += 1;
         self.real_time_factor.push(time, status.real_time_factor);
         self.lateness.push(time, status.lateness);

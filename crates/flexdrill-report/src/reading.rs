@@ -1,48 +1,48 @@
-//! One pass over a bag.
+//! Reads a bag in one pass.
 
 use std::path::{Path, PathBuf};
 
-use super::ReportError;
-use super::drive::Drive;
-use super::health::Health;
-use super::incidents::Incidents;
-use super::places::Places;
-use super::roles::{OUTPUTS, Roles};
-use crate::bag::{self, BagError, BagMessage, Gap, Gaps};
-use crate::messages::std_msgs::{Float64, Header};
-use crate::messages::topics::{self, TopicInfo};
-use crate::messages::{
+use crate::ReportError;
+use crate::drive::Drive;
+use crate::health::Health;
+use crate::incidents::Incidents;
+use crate::locations::Locations;
+use crate::roles::{OUTPUTS, Roles};
+use flexdrill_bag::{BagError, BagMessage, Gap, Gaps};
+use flexdrill_config::Config;
+use flexdrill_messages::std_msgs::{Float64, Header};
+use flexdrill_messages::topics::{self, TopicInfo};
+use flexdrill_messages::{
     AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, RigInputs, SessionInfo,
     TwinStatus, WhirlState,
 };
-use flexdrill_config::Config;
 
-/// Most damaged parts that are named.
+/// Largest number of damaged parts listed.
 const NAMED: usize = 20;
-/// A stamp further than this before the beginning is of another run (ns): a second.
+/// A stamp further than this before the beginning belongs to another run (ns): a second.
 const BEFORE: i64 = 1_000_000_000;
 
-/// What a recording comes to.
+/// Summary of a recording.
 #[derive(Debug)]
 pub struct Summary {
-    pub(super) path: PathBuf,
-    pub(super) namespace: String,
+    pub(crate) path: PathBuf,
+    pub(crate) namespace: String,
     /// First and last instant of the model on the rig's clock (ns).
-    pub(super) start: i64,
-    pub(super) end: i64,
-    pub(super) messages: u64,
-    pub(super) session: Option<SessionInfo>,
-    /// Runs that the bag holds: sessions that differ.
-    pub(super) runs: u64,
-    /// The session's configuration, where this version can read it.
-    pub(super) config: Option<Config>,
-    pub(super) config_problem: Option<String>,
-    pub(super) drive: Drive,
-    pub(super) incidents: Incidents,
-    pub(super) places: Places,
-    pub(super) health: Health,
-    /// What is not there, or not whole, each as a sentence.
-    pub(super) missing: Vec<String>,
+    pub(crate) start: i64,
+    pub(crate) end: i64,
+    pub(crate) messages: u64,
+    pub(crate) session: Option<SessionInfo>,
+    /// Number of runs in the bag: of different sessions.
+    pub(crate) runs: u64,
+    /// The session's configuration, if this version can read it.
+    pub(crate) config: Option<Config>,
+    pub(crate) config_problem: Option<String>,
+    pub(crate) drive: Drive,
+    pub(crate) incidents: Incidents,
+    pub(crate) locations: Locations,
+    pub(crate) health: Health,
+    /// Missing or incomplete data, each as a sentence.
+    pub(crate) missing: Vec<String>,
 }
 
 /// Messages of a topic that could not be read.
@@ -54,7 +54,7 @@ struct Unreadable {
 }
 
 impl Summary {
-    /// What is not there, or not whole, each as a sentence.
+    /// Missing or incomplete data, each as a sentence.
     pub fn missing(&self) -> impl Iterator<Item = &str> {
         self.missing.iter().map(String::as_str)
     }
@@ -62,19 +62,19 @@ impl Summary {
 
 struct Reader {
     summary: Summary,
-    /// Beginning of the time that everything is told in (ns), once it is known.
+    /// Origin of all times (ns), once it is known.
     origin: Option<i64>,
     unreadable: Vec<Unreadable>,
     backwards: u64,
 }
 
-/// Reads the twin of a bag, the one in `namespace` where there are several. `progress` hears how much of the recorded
-/// time is read (0 to 1).
+/// Reads the recording of the twin in `namespace`, which may be `None` if the bag has one twin. `progress` receives the
+/// share of the recorded time that has been read (0 to 1).
 ///
 /// # Errors
-/// When the bag cannot be read, or holds no twin or several. Damaged parts are left out and named.
+/// When the bag cannot be read, has no twin, or has several. Damaged parts are left out and listed.
 pub fn read(path: &Path, namespace: Option<&str>, mut progress: impl FnMut(f64)) -> Result<Summary, ReportError> {
-    let mut bag = bag::open(path)?;
+    let mut bag = flexdrill_bag::open(path)?;
     let roles = Roles::find(path, &bag, namespace)?;
     let used: Vec<bool> = (0..bag.topics().len()).map(|index| roles.of(index).is_some()).collect();
     let names: Vec<_> = bag.topics().to_vec();
@@ -95,12 +95,12 @@ pub fn read(path: &Path, namespace: Option<&str>, mut progress: impl FnMut(f64))
             progress((message.log_time.saturating_sub(start)) as f64 / (end.saturating_sub(start)) as f64);
         }
         if let Some(known) = roles.of(message.topic_index) {
-            reader.take(known, &message);
+            reader.add(known, &message);
         }
     }
     let cuts = bag.cuts().map(|cut| {
         format!(
-            "{} was cut short ({}): what is in it up to byte {} is reported.",
+            "{} was cut short ({}): the report covers it up to byte {}.",
             cut.path.display(),
             cut.reason,
             cut.offset
@@ -125,7 +125,7 @@ impl Reader {
                 config_problem: None,
                 drive: Drive::default(),
                 incidents: Incidents::default(),
-                places: Places::default(),
+                locations: Locations::default(),
                 health: Health::default(),
                 missing: Vec::new(),
             },
@@ -135,7 +135,7 @@ impl Reader {
         }
     }
 
-    fn take(&mut self, known: &'static TopicInfo, message: &BagMessage) {
+    fn add(&mut self, known: &'static TopicInfo, message: &BagMessage) {
         self.summary.messages += 1;
         if let Err(error) = self.decode(known, message) {
             match self.unreadable.iter_mut().find(|unreadable| unreadable.known == known) {
@@ -189,17 +189,17 @@ impl Reader {
                 let joints: JointDeflections = message.decode()?;
                 let time = self.stamp(&joints.header);
                 self.summary.drive.joints(time, &joints);
-                self.summary.places.joints(time, joints);
+                self.summary.locations.joints(time, joints);
             }
             ContactForces::ROS_TYPE => {
                 let contacts: ContactForces = message.decode()?;
                 let time = self.stamp(&contacts.header);
-                self.summary.places.contacts(time, contacts);
+                self.summary.locations.contacts(time, contacts);
             }
             WhirlState::ROS_TYPE => {
                 let whirl: WhirlState = message.decode()?;
                 let time = self.stamp(&whirl.header);
-                self.summary.places.whirl(time, &whirl);
+                self.summary.locations.whirl(time, &whirl);
             }
             AlarmList::ROS_TYPE => {
                 let list: AlarmList = message.decode()?;
@@ -221,13 +221,13 @@ impl Reader {
             }
             RigInputs::ROS_TYPE => {
                 let inputs: RigInputs = message.decode()?;
-                if let Some(time) = self.heard(message) {
+                if let Some(time) = self.received_at(message) {
                     self.summary.drive.rig_inputs(time, &inputs);
                 }
             }
             _ => {
                 let value = message.decode::<Float64>()?.data;
-                if let Some(time) = self.heard(message) {
+                if let Some(time) = self.received_at(message) {
                     let drive = &mut self.summary.drive;
                     if known.name == topics::ROTARY_SPEED_RPM.name {
                         drive.received_speed(time, value);
@@ -240,8 +240,8 @@ impl Reader {
         Ok(())
     }
 
-    /// When a sample of the rig was recorded, once there is a beginning to count from.
-    fn heard(&self, message: &BagMessage) -> Option<f64> {
+    /// Time at which a sample of the rig was recorded (s from the beginning); `None` before the first output.
+    fn received_at(&self, message: &BagMessage) -> Option<f64> {
         Some(message.log_time.saturating_sub(self.origin?) as f64 * 1e-9)
     }
 
@@ -249,7 +249,7 @@ impl Reader {
         let summary = &mut self.summary;
         summary.start = self.origin.unwrap_or_default();
         summary.end = summary.end.max(summary.start);
-        summary.places.finish();
+        summary.locations.finish();
         let end = (summary.end.saturating_sub(summary.start)) as f64 * 1e-9;
         summary.incidents.finish(end);
         if let Some(session) = &summary.session {
@@ -264,7 +264,7 @@ impl Reader {
         if damaged.len() > NAMED {
             missing.push(format!("{} more damaged parts were left out.", damaged.len() - NAMED));
         }
-        missing.extend(gaps.iter().map(|gap| format!("Lost while it was recorded: {gap}.")));
+        missing.extend(gaps.iter().map(|gap| format!("Lost during the recording: {gap}.")));
         for known in OUTPUTS.iter().filter(|known| !roles.has(known)) {
             missing.push(format!("The bag has no {}: {}.", known.name, without(known)));
         }
@@ -276,19 +276,19 @@ impl Reader {
         }));
         if self.backwards > 0 {
             missing.push(format!(
-                "{} messages carry stamps of before the beginning and are left out of the curves.",
+                "{} messages have stamps from before the beginning; the curves leave them out.",
                 self.backwards
             ));
         }
-        if summary.places.other_mesh > 0 {
+        if summary.locations.other_mesh > 0 {
             missing.push(format!(
-                "{} messages are of another mesh than the first and are left out.",
-                summary.places.other_mesh
+                "{} messages have another mesh than the first and are left out.",
+                summary.locations.other_mesh
             ));
         }
         if summary.runs > 1 {
             missing.push(format!(
-                "The bag holds {} runs; they are reported as one, with the configuration of the first.",
+                "The bag has {} runs; the report treats them as one, with the configuration of the first.",
                 summary.runs
             ));
         }
@@ -296,19 +296,19 @@ impl Reader {
     }
 }
 
-/// What cannot be said without a topic.
+/// The gap in the report when a topic is missing.
 fn without(known: &TopicInfo) -> &'static str {
     match known.kind.ros_type {
         SessionInfo::ROS_TYPE => "configuration and version of the run are not known",
-        AppliedInputs::ROS_TYPE => "what the model was asked for is not known",
+        AppliedInputs::ROS_TYPE => "the inputs that the model accepted are not known",
         BitState::ROS_TYPE => "the bit's motion and torque are not known",
         JointDeflections::ROS_TYPE => "moments along the tool and orbits are not known",
         ContactForces::ROS_TYPE => "contact forces are not known",
         WhirlState::ROS_TYPE => "whirl is not known",
         AlarmList::ROS_TYPE => "alarms that stood before it began are not known",
         AlarmEvent::ROS_TYPE => "alarms and incidents are not known",
-        // A replay has none: it keeps no pace.
+        // A replay has no status, because it does not run in real time.
         TwinStatus::ROS_TYPE => "pace and health of the model are not known (a replay has none)",
-        _ => "what it says is not known",
+        _ => "its content is not known",
     }
 }

@@ -1,14 +1,14 @@
-//! Numbers, times and places as text.
+//! Numbers, times and locations as text.
 
-use crate::messages::Alarm;
 use flexdrill_core::units::rad_to_deg;
+use flexdrill_messages::Alarm;
 
-/// A number with three to four digits that say something, a dash where there is none.
+/// A number with three to four significant digits; a dash if it is not finite.
 pub(super) fn number(value: f64) -> String {
     let size = value.abs();
     let text = match size {
         _ if !value.is_finite() => return "–".to_owned(),
-        // Rounding, in any unit that is used here.
+        // A value this small is rounding, in any unit used here.
         ..1e-6 => "0".to_owned(),
         ..1e-3 => format!("{value:.1e}"),
         ..1.0 => format!("{value:.3}"),
@@ -17,7 +17,7 @@ pub(super) fn number(value: f64) -> String {
         ..1e7 => format!("{value:.0}"),
         _ => format!("{value:.2e}"),
     };
-    // 40.0 says no more than 40.
+    // A fraction of zeros is dropped.
     let text = match text.split_once('.') {
         Some((whole, rest)) if rest.chars().all(|digit| digit == '0') => whole.to_owned(),
         _ => text,
@@ -29,14 +29,14 @@ pub(super) fn number(value: f64) -> String {
 pub(super) fn percent(share: f64) -> String {
     match 100.0 * share {
         value if !value.is_finite() => "–".to_owned(),
-        // What there is is not nothing, and what is not all is not all.
+        // A non-zero share is never rounded to 0 %, and a partial one never to 100 %.
         value if value > 0.0 && value < 0.1 => "below 0.1 %".to_owned(),
         value if value > 99.9 && value < 100.0 => "above 99.9 %".to_owned(),
         value => format!("{} %", number((value * 10.0).round() / 10.0)),
     }
 }
 
-/// How often.
+/// A number of occurrences.
 pub(super) fn times(count: u64) -> String {
     if count == 1 {
         "once".to_owned()
@@ -45,7 +45,7 @@ pub(super) fn times(count: u64) -> String {
     }
 }
 
-/// A sentence's beginning: the first letter large.
+/// The text with its first letter in upper case.
 pub(super) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters
@@ -53,7 +53,7 @@ pub(super) fn capital(text: &str) -> String {
         .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// A duration as a person says it.
+/// A duration in s, min or h.
 pub(super) fn duration(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     match seconds {
@@ -63,8 +63,8 @@ pub(super) fn duration(seconds: f64) -> String {
     }
 }
 
-/// Depth and inclination of a place; empty where there is none.
-pub(super) fn place(body: u8, measured_depth: f64, inclination: f64) -> String {
+/// Depth and inclination of a location; empty if the depth is not finite.
+pub(super) fn location(body: u8, measured_depth: f64, inclination: f64) -> String {
     if !measured_depth.is_finite() {
         return String::new();
     }

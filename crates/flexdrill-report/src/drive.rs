@@ -1,52 +1,53 @@
-//! What drove the tool and what of it reached the bit.
+//! The inputs, and the part of the torque that reached the bit.
 
 use std::collections::BTreeMap;
 
-use super::history::{HELD, History};
-use super::shares::Shares;
-use crate::messages::{AppliedInputs, BitState, JointDeflections, RigInputs};
+use crate::history::{HELD, History};
+use crate::shares::Shares;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_messages::{AppliedInputs, BitState, JointDeflections, RigInputs};
 
-/// Below this speed the drive stands, and torques say nothing of transfer (rad/s): 1 r/min.
-const STANDS: f64 = 0.105;
-/// Most changes of parameters that are kept.
+/// Below this speed the drive counts as stopped, and its torque says nothing about transfer (rad/s): 1 r/min.
+const STOPPED: f64 = 0.105;
+/// Largest number of parameter changes kept.
 const CHANGES: usize = 200;
 
 /// Rotary speed and weight on bit in SI.
 #[derive(Debug, Default)]
-pub(super) struct Pair {
+pub(crate) struct InputPair {
     pub rotary_speed: History,
     pub weight_on_bit: History,
 }
 
-/// A parameter that was changed while it ran.
+/// A change of a parameter during the run.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Change {
+pub(crate) struct ParameterChange {
     /// s from the beginning.
     pub time: f64,
     pub name: String,
     pub value: f64,
 }
 
-/// Means over the time in which the drive turns.
+/// Mean torques over the time in which the drive turns.
 #[derive(Debug, Default, Clone, Copy)]
-pub(super) struct Transfer {
-    /// Integrals over time (N m s).
+pub(crate) struct Transfer {
+    /// Integral of the torque at the uppermost joint (N m s).
     top: f64,
+    /// Integral of the torque at the bit (N m s).
     bit: f64,
-    /// s.
+    /// Time in which the drive turned (s).
     time: f64,
-    /// Time (s) of the last message, and its torques where the drive turned.
+    /// Time (s) of the last message, and its torques if the drive turned.
     last: Option<(f64, Option<[f64; 2]>)>,
 }
 
 impl Transfer {
     /// Mean torque at the uppermost joint and of the bit (N m); `None` when the drive never turned.
-    pub(super) fn means(&self) -> Option<[f64; 2]> {
+    pub(crate) fn means(&self) -> Option<[f64; 2]> {
         (self.time > 0.0).then(|| [self.top / self.time, self.bit / self.time])
     }
 
-    /// Takes the torques of an instant (s), none while the drive stands; they stand until the next.
+    /// Adds the torques of an instant (s), `None` while the drive is stopped. They hold until the next instant.
     fn push(&mut self, time: f64, torques: Option<[f64; 2]>) {
         if let Some((before, Some([top, bit]))) = self.last {
             let held = (time - before).clamp(0.0, HELD);
@@ -60,14 +61,14 @@ impl Transfer {
 
 /// Inputs, bit and torque over time.
 #[derive(Debug, Default)]
-pub(super) struct Drive {
-    /// As the rig sent them.
-    pub received: Pair,
-    /// As the model was asked for them.
-    pub asked: Pair,
+pub(crate) struct Drive {
+    /// Inputs as received from the rig.
+    pub received: InputPair,
+    /// Inputs as accepted by the twin, before the slew limit.
+    pub accepted: InputPair,
     /// Speed of the bit (rad/s), weight on it (N).
-    pub bit: Pair,
-    /// Through the uppermost joint (N m).
+    pub bit: InputPair,
+    /// Torque through the uppermost joint (N m).
     pub top_torque: History,
     pub bit_torque: History,
     pub stick_slip: History,
@@ -75,8 +76,8 @@ pub(super) struct Drive {
     pub transfer: Transfer,
     /// The worse state of both inputs.
     pub input_quality: Shares,
-    pub changes: Vec<Change>,
-    /// Changes beyond those.
+    pub changes: Vec<ParameterChange>,
+    /// Number of further changes.
     pub more_changes: u64,
     pub resets: u64,
     newest_bit_torque: Option<f64>,
@@ -84,26 +85,26 @@ pub(super) struct Drive {
 }
 
 impl Drive {
-    pub(super) fn rig_inputs(&mut self, time: f64, message: &RigInputs) {
+    pub(crate) fn rig_inputs(&mut self, time: f64, message: &RigInputs) {
         self.received_speed(time, message.rotary_speed_rpm);
         self.received_weight(time, message.weight_on_bit_kn);
     }
 
-    pub(super) fn received_speed(&mut self, time: f64, rpm: f64) {
+    pub(crate) fn received_speed(&mut self, time: f64, rpm: f64) {
         self.received.rotary_speed.push(time, rpm_to_rad_per_s(rpm));
     }
 
-    pub(super) fn received_weight(&mut self, time: f64, kn: f64) {
+    pub(crate) fn received_weight(&mut self, time: f64, kn: f64) {
         self.received.weight_on_bit.push(time, kn_to_n(kn));
     }
 
-    pub(super) fn applied(&mut self, time: f64, message: &AppliedInputs) {
-        self.asked.rotary_speed.push(time, message.rotary_speed);
-        self.asked.weight_on_bit.push(time, message.weight_on_bit);
+    pub(crate) fn applied(&mut self, time: f64, message: &AppliedInputs) {
+        self.accepted.rotary_speed.push(time, message.rotary_speed);
+        self.accepted.weight_on_bit.push(time, message.weight_on_bit);
         self.input_quality.push(time, message.input_quality);
         self.resets += u64::from(message.reset);
         for (name, value) in message.parameter_name.iter().zip(&message.parameter_value) {
-            // Sent again every second: only what differs is a change.
+            // The twin repeats all values every second; only a different value is a change.
             if self.known.get(name) == Some(value) {
                 continue;
             }
@@ -112,7 +113,7 @@ impl Drive {
                 continue;
             }
             self.known.insert(name.clone(), *value);
-            self.changes.push(Change {
+            self.changes.push(ParameterChange {
                 time,
                 name: name.clone(),
                 value: *value,
@@ -120,7 +121,7 @@ impl Drive {
         }
     }
 
-    pub(super) fn bit(&mut self, time: f64, message: &BitState) {
+    pub(crate) fn bit(&mut self, time: f64, message: &BitState) {
         self.bit.rotary_speed.push(time, message.rotary_speed);
         self.bit.weight_on_bit.push(time, message.weight_on_bit);
         self.bit_torque.push(time, message.torque);
@@ -129,20 +130,20 @@ impl Drive {
         self.newest_bit_torque = Some(message.torque);
     }
 
-    pub(super) fn joints(&mut self, time: f64, message: &JointDeflections) {
+    pub(crate) fn joints(&mut self, time: f64, message: &JointDeflections) {
         let (Some(&torque), Some(&spin)) = (message.torque.first(), message.spin_rate.first()) else {
             return;
         };
         self.top_torque.push(time, torque);
         let bit = self.newest_bit_torque.filter(|bit| (bit + torque).is_finite());
-        let torques = bit.filter(|_| spin.abs() > STANDS).map(|bit| [torque, bit]);
+        let torques = bit.filter(|_| spin.abs() > STOPPED).map(|bit| [torque, bit]);
         self.transfer.push(time, torques);
     }
 
-    /// The time in which all inputs and what reached the bit are known (s), for means that can be compared; `None` where
-    /// there is no such time.
-    pub(super) fn common_window(&self) -> Option<[f64; 2]> {
-        let pairs = [&self.received, &self.asked, &self.bit];
+    /// The time in which the inputs and the bit's motion are all known (s), so that their means can be compared; `None` if
+    /// there is none.
+    pub(crate) fn common_window(&self) -> Option<[f64; 2]> {
+        let pairs = [&self.received, &self.accepted, &self.bit];
         let spans = pairs.iter().flat_map(|pair| [&pair.rotary_speed, &pair.weight_on_bit]);
         let window = spans
             .filter_map(History::span)

@@ -1,14 +1,14 @@
-//! Health of model, pace and recording.
+//! Health of the model, its pace and the recording.
 
 use maud::{Markup, html};
 
 use super::drawn;
 use super::text::{duration, number, percent};
-use crate::messages::{TwinStatus, words};
-use crate::report::ReportError;
-use crate::report::plots;
-use crate::report::reading::Summary;
-use crate::report::shares::Shares;
+use crate::ReportError;
+use crate::plots;
+use crate::reading::Summary;
+use crate::shares::Shares;
+use flexdrill_messages::{TwinStatus, words};
 
 fn state(code: u8) -> &'static str {
     match code {
@@ -20,12 +20,12 @@ fn state(code: u8) -> &'static str {
     }
 }
 
-/// How far the numbers can be trusted.
+/// The section about the trust in the numbers.
 pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
     let health = &summary.health;
     let figure = drawn(
         plots::pace(summary),
-        "As the twin said it of itself, over the last second each.",
+        "As reported by the twin, each value over the last second.",
     )?;
     Ok(html! {
         section {
@@ -36,7 +36,7 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                     table.pairs { tbody {
                         tr { th { "model quality" } td { (shares(&health.quality, words::model_quality)) } }
                         @if !health.quality_cause.is_empty() {
-                            tr { th { "why not good, the last time" } td { (health.quality_cause) } }
+                            tr { th { "last reason for a lower quality" } td { (health.quality_cause) } }
                         }
                         tr { th { "state" } td { (shares(&health.states, state)) } }
                         tr { th { "real-time factor" } td {
@@ -44,12 +44,12 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                                 (number(range.min)) " to " (number(range.max)) ", mean " (number(range.mean))
                             }
                         } }
-                        tr { th { "behind its deadlines, at most" } td {
+                        tr { th { "largest lateness" } td {
                             @if let Some(range) = health.lateness.range() { (number(1e3 * range.max)) " ms" }
                         } }
                         tr { th { "deadlines missed, periods skipped" } td { (status.deadline_misses) ", " (status.steps_skipped) } }
                         tr { th { "longest step" } td {
-                            (number(1e3 * health.step_time_max)) " ms of computing for " (number(1e3 * status.time_step)) " ms of model time"
+                            (number(1e3 * health.step_time_max)) " ms of computing time for " (number(1e3 * status.time_step)) " ms of model time"
                         } }
                         tr { th { "sub-steps rejected, steps halved, failed" } td {
                             (status.rejected_steps) ", " (status.halved_steps) ", " (status.failed_steps)
@@ -58,11 +58,11 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                                 (format!("{:.2}", status.last_rejection_measured_depth)) " m"
                             }
                         } }
-                        tr { th { "energy error over the drive's work" } td { (percent(status.energy_error_ratio)) } }
+                        tr { th { "energy error relative to the drive's work" } td { (percent(status.energy_error_ratio)) } }
                         tr { th { "longest time without a heartbeat" } td {
                             (duration(health.longest_silence.0)) " at " (format!("{:.1}", health.longest_silence.1)) " s"
                         } }
-                        tr { th { "DDS started again" } td {
+                        tr { th { "DDS restarts" } td {
                             (status.dds_restarts)
                             @if !status.dds_restart_cause.is_empty() { "; the last: " (status.dds_restart_cause) }
                         } }
@@ -78,7 +78,7 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
     })
 }
 
-/// Codes with their shares of the time.
+/// The codes with their shares of time.
 pub(super) fn shares(shares: &Shares, word: impl Fn(u8) -> &'static str) -> Markup {
     html! {
         @for (index, (code, share)) in shares.iter().enumerate() {
@@ -88,7 +88,7 @@ pub(super) fn shares(shares: &Shares, word: impl Fn(u8) -> &'static str) -> Mark
     }
 }
 
-/// What was lost on its way, by where.
+/// Lost messages by cause.
 fn lost(status: &TwinStatus) -> String {
     let mut parts: Vec<String> = status
         .output_topic

@@ -1,18 +1,18 @@
 //! A quantity over time in bounded memory.
 
-use super::is_quantity;
+use crate::is_quantity;
 
-/// Most buckets: about as many as a figure can show.
+/// Largest number of buckets: about as many as a figure can show.
 const MOST: usize = 600;
-/// Width of a bucket as long as there is room (s): outputs come at up to 50 Hz.
+/// Initial width of a bucket (s): outputs have up to 50 Hz.
 const FINEST: f64 = 0.02;
-/// Buckets without a value that do not interrupt the line.
+/// Number of empty buckets that do not interrupt the line.
 const GAP: usize = 3;
-/// Time without a value that does not interrupt the line (s): some topics come once per second.
+/// Time without a value that does not interrupt the line (s): some topics have one message per second.
 const GAP_TIME: f64 = 2.5;
 
-/// Longest time for which a value stands where no other follows (s): as for the line.
-pub(super) const HELD: f64 = GAP_TIME;
+/// Longest time for which a value holds when no other follows (s): as for the line.
+pub(crate) const HELD: f64 = GAP_TIME;
 
 #[derive(Debug, Clone, Copy)]
 struct Bucket {
@@ -20,9 +20,9 @@ struct Bucket {
     max: f64,
     sum: f64,
     count: u64,
-    /// Integral over time of the values, each of which stands until the next one (value times s).
+    /// Integral of the values over time, each of which holds until the next one (value times s).
     area: f64,
-    /// Part of the bucket in which a value stood (s).
+    /// Part of the bucket in which a value held (s).
     covered: f64,
 }
 
@@ -50,7 +50,7 @@ impl Bucket {
 
 /// Least, mean and largest value per bucket of time. Buckets become twice as wide when there are too many.
 #[derive(Debug, Clone)]
-pub(super) struct History {
+pub(crate) struct History {
     width: f64,
     buckets: Vec<Bucket>,
     /// Times of the first and the last value (s), and the last value.
@@ -67,27 +67,27 @@ impl Default for History {
     }
 }
 
-/// What can be said of all values.
+/// Extremes and mean of all values.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Range {
+pub(crate) struct Range {
     pub min: f64,
-    /// Over time: each value stands until the next one.
+    /// Mean over time; each value holds until the next one.
     pub mean: f64,
     pub max: f64,
 }
 
-/// A stretch without long interruptions.
+/// A part of the curve without long interruptions.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Stretch {
+pub(crate) struct Segment {
     /// Time (s) and mean.
     pub mean: Vec<(f64, f64)>,
-    /// Outline of what lies between least and largest value.
+    /// Outline of the band between least and largest value.
     pub outline: Vec<(f64, f64)>,
 }
 
 impl History {
-    /// Takes a value at a time from the beginning (s). What is not finite or before the beginning is left out.
-    pub(super) fn push(&mut self, time: f64, value: f64) {
+    /// Adds a value at a time (s from the beginning). Values that are not finite or before the beginning are left out.
+    pub(crate) fn push(&mut self, time: f64, value: f64) {
         if !(time >= 0.0 && is_quantity(time) && is_quantity(value)) {
             return;
         }
@@ -117,7 +117,7 @@ impl History {
         self.span = Some(([first, time], value));
     }
 
-    /// Adds the time from `from` to `to` (s), in which `value` stood, to the buckets.
+    /// Adds the time from `from` to `to` (s), in which `value` held, to the buckets.
     fn hold(&mut self, value: f64, from: f64, to: f64) {
         let mut begin = from;
         let first = (from / self.width) as usize;
@@ -134,13 +134,13 @@ impl History {
         }
     }
 
-    /// Times of the first and the last value (s); `None` without any.
-    pub(super) fn span(&self) -> Option<[f64; 2]> {
+    /// Times of the first and the last value (s); `None` without values.
+    pub(crate) fn span(&self) -> Option<[f64; 2]> {
         self.span.map(|(span, _)| span)
     }
 
-    /// Mean over time from `from` to `to` (s), to the width of a bucket; `None` where no value stood for a time.
-    pub(super) fn mean_between(&self, from: f64, to: f64) -> Option<f64> {
+    /// Mean over time from `from` to `to` (s), to the width of a bucket; `None` if no value held in it.
+    pub(crate) fn mean_between(&self, from: f64, to: f64) -> Option<f64> {
         let (mut area, mut covered) = (0.0, 0.0);
         for (index, bucket) in self.buckets.iter().enumerate() {
             let begin = index as f64 * self.width;
@@ -160,8 +160,8 @@ impl History {
             .collect();
     }
 
-    /// Over all values; `None` without any.
-    pub(super) fn range(&self) -> Option<Range> {
+    /// Extremes and mean of all values; `None` without values.
+    pub(crate) fn range(&self) -> Option<Range> {
         let all = self.buckets.iter().copied().fold(EMPTY, Bucket::join);
         (all.count > 0).then(|| Range {
             min: all.min,
@@ -175,9 +175,9 @@ impl History {
     }
 
     /// The curve, interrupted where nothing was said for long. Times in s, values times `factor`.
-    pub(super) fn stretches(&self, factor: f64) -> Vec<Stretch> {
+    pub(crate) fn segments(&self, factor: f64) -> Vec<Segment> {
         let gap = GAP.max((GAP_TIME / self.width) as usize);
-        let mut all: Vec<(Stretch, Vec<(f64, f64)>)> = Vec::new();
+        let mut all: Vec<(Segment, Vec<(f64, f64)>)> = Vec::new();
         let mut last = None;
         for (index, bucket) in self.buckets.iter().enumerate().filter(|(_, bucket)| bucket.count > 0) {
             if last.is_none_or(|last| index - last > gap) {
@@ -185,16 +185,16 @@ impl History {
             }
             last = Some(index);
             let time = (index as f64 + 0.5) * self.width;
-            if let Some((stretch, lower)) = all.last_mut() {
-                stretch.mean.push((time, factor * bucket.sum / bucket.count as f64));
-                stretch.outline.push((time, factor * bucket.max));
+            if let Some((segment, lower)) = all.last_mut() {
+                segment.mean.push((time, factor * bucket.sum / bucket.count as f64));
+                segment.outline.push((time, factor * bucket.max));
                 lower.push((time, factor * bucket.min));
             }
         }
         all.into_iter()
-            .map(|(mut stretch, lower)| {
-                stretch.outline.extend(lower.into_iter().rev());
-                stretch
+            .map(|(mut segment, lower)| {
+                segment.outline.extend(lower.into_iter().rev());
+                segment
             })
             .collect()
     }
@@ -217,7 +217,7 @@ mod tests {
         // The blow fell on an odd step.
         assert_eq!((range.min, range.max), (0.0, 100.0));
         assert!((range.mean - 0.5).abs() < 1e-4, "{}", range.mean);
-        assert_eq!(history.stretches(1.0).len(), 1);
+        assert_eq!(history.segments(1.0).len(), 1);
     }
 
     /// Samples on change and every second, as the applied inputs have: a hundred in one second do not outweigh a minute.
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn silence_interrupts_the_curve_and_nonsense_is_left_out() {
+    fn silence_interrupts_the_curve_and_implausible_values_are_left_out() {
         let mut history = History::default();
         for time in [0.0, 1.0, 2.0, 60.0, 61.0] {
             history.push(time, 1.0);
@@ -261,9 +261,9 @@ mod tests {
         ] {
             history.push(time, value);
         }
-        let stretches = history.stretches(2.0);
-        assert_eq!(stretches.iter().map(|s| s.mean.len()).collect::<Vec<_>>(), [3, 2]);
-        assert!(stretches.iter().all(|s| s.mean.iter().all(|(_, value)| *value == 2.0)));
+        let segments = history.segments(2.0);
+        assert_eq!(segments.iter().map(|s| s.mean.len()).collect::<Vec<_>>(), [3, 2]);
+        assert!(segments.iter().all(|s| s.mean.iter().all(|(_, value)| *value == 2.0)));
         assert_eq!(history.range().unwrap().max, 1.0);
         // A stamp of another century does not take memory or time.
         history.push(4e9, 5.0);

@@ -1,70 +1,71 @@
-//! Alarms as incidents: each time one stood, from when to when, how bad, where, and who knew.
+//! Alarms as incidents: each period in which an alarm stood, with its priority, its location and its acknowledgement.
 
 use std::collections::BTreeMap;
 
-use crate::alarms::AlarmId;
-use crate::messages::{Alarm, AlarmEvent, AlarmList};
-use flexdrill_core::inputs::InputKind;
+use flexdrill_messages::{Alarm, AlarmEvent, AlarmList};
 
-/// Most incidents that are kept; beyond, they are counted.
+/// Largest number of incidents kept; further ones are only counted.
 const MOST: usize = 5000;
 
-/// One time that an alarm stood.
+/// A period in which an alarm stood.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Incident {
+pub(crate) struct Incident {
     pub id: String,
     pub name: String,
-    /// The highest.
+    /// The highest priority in it.
     pub priority: u8,
     /// s from the beginning.
     pub start: f64,
     /// s from the beginning; `None` while it stands.
     pub end: Option<f64>,
-    /// It stood when the recording began.
+    /// Whether the alarm stood when the recording began.
     pub from_before: bool,
     pub evidence: String,
     pub what_to_do: String,
     pub what_the_engineer_can_do: String,
-    /// Place along the bore (m), NaN where there is none.
+    /// Measured depth (m), NaN if the alarm has no location.
     pub measured_depth: f64,
     pub inclination: f64,
     pub body: u8,
-    /// Who acknowledged it.
-    pub known_by: String,
-    /// Whom it is for, as in [`Alarm`].
+    /// The operator who acknowledged it.
+    pub acknowledged_by: String,
+    /// Addressee, a constant of [`Alarm`].
     pub category: u8,
 }
 
-/// All times of one alarm.
+/// All incidents of one alarm.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Group {
+pub(crate) struct Group {
     pub name: String,
     pub priority: u8,
     pub times: u64,
-    /// For how long it stood (s).
+    /// Total time in which it stood (s).
     pub active: f64,
     pub what_to_do: String,
-    /// Whom it is for, as in [`Alarm`].
+    /// Addressee, a constant of [`Alarm`].
     pub category: u8,
     pub what_the_engineer_can_do: String,
 }
 
 /// The alarms of a recording.
 #[derive(Debug, Default)]
-pub(super) struct Incidents {
+pub(crate) struct Incidents {
     pub list: Vec<Incident>,
     pub groups: BTreeMap<String, Group>,
-    /// Incidents beyond those in the list.
+    /// Number of further incidents.
     pub more: u64,
-    /// The newest list.
+    /// The newest list of alarms.
     pub newest: Option<AlarmList>,
-    /// By the alarm's id: since when it stands (s), and the incident's place in the list, if it has one.
+    /// Standing alarms by id: their begin (s), and the index of the incident in the list, if it is there.
     standing: BTreeMap<String, (f64, Option<usize>)>,
     events: u64,
 }
 
+/// Ids of the alarms for an input that is not known, in the order of `InputKind::ALL`.
+pub const INPUT_ALARMS: [&str; 2] = ["rotary_speed_input", "weight_on_bit_input"];
+
 fn is_input(id: &str) -> bool {
-    InputKind::ALL.map(|kind| AlarmId::of_input(kind).id()).contains(&id)
+    INPUT_ALARMS.contains(&id)
 }
 
 fn is_active(state: u8) -> bool {
@@ -72,9 +73,9 @@ fn is_active(state: u8) -> bool {
 }
 
 impl Incidents {
-    /// Takes the list of all alarms. `since` says when an instant of the rig's clock was (s from the beginning).
-    pub(super) fn alarms(&mut self, list: AlarmList, since: impl Fn(&Alarm) -> f64) {
-        // The events of before are in no recording that began later.
+    /// Adds a list of all alarms. `since` gives the begin of an alarm (s from the beginning).
+    pub(crate) fn alarms(&mut self, list: AlarmList, since: impl Fn(&Alarm) -> f64) {
+        // A recording that began later has no events of the alarms that stood before.
         if self.newest.is_none() && self.events == 0 {
             for alarm in list.alarms.iter().filter(|alarm| alarm.active) {
                 self.begin(Incident {
@@ -90,7 +91,7 @@ impl Incidents {
                     measured_depth: alarm.measured_depth,
                     inclination: alarm.inclination,
                     body: alarm.body,
-                    known_by: String::new(),
+                    acknowledged_by: String::new(),
                     category: alarm.category,
                 });
             }
@@ -98,26 +99,26 @@ impl Incidents {
         self.newest = Some(list);
     }
 
-    /// Takes a change at a time (s from the beginning).
-    pub(super) fn event(&mut self, time: f64, event: &AlarmEvent) {
+    /// Adds an event at a time (s from the beginning).
+    pub(crate) fn event(&mut self, time: f64, event: &AlarmEvent) {
         self.events += 1;
         match event.change {
-            AlarmEvent::ACTIVATED | AlarmEvent::RAISED => self.stands(time, event),
+            AlarmEvent::ACTIVATED | AlarmEvent::RAISED => self.activate(time, event),
             AlarmEvent::RELEASED | AlarmEvent::PUT_BACK | AlarmEvent::UNSHELVED if is_active(event.to_state) => {
-                self.stands(time, event);
+                self.activate(time, event);
             }
             AlarmEvent::RETURNED | AlarmEvent::SUPPRESSED | AlarmEvent::TAKEN_OUT => self.end(time, &event.id),
             AlarmEvent::ACKNOWLEDGED => {
                 if let Some(incident) = self.newest_of(&event.id) {
-                    incident.known_by.clone_from(&event.operator_name);
+                    incident.acknowledged_by.clone_from(&event.operator_name);
                 }
             }
             _ => {}
         }
     }
 
-    /// Closes what still stands for the sums; in the list it stays open.
-    pub(super) fn finish(&mut self, time: f64) {
+    /// Adds the standing alarms to the sums; in the list they stay open.
+    pub(crate) fn finish(&mut self, time: f64) {
         for (id, (since, _)) in std::mem::take(&mut self.standing) {
             if let Some(group) = self.groups.get_mut(&id) {
                 group.active += (time - since).max(0.0);
@@ -125,16 +126,16 @@ impl Incidents {
         }
     }
 
-    /// The input alarms that stand when the recording ends: the log or the rig had ended before, which says nothing of the
-    /// drilling. Their beginning is that of the alarm, some seconds after the last sample.
-    pub(super) fn inputs_at_the_end(&self) -> impl Iterator<Item = &Incident> {
+    /// The input alarms that stand at the end of the recording: the log or the rig had ended before, which says nothing
+    /// about the drilling. They begin some seconds after the last sample.
+    pub(crate) fn inputs_at_the_end(&self) -> impl Iterator<Item = &Incident> {
         self.list
             .iter()
             .filter(|incident| incident.end.is_none() && is_input(&incident.id))
     }
 
-    /// The worst of the driller's alarms, for a headline. An input that is silent until the end is no part of it.
-    pub(super) fn worst(&self) -> Option<Group> {
+    /// The worst of the driller's alarms, for the headline. An input that is silent until the end is not included.
+    pub(crate) fn worst(&self) -> Option<Group> {
         let drilling = self
             .groups
             .iter()
@@ -164,8 +165,8 @@ impl Incidents {
         self.list.iter_mut().rev().find(|incident| incident.id == id)
     }
 
-    fn stands(&mut self, time: f64, event: &AlarmEvent) {
-        let Some((_, place)) = self.standing.get(&event.id) else {
+    fn activate(&mut self, time: f64, event: &AlarmEvent) {
+        let Some((_, index)) = self.standing.get(&event.id) else {
             self.begin(Incident {
                 id: event.id.clone(),
                 name: event.name.clone(),
@@ -179,7 +180,7 @@ impl Incidents {
                 measured_depth: event.measured_depth,
                 inclination: event.inclination,
                 body: event.body,
-                known_by: String::new(),
+                acknowledged_by: String::new(),
                 category: event.category,
             });
             return;
@@ -187,7 +188,7 @@ impl Incidents {
         if let Some(group) = self.groups.get_mut(&event.id) {
             group.priority = group.priority.max(event.priority);
         }
-        if let Some(incident) = place.and_then(|place| self.list.get_mut(place))
+        if let Some(incident) = index.and_then(|index| self.list.get_mut(index))
             && event.priority >= incident.priority
         {
             incident.priority = event.priority;
@@ -211,9 +212,9 @@ impl Incidents {
             group.what_the_engineer_can_do.clone_from(engineer);
         }
         let kept = self.list.len() < MOST;
-        let place = kept.then_some(self.list.len());
+        let index = kept.then_some(self.list.len());
         self.standing
-            .insert(incident.id.clone(), (incident.start.max(0.0), place));
+            .insert(incident.id.clone(), (incident.start.max(0.0), index));
         if kept {
             self.list.push(incident);
         } else {
@@ -222,13 +223,13 @@ impl Incidents {
     }
 
     fn end(&mut self, time: f64, id: &str) {
-        let Some((since, place)) = self.standing.remove(id) else {
+        let Some((since, index)) = self.standing.remove(id) else {
             return;
         };
         if let Some(group) = self.groups.get_mut(id) {
             group.active += (time - since).max(0.0);
         }
-        if let Some(incident) = place.and_then(|place| self.list.get_mut(place)) {
+        if let Some(incident) = index.and_then(|index| self.list.get_mut(index)) {
             incident.end = Some(time);
         }
     }
@@ -251,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn an_incident_begins_rises_is_known_and_ends() {
+    fn an_incident_begins_rises_is_acknowledged_and_ends() {
         let mut incidents = Incidents::default();
         incidents.event(1.0, &event(AlarmEvent::ACTIVATED, 1, "weak"));
         incidents.event(2.0, &event(AlarmEvent::RAISED, 3, "strong"));
@@ -264,15 +265,18 @@ mod tests {
             panic!("{:?}", incidents.list)
         };
         assert_eq!((first.start, first.end, first.priority), (1.0, Some(5.0), 3));
-        assert_eq!((first.evidence.as_str(), first.known_by.as_str()), ("strong", "Ada"));
+        assert_eq!(
+            (first.evidence.as_str(), first.acknowledged_by.as_str()),
+            ("strong", "Ada")
+        );
         assert_eq!((second.start, second.end), (8.0, None));
         let group = &incidents.groups["shock"];
         assert_eq!((group.times, group.priority, group.active), (2, 3, 6.0));
     }
 
-    /// A log that ends leaves both inputs stale; the shock while it drilled is what the report is about.
+    /// A log that ends leaves both inputs stale; the report's headline is the shock during drilling.
     #[test]
-    fn an_input_that_is_silent_to_the_end_heads_no_report() {
+    fn an_input_that_is_silent_to_the_end_is_not_the_headline() {
         let input = |change: u8, priority: u8| AlarmEvent {
             id: "weight_on_bit_input".to_owned(),
             name: "weight on bit not known".to_owned(),
@@ -294,7 +298,7 @@ mod tests {
         assert_eq!((worst.priority, worst.times, worst.active), (Alarm::LOW, 1, 4.0));
         incidents.event(20.0, &event(AlarmEvent::ACTIVATED, Alarm::MEDIUM, "strong"));
         assert_eq!(incidents.worst().unwrap().name, "Shock");
-        // A matter of the computer is none of the drilling.
+        // An alarm about the computer does not concern the drilling.
         let behind = AlarmEvent {
             id: "real_time".to_owned(),
             category: Alarm::SYSTEM,
@@ -305,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stood_before_the_recording_began_is_in_it() {
+    fn an_alarm_from_before_the_recording_is_in_it() {
         let mut incidents = Incidents::default();
         let alarm = Alarm {
             id: "shock".to_owned(),
@@ -322,7 +326,7 @@ mod tests {
         incidents.event(4.0, &event(AlarmEvent::RETURNED, 2, ""));
         assert_eq!(incidents.list.len(), 1);
         assert!(incidents.list[0].from_before);
-        // Of the time before the recording nothing is counted.
+        // The time before the recording is not counted.
         assert_eq!(incidents.groups["shock"].active, 4.0);
     }
 }

@@ -1,14 +1,14 @@
-//! Which topic of a bag is what.
+//! The meaning of a bag's topics.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::ReportError;
-use crate::bag::{Bag, Topic};
-use crate::messages::topics::{self, TopicInfo};
+use crate::ReportError;
+use flexdrill_bag::{Bag, Topic};
+use flexdrill_messages::topics::{self, TopicInfo};
 
-/// Outputs of the twin that are read.
-pub(super) const OUTPUTS: [&TopicInfo; 9] = [
+/// Outputs of the twin that the report uses.
+pub(crate) const OUTPUTS: [&TopicInfo; 9] = [
     &topics::SESSION,
     &topics::APPLIED_INPUTS,
     &topics::BIT_STATE,
@@ -19,24 +19,25 @@ pub(super) const OUTPUTS: [&TopicInfo; 9] = [
     &topics::ALARM_EVENTS,
     &topics::STATUS,
 ];
-/// Inputs that are read, as received.
+/// Inputs that the report uses, as received.
 const INPUTS: [&TopicInfo; 3] = [
     &topics::ROTARY_SPEED_RPM,
     &topics::WEIGHT_ON_BIT_KN,
     &topics::RIG_INPUTS,
 ];
 
-/// What each topic of a bag is, by its number in the bag; `None` is of no use here.
+/// The meaning of each topic of a bag.
 #[derive(Debug)]
-pub(super) struct Roles {
+pub(crate) struct Roles {
+    /// By the topic's index in the bag; `None` for topics that the report does not use.
     of: Vec<Option<&'static TopicInfo>>,
-    /// Of the twin, such as `/` or `/rig_7`.
+    /// The twin's namespace, such as `/` or `/rig_7`.
     pub namespace: String,
 }
 
 impl Roles {
-    /// Finds the one twin of a bag, or the one in the namespace `wanted`.
-    pub(super) fn find(path: &Path, bag: &Bag, wanted: Option<&str>) -> Result<Self, ReportError> {
+    /// Finds the only twin of a bag, or the one in the namespace `wanted`.
+    pub(crate) fn find(path: &Path, bag: &Bag, wanted: Option<&str>) -> Result<Self, ReportError> {
         let namespaces: BTreeSet<String> = bag
             .topics()
             .iter()
@@ -72,7 +73,7 @@ impl Roles {
                     })
                 })
                 .collect();
-        // A topic that was given another name is known by its type, where only one has it.
+        // A remapped topic is recognised by its type, if no other topic has that type.
         for known in OUTPUTS {
             let mut same = (0..of.len()).filter(|index| bag.topics()[*index].ros_type == known.kind.ros_type);
             if let (Some(only), None) = (same.next(), same.next()) {
@@ -89,13 +90,13 @@ impl Roles {
         Ok(Self { of, namespace })
     }
 
-    /// What a topic is, by its number in the bag.
-    pub(super) fn of(&self, topic_index: usize) -> Option<&'static TopicInfo> {
+    /// The meaning of a topic, by its index in the bag.
+    pub(crate) fn of(&self, topic_index: usize) -> Option<&'static TopicInfo> {
         self.of.get(topic_index).copied().flatten()
     }
 
-    /// Whether the bag has that topic.
-    pub(super) fn has(&self, known: &TopicInfo) -> bool {
+    /// Whether the bag has this topic.
+    pub(crate) fn has(&self, known: &TopicInfo) -> bool {
         self.of.iter().flatten().any(|found| *found == known)
     }
 }
@@ -104,7 +105,7 @@ fn absolute(namespace: &str, known: &TopicInfo) -> String {
     format!("{}/{}", namespace.trim_end_matches('/'), known.name)
 }
 
-/// The namespace in which a topic is that known one.
+/// The namespace of a topic, if it is the known one.
 fn namespace(topic: &Topic, known: &TopicInfo) -> Option<String> {
     if topic.ros_type != known.kind.ros_type {
         return None;

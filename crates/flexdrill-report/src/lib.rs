@@ -1,0 +1,57 @@
+//! A recording as one HTML page to pass on: the inputs, the alarms, the worst locations, forces and moments along the
+//! tool, the torque that reached the bit, and how far the numbers can be trusted.
+//!
+//! The crate reads a bag and writes a page. It knows neither ROS nor the node.
+//!
+//! # Layout
+//! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]. `roles`: the meaning of each topic.
+//! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque), `incidents`
+//!   (alarms), `shares` (of time), `locations` (the worst ones and their orbits), `health` (pace, model, recording).
+//! - `plots`: the figures. `page`: the HTML, with everything in one file.
+
+mod drive;
+mod envelope;
+mod error;
+mod health;
+mod history;
+mod incidents;
+mod locations;
+mod page;
+mod plots;
+mod reading;
+mod roles;
+mod shares;
+
+use std::path::{Path, PathBuf};
+
+pub use error::ReportError;
+pub use incidents::INPUT_ALARMS;
+pub use page::html;
+pub use reading::{Summary, read};
+
+/// File name of the page.
+pub const FILE: &str = "report.html";
+
+/// Bound on plausible values, in any unit used here; an axis cannot show larger ones.
+const MOST: f64 = 1e12;
+
+/// Whether a number of a message is finite and plausible.
+fn is_quantity(value: f64) -> bool {
+    value.abs() < MOST
+}
+
+/// Writes the page into `folder`, which is created if necessary; an older page is replaced.
+///
+/// # Errors
+/// When a figure cannot be drawn, or the page cannot be written.
+pub fn write(summary: &Summary, folder: &Path) -> Result<PathBuf, ReportError> {
+    let page = html(summary)?;
+    let path = folder.join(FILE);
+    let failed = |source| ReportError::Write {
+        path: path.clone(),
+        source,
+    };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    std::fs::write(&path, page).map_err(failed)?;
+    Ok(path)
+}
