@@ -6,18 +6,18 @@
 
 mod block;
 mod block_lu;
-#[cfg(test)]
-mod dense;
 mod increment;
+#[cfg(test)]
+mod sparse;
 mod system;
 
 #[cfg(test)]
 pub(crate) use block::solve_columns;
 pub(crate) use block::{PIVOT_RATIO, exchange};
 pub use block_lu::BlockLu;
-#[cfg(test)]
-pub use dense::DenseReference;
 pub use increment::{ContactBlock, TangentIncrement, Touching};
+#[cfg(test)]
+pub use sparse::SparseReference;
 pub(super) use system::add_columns;
 pub use system::{BlockSystem, Layout};
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::{BlockLu, BlockSystem, DenseReference, Layout, LinearSolver};
+use super::{BlockLu, BlockSystem, Layout, LinearSolver, SparseReference};
 use crate::simd::Instructions;
 
 /// Deterministic values in -1..1.
@@ -100,7 +100,7 @@ fn compare(system: &BlockSystem, seed: u64) {
     let mut random = Random(seed);
     let rhs: Vec<f64> = (0..system.layout().unknowns()).map(|_| random.next()).collect();
     let mut expected = rhs.clone();
-    DenseReference.solve(system, &mut expected).unwrap();
+    SparseReference::default().solve(system, &mut expected).unwrap();
     let scale = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     for instructions in Instructions::available() {
         let mut solver = BlockLu::new(system.layout(), instructions);

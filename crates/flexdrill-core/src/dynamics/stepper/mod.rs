@@ -24,7 +24,7 @@ use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::dynamics::track::Track;
 use crate::inputs::InputKind;
 #[cfg(test)]
-use crate::linear::DenseReference;
+use crate::linear::SparseReference;
 use crate::linear::{BlockLu, LinearSolver};
 use crate::model::Model;
 use crate::simd::Instructions;
@@ -50,7 +50,7 @@ pub enum SolverKind {
     Chain,
     /// Over all stations by block LU: slower and plain, to hold the chain against.
     Stations,
-    /// nalgebra's dense LU over all stations, which the tests hold block LU against.
+    /// faer's sparse LU over all stations, which the tests hold block LU against.
     #[cfg(test)]
     Reference,
 }
@@ -146,7 +146,7 @@ impl Stepper {
         let solver: Box<dyn LinearSolver> = match kind {
             SolverKind::Chain | SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
             #[cfg(test)]
-            SolverKind::Reference => Box::new(DenseReference),
+            SolverKind::Reference => Box::new(SparseReference::default()),
         };
         let view = State::at_rest(&model);
         let chain = (kind == SolverKind::Chain).then(|| Chain::of(&model, &tolerances, h, instructions));

@@ -112,8 +112,7 @@ fn joints_stay_closed_and_both_solvers_agree() {
         moving_force: (0.0, 1e-5),
         ..Tolerances::default()
     };
-    // A third of the links: the reference is dense, and its time grows with their third power.
-    let tool = ToolDescription::paper().with_mesh(11, 5);
+    let tool = ToolDescription::paper();
     let [mut fast, mut reference] =
         [SolverKind::Stations, SolverKind::Reference].map(|kind| stepper_of(&tool, tolerances, kind));
     fast.settle(10e3).unwrap();
