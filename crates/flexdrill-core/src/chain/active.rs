@@ -1,14 +1,14 @@
-//! What a correction reaches: the whole tool, or windows around the nodes that are out of balance.
+//! The active part of the tool in a correction: all of it, or windows around the nodes that are out of balance.
 //!
-//! After two corrections most of a tool is in balance, and a few joints that have just opened or shut are not. These are
-//! linearised and solved for with the nodes below them, and only what moves is evaluated anew; the rest of the residual
-//! stays as it is. Above a window the elimination is that of earlier corrections; what it says of the nodes there is
-//! followed upward as far as it matters. Below a window nothing moves. What is left out so shows in the residual, by
-//! which a step is judged as ever.
+//! After two corrections most nodes are in balance; a few joints that have just opened or shut are not. A window linearises
+//! these and the nodes below them and solves for them; afterwards only the parts that moved are evaluated, and the rest of
+//! the residual keeps its values. Above a window the elimination of an earlier correction is valid; it gives the motion of
+//! the nodes there, which is followed upward until the force on the next node is small. Below a window nothing moves. Any
+//! error of this appears in the residual, by which every step is judged.
 
 use super::NODE;
 
-/// Corrections of the whole tool, after which windows do.
+/// Corrections of the whole tool before the first one in windows.
 pub(super) const WHOLE_CORRECTIONS: u32 = 2;
 /// Nodes below one that is out of balance that are solved for with it.
 const BELOW: usize = 6;
@@ -23,7 +23,7 @@ pub(super) struct Window {
     pub top: usize,
 }
 
-/// What the present correction reaches.
+/// The active part of the tool.
 #[derive(Debug)]
 pub(super) struct Active {
     /// Whether it is the whole tool.
@@ -100,7 +100,7 @@ impl Active {
         }
     }
 
-    /// Marks what the solution moves.
+    /// Marks the nodes and spans that the solution moves.
     pub(super) fn moved(&mut self) {
         if self.whole {
             return;

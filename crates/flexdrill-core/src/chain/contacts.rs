@@ -1,5 +1,5 @@
 //! Contacts at all stations: found eight stations of a span at a time, evaluated by the law of the gap eight contacts at a
-//! time, and put on the spans' ends.
+//! time, and applied to the ends of the spans.
 
 use nalgebra::Vector2;
 
@@ -86,7 +86,7 @@ pub(super) fn at_radius(force: &[f64; 6], radius: f64) -> [f64; 6] {
     ]
 }
 
-/// The sum of what local forces put on both ends of a span, added to `sum`.
+/// `sum` plus the forces on both ends of a span by the components `x` of a local force.
 #[inline(always)]
 pub(super) fn plus_rows<V: Vector>(sum: [V; 2], rows: &[EndColumn; 6], x: &[f64; 6]) -> [V; 2] {
     let (mut even, mut odd) = (sum, [V::splat(0.0); 2]);
@@ -172,7 +172,7 @@ impl ContactSearch<'_> {
     }
 }
 
-/// The sum of what contacts of the guide with the wall put on the ends of one span after the other.
+/// The force of wall contacts on the ends of a span: summed over its stations, for one span after the other.
 pub(super) struct OnSpan<V> {
     pub span: usize,
     even: [V; 2],
@@ -190,7 +190,7 @@ impl<V: Vector> OnSpan<V> {
         }
     }
 
-    /// Adds what a local force puts there.
+    /// Adds a local force.
     #[inline(always)]
     pub(super) fn add(&mut self, rows: &[EndColumn; 6], force: &[f64; 6]) {
         for k in 0..3 {
@@ -199,7 +199,7 @@ impl<V: Vector> OnSpan<V> {
         }
     }
 
-    /// Gives the sum, and goes on with another span.
+    /// Gives the sum, and begins that of another span.
     #[inline(always)]
     pub(super) fn next(&mut self, span: usize) -> [V; 2] {
         let sum = [self.even[0].plus(self.odd[0]), self.even[1].plus(self.odd[1])];
@@ -207,7 +207,7 @@ impl<V: Vector> OnSpan<V> {
         sum
     }
 
-    /// Takes the sum off the guide's forces, and goes on with another span.
+    /// Subtracts the sum from the guide's forces, and begins that of another span.
     #[inline(always)]
     fn take_from(&mut self, forces: &mut [Aligned<EndForces>], span: usize) {
         let guide = &mut forces[self.span][1];
@@ -229,7 +229,7 @@ impl Kernel for ContactSearch<'_> {
 }
 
 impl ContactSearch<'_> {
-    /// Opens the gaps that are looked at again. Contacts of spans that the correction did not move keep their forces.
+    /// Opens the gaps that are searched again. Contacts of spans that the correction did not move keep their forces.
     #[inline(always)]
     fn open_gaps(&mut self) {
         let Interactions { inner, outer, .. } = &mut *self.interactions;
@@ -269,8 +269,8 @@ impl ContactSearch<'_> {
             let y = V::load(&link.offset[0]).plus(pipe[0].minus(guide[0]));
             let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
 
-            // A gap is closed beyond its clearance, Eq. 21. Lanes without a station hold nothing, and may not touch even
-            // where a state is beyond all bounds.
+            // A gap is closed beyond its clearance, Eq. 21. Lanes without a station are masked: an out-of-range state must
+            // not close a gap there.
             let square = |y: V, z: V| y.times(y).plus_product(z, z);
             let stations = (1 << self.chain.model.nodes.elements(l)) - 1;
             let inner = square(y, z).above(V::load(&link.clearance_squared)) & stations;

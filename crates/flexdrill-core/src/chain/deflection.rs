@@ -1,7 +1,7 @@
 //! How spans deflect between their ends: the static deflection of inner stations under contacts and weight, the ends held,
 //! w = K_ii^-1 f_i.
 //!
-//! The slaving says how inner stations follow the ends, and puts what acts on them on the ends. What is left of the static
+//! The slaving moves inner stations with the ends, and transfers their forces to the ends. The rest of the static
 //! solution is this deflection, which opens and closes gaps: with a soft guide by enough to change the force on the wall
 //! by 1 %. A step counts with the deflection that the forces at its start make. That is as good as solving for it, since
 //! a span inside is so much stiffer than a contact: what the lag leaves out is their ratio times the change of the force.
@@ -16,7 +16,7 @@ use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 
 impl Chain {
-    /// How the spans are bowed in `full`, whose ends are those of `to`.
+    /// How the spans are deflected in `full`, whose ends are those of `to`.
     pub(super) fn take_deflections(&self, model: &Model, full: &State, to: &mut State) {
         let (nodes, _) = to.q.as_chunks();
         for (l, (deflection, link)) in to.deflection.iter_mut().zip(&self.model.links).enumerate() {

@@ -4,7 +4,7 @@
 //! Eq. 13 say how they follow: linearised, Phi + G_s x_s + G_f x_f = 0 gives x_s = -G_s^-1 (Phi + G_f x_f). The spin below
 //! is always one of them; a revolute joint, which has two rows, makes one tilt below another. The multipliers of the rows
 //! follow from the balance of the moments on the dependent rotations, R_s + G_s^T lambda = 0, so that they are no unknowns
-//! either: what they put on the other rotations is the same coefficients times R_s.
+//! either: their moments on the other rotations are the same coefficients times R_s.
 
 use super::nodes::Node;
 use super::precision::{Lanes, Precision};
@@ -141,7 +141,7 @@ impl Dependents {
         lambda
     }
 
-    /// Adds what the moments on the dependent rotations put on the others, and takes them away.
+    /// Moves the moments on the dependent rotations to the rotations that these follow from.
     #[inline(always)]
     fn project(&self, residual: &mut [f64; NODE]) {
         for dependent in self.iter() {
@@ -190,17 +190,17 @@ impl Dependent {
         let offset = self.by_rows[0] * rows[0] + self.by_rows[1] * rows[1];
         let (by, only) = (L::round(&self.by), L::load(S::only(SLOT)));
         let column = L::load(&a[SLOT]);
-        // x_slot changes by the offset whatever the others do: what that puts on all rows goes to the right-hand side.
+        // x_slot changes by the offset whatever the others do: its column times the offset goes to the right-hand side.
         let mut lanes = Aligned([S::ZERO; NODE]);
         right.plus_product(column, L::splat(S::of(-offset))).store(&mut lanes);
         let right = L::load(&lanes)
             .plus_product(by, L::splat(lanes[SLOT]))
             .plus_product(only, L::splat(S::of(offset)));
-        // Its row goes to the rows of what it follows; -1 at its own place leaves nothing there.
+        // Its row is added to the rows of the rotations that it follows; -1 at its own place leaves zero there.
         let without_row = |column: L, moment: S| column.plus_product(by, L::splat(moment));
         for k in ROTATIONS {
             if k != SLOT {
-                // Its column goes to their columns, and its row says x_slot - by x = offset.
+                // Its column is added to their columns, and its row becomes x_slot - by x = offset.
                 let of_it = self.by[k];
                 L::load(&a[k])
                     .plus_product(column, L::splat(S::of(of_it)))
@@ -245,9 +245,9 @@ impl Chain {
         }
     }
 
-    /// Adds the moments of the joints' stops, linearises the rotations that follow from others, and takes the moments on
-    /// them over to those: with the multipliers of the joints' rows they are in balance. Their places are taken by the
-    /// rows themselves, times `scale`.
+    /// Adds the moments of the joints' stops, linearises the dependent rotations, and moves the moments on them to the
+    /// rotations that they follow from: with the multipliers of the joints' rows the dependent ones are in balance. Their
+    /// places in the residual hold the rows themselves, times `scale`.
     pub(super) fn joint_forces(&mut self, joints: &mut Joints, state: &State, scale: f64) {
         let (residual, _) = self.residual.as_chunks_mut::<NODE>();
         for (k, (node, residual)) in self.model.nodes.list.iter().zip(residual).enumerate() {

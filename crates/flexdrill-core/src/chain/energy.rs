@@ -52,8 +52,8 @@ impl Chain {
 }
 
 impl Chain {
-    /// What supports put on the stations of a guide that is fixed as a whole, between the nodes: weight and contacts are
-    /// all that acts there.
+    /// Reactions of the supports at stations between the nodes, of a guide that is fixed as a whole: they balance weight and
+    /// contacts, since nothing else acts there.
     fn reactions_inside_a_fixed_guide(&self, point: &mut EnergyPoint, model: &Model, interactions: &Interactions) {
         if !model.description.guide_fixed {
             return;
@@ -286,7 +286,7 @@ impl Kernel for Friction<'_> {
     }
 }
 
-/// What a local force `x` puts on both ends of a span.
+/// Forces on both ends of a span by a local force `x`.
 #[inline(always)]
 fn on_ends<V: Vector>(rows: &[EndColumn; 6], x: &[f64; 6]) -> EndColumn {
     let mut out = [0.0; 16];

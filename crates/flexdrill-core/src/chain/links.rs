@@ -16,9 +16,9 @@ pub(super) struct Link {
     pub kind: usize,
     /// Where the undeflected pipe lies at each station but the first: y, z (m).
     pub offset: Aligned<[[f64; 8]; 2]>,
-    /// Squares of the inner clearance at those stations; beyond them what is never reached.
+    /// Squares of the inner clearance at those stations; in lanes without a station the largest number.
     pub clearance_squared: Aligned<[f64; 8]>,
-    /// What the pipe's weight puts on its top end (N), along the axes of the link above.
+    /// Force of the pipe's weight on its top end (N), along the axes of the link above.
     pub weight_on_top: [f64; 3],
     /// Lateral deflection of the inner stations under the weight of pipe and guide (m), as [`LinkMatrices::lateral`].
     pub by_weight: Aligned<Deflection>,

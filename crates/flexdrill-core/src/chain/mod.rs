@@ -143,7 +143,7 @@ pub(crate) struct Chain {
     foreseen_part: f64,
     /// Forces of the spans on their ends: elastic, damping and inertia forces.
     linear: Vec<Aligned<EndForces>>,
-    /// Those of geometric stiffness per axial force, and in a lane of its own the axial force of the displacements.
+    /// Those of geometric stiffness per axial force; one lane holds the axial force of the displacements.
     geometric_forces: Vec<Aligned<EndForces>>,
     /// Those of contacts, and whether there are any.
     contact_forces: Vec<Aligned<EndForces>>,

@@ -1,5 +1,5 @@
 //! Where the chain has its nodes: at every station that something is attached to, and between them where a span would
-//! otherwise have too many elements, vibrate too slowly or give way too much.
+//! otherwise have too many elements, vibrate too slowly or be too compliant.
 
 use super::slaving::LinkMatrices;
 use super::{LEAST_FREQUENCY, MOST_COMPLIANCE, MOST_STATIONS, NODE};
@@ -14,8 +14,8 @@ pub(super) struct Node {
     pub joint: Option<usize>,
 }
 
-/// Where the pipe passes a node in one piece, makes the rotations below those above to the bit: nothing would take what
-/// rounding adds up between them.
+/// Where the pipe passes a node in one piece, makes the rotations below those above to the bit: no equation would correct
+/// the rounding that adds up between them.
 #[inline(always)]
 pub(super) fn pass(values: &mut [f64; NODE], node: Node) {
     if node.joint.is_none() {

@@ -130,7 +130,7 @@ impl Chain {
         )
     }
 
-    /// Sum in the world of what `values`, per unknown of the chain, and the `spans` on their ends put on the displacements.
+    /// Sum in the world of the forces that `values`, per unknown of the chain, and the `spans`, on their ends, hold.
     pub(crate) fn sum_in_world<'a>(
         &self,
         model: &Model,
@@ -286,7 +286,7 @@ impl Kernel for Show<'_> {
         for (span, node) in by.model.nodes.list.iter().enumerate() {
             let Some(joint) = node.joint else { continue };
             let (at, first) = (&model.joints[joint], model.multipliers(joint));
-            // What the span below asks for at its top, in the frame of the link above.
+            // The force of the span below on its top, in the frame of the link above.
             let force = Vector3::from(forces.on_top[span]);
             let force = at.upper * force / model.force_scale;
             (0..3).for_each(|i| full.q[first + i] = force[i]);

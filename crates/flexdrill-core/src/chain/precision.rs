@@ -21,7 +21,7 @@ pub(super) trait Precision: Copy + AddAssign + 'static {
     fn guide() -> &'static [Self; NODE];
     /// One in place `k`, zero elsewhere.
     fn only(k: usize) -> &'static [Self; NODE];
-    /// What local forces at the stations of a span put on its nodes.
+    /// Forces on the nodes of a span by local forces at its stations.
     fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>];
 }
 
@@ -40,9 +40,9 @@ pub(super) trait Lanes<S>: Copy {
     fn swapped(self) -> Self;
 }
 
-/// What each of six local forces of a gap at a station puts on the unknowns of the nodes [above, below] of its span:
-/// through pipe and guide in the inner layer, through the guide in the outer one. Slaving is its own transpose here: the
-/// same numbers say how the gap moves by them.
+/// Forces on the unknowns of the nodes [above, below] of a span by each of the six local forces of a gap at a station:
+/// through pipe and guide in the inner layer, through the guide in the outer one. Their transpose is the motion of the gap
+/// by those unknowns.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(super) struct OnNodes<S> {

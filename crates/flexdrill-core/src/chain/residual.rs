@@ -2,7 +2,7 @@
 //!
 //! A step's first residual is evaluated whole. After that only the correction's share is added: what is linear changes by
 //! the step-constant tangent times the correction, and what geometric stiffness multiplies its axial force by likewise;
-//! contacts, stops and joint rows are evaluated anew.
+//! contacts, stops and joint rows are evaluated again.
 
 use super::slaving::TENSION;
 use super::{Chain, EndColumn, Ends, GUIDE, NODE, U, at_ends, ends};
@@ -55,7 +55,7 @@ impl Chain {
         });
     }
 
-    /// Sums up on each node what its spans and its weight put there, contacts with them.
+    /// Sums up the forces of spans, contacts and weight on each node.
     pub(super) fn gather(&mut self, state: &State) {
         self.model.instructions.run(Gather { chain: self, state });
     }

@@ -32,17 +32,16 @@ pub(super) struct LinkMatrices {
     /// Local motion of each station, the top included: the pipe's in the station's frame, rotations times its radius; the
     /// guide's.
     pub motion: Vec<Aligned<MotionColumns>>,
-    /// The same by rows: what a local force puts on the ends.
+    /// The same by rows: forces on the ends by the components of a local force.
     pub force: Vec<Aligned<ForceRows>>,
-    /// What a force of a gap puts on the unknowns of both nodes, in both precisions.
+    /// Forces on the unknowns of both nodes by those of a gap, in both precisions.
     pub on_nodes: Vec<OnNodes<f64>>,
     pub on_nodes_single: Vec<OnNodes<f32>>,
     /// Displacements of the inner nodes in their own frames, columns of a node one after the other.
     pub inner: Vec<Aligned<MotionColumns>>,
-    /// Lateral deflection of the inner stations, as `lateral`, by a local force at each of them while the ends stand
-    /// still.
+    /// Lateral deflection of the inner stations, as `lateral`, by a local force at each of them, the ends held.
     pub deflection: Vec<Aligned<ForceRows>>,
-    /// Slowest frequency of pipe or guide while the ends stand still (rad/s).
+    /// Slowest frequency of pipe or guide, the ends held (rad/s).
     pub slowest: f64,
     /// Displacements of all nodes by the unknowns of the ends.
     pub slaved: [DMatrix<f64>; 2],

@@ -1,4 +1,4 @@
-//! What acts on the tool at one instant beside its own state.
+//! Inputs and parameters that act on the tool at one instant.
 
 use crate::elements::gap::GapLaw;
 use crate::tool::description::{LiveParameters, LoadHistory, Rayleigh, ToolDescription};

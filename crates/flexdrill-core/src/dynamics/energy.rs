@@ -63,7 +63,7 @@ pub struct EnergyPoint {
     pub(crate) deflection: Vec<Deflection>,
     /// Value of each point load (N, N m).
     pub(crate) loads: Vec<f64>,
-    /// What the support of each held unknown puts on the tool (N, N m), in the order of [`Model::held`].
+    /// Force of the support of each held unknown on the tool (N, N m), in the order of [`Model::held`].
     pub(crate) reactions: Vec<f64>,
     /// Kinetic, elastic, geometric, contact and stop energy (J).
     pub(crate) stored: f64,
@@ -281,7 +281,7 @@ impl Kernel for ElementEnergies<'_> {
             let bent = forms.stiffness.product(q);
             let moving = forms.mass.product(v);
             let stiff = forms.stiffness.product(v);
-            // Along its axis an element is a spring by itself: its force is that on the lower node.
+            // Along its axis an element is a spring: its axial force is that on the lower node.
             let beyond = V::splat(tension - lane(bent[1], 0));
             let tension = V::splat(tension);
             let mut stretched = forms.geometric.product(q);

@@ -61,7 +61,7 @@ pub(crate) trait Equations {
     fn correction(&self) -> (&[f64], &[f64]);
     /// The unknowns that the drive prescribes.
     fn driven(&self) -> &[usize];
-    /// The first unknown beyond what is possible, with its value.
+    /// The first unknown that is out of range, with its value.
     fn out_of_range(&self, state: &State) -> Option<(usize, f64)>;
     /// Station and pipe of an unknown.
     fn locate(&self, unknown: usize) -> (usize, Body);
@@ -261,5 +261,5 @@ fn worst_unknown(residuals: &[f64], weights: &[f64]) -> usize {
     worst.1
 }
 
-/// Displacements (m) beyond which something has come apart: far outside any bore.
+/// Largest displacement (m): far outside any bore, so that the tool must have come apart.
 pub(crate) const LARGEST_DISPLACEMENT: f64 = 1.0;

@@ -64,7 +64,7 @@ pub enum FailureCause {
     Singular,
     /// A displacement or tilt left the range in which the model holds.
     OutOfRange,
-    /// An input is not finite or beyond [`Inputs::bounds`]. No sub-step was tried; station and body have no meaning.
+    /// An input is not finite or outside [`Inputs::bounds`]. No sub-step was tried; station and body have no meaning.
     InputOutOfBounds(InputKind),
 }
 
@@ -96,7 +96,7 @@ impl fmt::Display for FailureCause {
 }
 
 impl fmt::Display for StepFailure {
-    /// Cause, place and size, without the time: whoever reports it has a clock of its own.
+    /// Cause, location and size, without the time, which the caller adds by its own clock.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let FailureCause::InputOutOfBounds(kind) = self.cause {
             let ([low, high], unit) = (Inputs::bounds(kind), kind.si_unit());
@@ -140,8 +140,8 @@ pub struct EnergyAudit {
     pub numerical_damping: f64,
     /// Work of updating the axial force in the geometric stiffness between steps.
     pub axial_update: f64,
-    /// Part of it that is no law's: work that the axial forces foreseen for the end of each step do beyond those of the
-    /// displacements there. Positive feeds the motion.
+    /// Part of it that belongs to no physical law: the work of the foreseen axial forces less that of the axial forces of
+    /// the displacements at the end of each step. Positive feeds the motion.
     pub axial_foresight: f64,
     /// Magnitudes of `error` less `axial_foresight`, sub-step by sub-step: what cancels over time counts here.
     pub against_laws: f64,

@@ -1,6 +1,6 @@
-//! Where the time of a step goes.
+//! The time that each phase of a step takes.
 //!
-//! The mechanics knows no clock: whoever wants times hands one in, as a plain function. Without it nothing is read.
+//! The mechanics has no clock: a caller that wants times hands one in, as a plain function. Without it nothing is measured.
 //! Times are no part of the state: no checkpoint, snapshot or output that a replay compares holds them.
 
 /// Nanoseconds of a monotonic clock. It is called some ten times per Newton iteration and must neither lock nor
@@ -27,7 +27,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// All, in the order in which they are told.
+    /// All, in the order in which they are published.
     pub const ALL: [Self; 7] = [
         Self::Assembly,
         Self::Contact,
@@ -82,7 +82,7 @@ impl PhaseTimes {
     }
 }
 
-/// A running clock whose laps are put down to phases, so that one reading ends a phase and begins the next.
+/// A running clock whose laps are added to phases, so that one reading ends a phase and begins the next.
 #[derive(Debug, Clone, Default)]
 pub struct Stopwatch {
     clock: Option<Clock>,

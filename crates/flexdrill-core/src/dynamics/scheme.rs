@@ -115,8 +115,8 @@ impl Scheme {
         }
     }
 
-    /// Velocity and acceleration of unknown `i` after a step `h` from `from` in which it moved by `dq`: what Eq. 38
-    /// puts into brackets.
+    /// Velocity and acceleration of unknown `i` after a step `h` from `from` in which it moved by `dq`: the
+    /// brackets of Eq. 38.
     pub(crate) fn rates(&self, h: f64, dq: f64, from: &State, i: usize) -> (f64, f64) {
         let (v0, l0) = (from.v[i], self.lagged(h, from)(from.lagged[i], from.a[i]));
         let l1 = (dq - h * v0) / (self.beta * h * h) - (0.5 / self.beta - 1.0) * l0;
@@ -337,7 +337,7 @@ mod tests {
                     (0..steps).for_each(|_| oscillator.step(1.0));
                     oscillator.state.q[0].abs()
                 };
-                // The largest eigenvalue is double, so that the motion goes with n rho^n.
+                // The largest eigenvalue is double, so that the motion decays with n rho^n.
                 let (first, second) = (after(200), after(200));
                 let got = (0.5 * second / first).powf(1.0 / 200.0);
                 // n is n + a number of the order of one: 1 % in the ratio's 200th root at most.

@@ -154,7 +154,7 @@ impl Stepper {
         let conditions = self.conditions(0.0, weight_on_bit);
         let mut equations = self.over_stations();
         equations.polish_rest(&mut rest, &mut trial, &conditions);
-        // What is still unbalanced becomes an acceleration, so that the first step begins in balance.
+        // The remaining unbalanced force becomes an acceleration, so that the first step begins in balance.
         equations
             .balance_accelerations(&mut rest, &conditions, 0.0)
             .map_err(StartError::Singular)?;

@@ -5,7 +5,7 @@
 pub struct SubSteps {
     whole: u64,
     most: u32,
-    /// Level that the size does not grow beyond.
+    /// Halvings of the largest sub-step.
     coarsest: u32,
     done: u64,
     level: u32,
@@ -57,7 +57,7 @@ impl SubSteps {
         self.done == 0 && self.level == self.coarsest
     }
 
-    /// Most halvings so far beyond the parts that it was to be taken in.
+    /// Most halvings so far, on top of the parts that were asked for.
     pub fn deepest(&self) -> u32 {
         self.deepest - self.coarsest
     }

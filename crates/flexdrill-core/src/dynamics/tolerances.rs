@@ -22,10 +22,10 @@ pub struct Tolerances {
 
 impl Default for Tolerances {
     /// 10 mN and 1 mN m at rest: a millionth of a weight on bit of 10 kN and a hundred-thousandth of its torque, five
-    /// orders above the rounding of the stiffest element. In motion 1 N and 0.1 N m: a hundredth of the RMS forces of
-    /// the contacts, below what a step of [`WHOLE_STEP`] itself leaves, and its statistics do not tell it from a
-    /// hundredth of it; lighter tools than one of 2 kN have smaller forces. Rows to 1e-10 m, a tenth of what is
-    /// promised.
+    /// orders above the rounding of the stiffest element. In motion 1 N and 0.1 N m: a hundredth of the RMS contact
+    /// forces and below the error of a step of [`WHOLE_STEP`]; statistics with a hundredth of it do not differ. Tools lighter
+    /// than 2 kN have smaller limits in proportion. Rows to 1e-10 m, a tenth of the
+    /// documented accuracy.
     fn default() -> Self {
         Self {
             force: 1e-2,
@@ -90,9 +90,9 @@ impl Limits {
         }
     }
 
-    /// Sets the limits in motion for steps of size `h` (s). What a step errs by itself falls with its square, and what it
-    /// may leave unbalanced falls with it, down to the limits at rest: left at 1 N, half and quarter steps, which begin
-    /// nearer to their end, would stop a correction early, and their errors be those of the limit.
+    /// Sets the limits in motion for steps of size `h` (s). The error of a step falls with its square, and so do the limits,
+    /// down to those at rest: with 1 N, half and quarter steps, which begin nearer to their end, would stop a correction
+    /// early, and the limit would determine their errors.
     pub(crate) fn for_step(&mut self, h: f64) {
         if h == self.step {
             return;

@@ -164,7 +164,7 @@ impl StationEquations<'_> {
     }
 
     /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where
-    /// the static tangent has no inverse (a body that could float), the state stays as it is.
+    /// the static tangent has no inverse (a body that could float), the state is not changed.
     pub(crate) fn polish_rest(&mut self, state: &mut State, scratch: &mut State, conditions: &Conditions) {
         let factors = TangentFactors {
             stiffness: 1.0,

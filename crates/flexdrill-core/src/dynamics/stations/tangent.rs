@@ -66,7 +66,7 @@ impl Assembler {
         self.increment.drop_held();
     }
 
-    /// What a point mass adds beside its diagonal.
+    /// Adds the coupled part of a point mass; its diagonal is in the step-constant part.
     fn point_tangent(
         &mut self,
         model: &Model,

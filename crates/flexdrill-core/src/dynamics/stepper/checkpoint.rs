@@ -1,4 +1,4 @@
-//! Leaving off and going on: what a motion is, apart from the tool.
+//! Checkpoints: the state of a motion, apart from the tool.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::State;
 use crate::tool::description::LiveParameters;
 
-/// All that a run needs to go on bit for bit.
+/// Everything that a run needs to continue bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepperCheckpoint {
     state: State,
@@ -22,7 +22,7 @@ pub struct StepperCheckpoint {
 }
 
 impl Stepper {
-    /// What it takes to go on from here.
+    /// The state from which a run continues bit for bit.
     pub fn checkpoint(&self) -> StepperCheckpoint {
         StepperCheckpoint {
             state: self.track.state.clone(),
@@ -36,7 +36,7 @@ impl Stepper {
         }
     }
 
-    /// Goes on from a checkpoint of the same model; `false`, and nothing done, if its sizes are another model's.
+    /// Continues from a checkpoint of the same model; `false`, and nothing done, if its sizes are another model's.
     pub fn restore(&mut self, checkpoint: &StepperCheckpoint) -> bool {
         let track = &mut self.track;
         let same = checkpoint.state.q.len() == track.state.q.len()

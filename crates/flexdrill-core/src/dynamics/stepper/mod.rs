@@ -92,7 +92,7 @@ pub struct Counters {
 /// Finest refinement: a step in four parts.
 pub const MOST_REFINEMENT: u32 = 2;
 
-/// Whole turns after which they are taken off the pipe's spins, so that the rounding of the angles stays below that of
+/// Whole turns after which they are subtracted from the pipe's spins, so that the rounding of the angles stays below that of
 /// the forces however long the tool runs.
 const UNWIND_TURNS: f64 = 1000.0;
 
@@ -120,7 +120,7 @@ pub struct Stepper {
     view_is_current: bool,
     audit: EnergyAudit,
     counters: Counters,
-    /// Whole turns taken off the spins so far.
+    /// Whole turns subtracted from the spins so far.
     turns: f64,
     weight_on_bit: f64,
     /// Step size that the chain is prepared for (s).
@@ -356,7 +356,7 @@ impl Stepper {
         self.track.state.drive_angle + self.turns * TAU
     }
 
-    /// Takes whole turns off the spins of the pipe.
+    /// Subtracts whole turns from the spins of the pipe.
     fn unwind(&mut self) {
         let state = &mut self.track.state;
         if state.drive_angle.abs() < UNWIND_TURNS * TAU {
