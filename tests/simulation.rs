@@ -399,6 +399,7 @@ impl World {
             conditioner: &self.conditioner,
             dds: self.dds.clone(),
             now,
+            namesakes: Vec::new(),
             drivers: InputKind::ALL.map(|kind| self.intake.drivers.summary(kind, now)),
             run_state: self.gauges.run_state(),
             failure: None,

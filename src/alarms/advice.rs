@@ -1,9 +1,9 @@
-//! What the driller can do about the tool's alarms, from the rules of the configuration: limits to bring the speed and
-//! the weight on bit to.
+//! What the driller can do about the tool's alarms, by the rules of the configuration: limits for the speed and the
+//! weight on bit.
 //!
-//! All standing alarms are advised together, one change at a time. The alarm of the highest priority leads and gives
-//! its change alone; the others refer to it. Two changes at once, or a choice between two, would be advice that no run
-//! has shown to work (`docs/alarms.md` lists the runs).
+//! All standing alarms share one advice, one change at a time. The alarm of the highest priority leads and asks for its
+//! change alone; the others refer to it. No run has shown that two changes at once work (`docs/alarms.md` lists the
+//! runs).
 
 use super::catalogue::AlarmId;
 use super::sentence::{capitalized, number};
@@ -12,16 +12,17 @@ use flexdrill_config::{Advice, InputsConfig};
 use flexdrill_core::twin::Applied;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
-/// The last resort of a driller, for what is high.
+/// The last resort of a driller, for an alarm of high priority.
 const STOP: &str = "pick up off bottom and stop the drive";
-/// A change raises an input to this many times its present value at most: more is another way of drilling, and no
-/// answer to an alarm. Assumption.
+/// Largest factor by which advice raises an input: more would be another drilling programme, not a response to an
+/// alarm. Assumption.
 const MOST_RAISE: f64 = 3.0;
-/// Part of a limit by which an input must be beyond it before its alarm no longer asks for it: a drive's speed and a
-/// weight indicator waver by a few percent, and the advice would come and go with them. Assumption.
-const WAVERING: f64 = 0.05;
+/// Part of a limit by which an input must pass the limit before its alarm no longer asks for the change. A drive's speed
+/// and a weight indicator fluctuate by a few percent, and without this margin the advice would fluctuate with them.
+/// Assumption.
+const FLUCTUATION: f64 = 0.05;
 
-/// Where the tool is driven.
+/// The operating point: speed and weight that act on the model.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Operating {
     /// r/min.
@@ -39,7 +40,7 @@ impl Operating {
     }
 }
 
-/// An input that a change is made to.
+/// An input that the driller can change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Quantity {
     Speed,
@@ -100,10 +101,11 @@ impl Step {
         .flatten()
     }
 
-    /// Whether it changes the present inputs within their limits. `asked` is whether it is asked for already.
+    /// Whether the step changes the present inputs within their limits. `asked` says whether the advice already contains
+    /// it.
     fn applies(&self, now: &Operating, inputs: &InputsConfig, asked: bool) -> bool {
         let value = self.quantity.now(now);
-        let margin = if asked { WAVERING * self.limit } else { 0.0 };
+        let margin = if asked { FLUCTUATION * self.limit } else { 0.0 };
         if self.raise {
             value < self.limit + margin && self.limit < self.quantity.most(inputs) && self.limit <= MOST_RAISE * value
         } else {
@@ -111,7 +113,7 @@ impl Step {
         }
     }
 
-    /// Whether its limit lies beyond a limit of another rule, which asks for less where this asks for more or the
+    /// Whether the step violates a limit of another rule: the other lowers the input that this one raises, or the
     /// reverse.
     fn is_against(&self, other: &Advice) -> bool {
         Self::of(other).any(|other| {
@@ -125,7 +127,7 @@ impl Step {
         })
     }
 
-    /// Whether it brings the input as far as `other` asks, or further.
+    /// Whether the step brings the input at least as far as `other` does.
     fn serves(&self, other: &Self) -> bool {
         self.quantity == other.quantity
             && self.raise == other.raise
@@ -157,23 +159,23 @@ impl Step {
     }
 }
 
-/// An alarm that asks for something.
+/// An alarm with its rule.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Demand {
     pub id: AlarmId,
-    /// That of the condition at present; none once it has ended and the alarm is only held.
+    /// The present priority of the condition; none once the condition has ended and the alarm is only held.
     pub priority: Option<Priority>,
     pub rule: Advice,
-    /// An operator has put it aside, so that it leads only where no other does.
+    /// A shelved alarm leads only where no other alarm does.
     pub shelved: bool,
 }
 
-/// Whether a rule has a step that changes the present inputs. `stands` is whether its alarm stands already.
+/// Whether a rule has a step that changes the present inputs. `stands` says whether its alarm stands already.
 pub(super) fn applies(rule: &Advice, now: &Operating, inputs: &InputsConfig, stands: bool) -> bool {
     Step::of(rule).any(|step| step.applies(now, inputs, stands))
 }
 
-/// The sentences for all standing alarms, in their order.
+/// One sentence per standing alarm, in the order of `demands`.
 pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsConfig) -> Vec<String> {
     let mut order: Vec<&Demand> = demands.iter().filter(|demand| demand.priority.is_some()).collect();
     order.sort_by_key(|demand| (demand.shelved, std::cmp::Reverse(demand.priority), demand.id as usize));
@@ -187,16 +189,15 @@ pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsCon
         .collect()
 }
 
-/// What a leading alarm asks for.
+/// The action of the leading alarm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Lead {
     Step(Step),
     Stop,
 }
 
-/// What an alarm asks for if it leads: the first step that leaves the limits of the other alarms' rules alone, else the
-/// first that leaves those of the alarms before it alone, else what a high alarm always has. None where it asks for
-/// nothing that those before it allow.
+/// The action of an alarm if it leads: the first step that respects the limits of all other rules, else the first that
+/// respects those of the alarms before it, else, for a high alarm, the last resort. None where no step is allowed.
 fn lead(demand: &Demand, before: &[&Demand], all: &[&Demand], now: &Operating, inputs: &InputsConfig) -> Option<Lead> {
     let free_of = |step: &Step, others: &[&Demand]| {
         others
@@ -220,7 +221,7 @@ fn lead(demand: &Demand, before: &[&Demand], all: &[&Demand], now: &Operating, i
 
 fn sentence(demand: &Demand, lead: Option<(&Demand, Lead)>, now: &Operating, inputs: &InputsConfig) -> String {
     let Some(priority) = demand.priority else {
-        return "No further action: the alarm clears by itself unless the motion comes back.".to_owned();
+        return "No further action: the alarm clears by itself unless the motion returns.".to_owned();
     };
     match lead {
         Some((leading, lead)) if leading.id == demand.id => match (lead, priority) {
@@ -231,15 +232,15 @@ fn sentence(demand: &Demand, lead: Option<(&Demand, Lead)>, now: &Operating, inp
         Some((leading, Lead::Step(step)))
             if Step::of(&demand.rule).any(|own| own.applies(now, inputs, true) && step.serves(&own)) =>
         {
-            format!("The change advised for {} serves this alarm too.", leading.id.name())
+            format!("The change advised for {} covers this alarm too.", leading.id.name())
         }
         Some((leading, _)) => format!(
-            "Follow the advice for {} first; this alarm is judged again after it.",
+            "Follow the advice for {} first, then check this alarm again.",
             leading.id.name()
         ),
         None => {
-            "Call the engineer: no change of speed or weight is known to end it here. If it grows worse, pick up off \
-                 bottom."
+            "Call the engineer: no change of speed or weight is known to end this motion. If it gets worse, pick up off \
+             bottom."
                 .to_owned()
         }
     }
@@ -261,12 +262,12 @@ mod tests {
         }
     }
 
-    fn said(demands: &[Demand], rpm: f64, kn: f64) -> Vec<String> {
+    fn texts(demands: &[Demand], rpm: f64, kn: f64) -> Vec<String> {
         what_to_do(demands, &Operating { rpm, kn }, &InputsConfig::default())
     }
 
     fn alone(rule: Advice, rpm: f64, kn: f64, priority: Priority) -> String {
-        said(&[demand(AlarmId::StickSlip, priority, rule)], rpm, kn).remove(0)
+        texts(&[demand(AlarmId::StickSlip, priority, rule)], rpm, kn).remove(0)
     }
 
     const LESS: Advice = Advice {
@@ -288,7 +289,7 @@ mod tests {
         );
         assert!(alone(LESS, 60.0, 5.0, MEDIUM).starts_with("Call the engineer"));
         assert_eq!(alone(LESS, 60.0, 5.0, HIGH), "Pick up off bottom and stop the drive.");
-        // The drive does not go there.
+        // The drive cannot run that fast.
         let fast = Advice {
             raise_rotary_speed_rpm: Some(500.0),
             ..Advice::default()
@@ -309,7 +310,7 @@ mod tests {
             lower_rotary_speed_rpm: Some(rpm),
             ..Advice::default()
         };
-        let texts = said(
+        let sentences = texts(
             &[
                 demand(AlarmId::ForwardWhirl, MEDIUM, slower(90.0)),
                 demand(AlarmId::BackwardWhirl, HIGH, slower(80.0)),
@@ -319,27 +320,27 @@ mod tests {
             10.0,
         );
         assert_eq!(
-            texts,
+            sentences,
             [
-                "The change advised for backward whirl serves this alarm too.",
+                "The change advised for backward whirl covers this alarm too.",
                 "Lower the speed below 80 r/min (120 r/min now) and keep the weight on bit. If it persists, pick up off \
                  bottom and stop the drive.",
-                "Follow the advice for backward whirl first; this alarm is judged again after it."
+                "Follow the advice for backward whirl first, then check this alarm again."
             ]
         );
-        // An alarm that is put aside does not lead, and one whose motion has ended asks for nothing.
+        // A shelved alarm does not lead, and an alarm whose motion has ended asks for nothing.
         let mut demands = [
             demand(AlarmId::BackwardWhirl, HIGH, slower(80.0)),
             demand(AlarmId::StickSlip, MEDIUM, LESS),
         ];
         demands[0].shelved = true;
-        assert!(said(&demands, 120.0, 10.0)[1].starts_with("Lower the weight"));
+        assert!(texts(&demands, 120.0, 10.0)[1].starts_with("Lower the weight"));
         demands[0].priority = None;
-        assert!(said(&demands, 120.0, 10.0)[0].starts_with("No further action"));
+        assert!(texts(&demands, 120.0, 10.0)[0].starts_with("No further action"));
     }
 
     #[test]
-    fn a_step_leaves_the_limits_of_the_other_alarms_alone() {
+    fn a_step_respects_the_limits_of_the_other_alarms() {
         let slow = Advice {
             lower_rotary_speed_rpm: Some(50.0),
             ..Advice::default()
@@ -348,8 +349,8 @@ mod tests {
             raise_rotary_speed_rpm: Some(55.0),
             ..Advice::default()
         };
-        // At 40 r/min the first has what it asks for; the second would undo it.
-        let texts = said(
+        // At 40 r/min the first rule is fulfilled; the second would undo it.
+        let sentences = texts(
             &[
                 demand(AlarmId::Shock, HIGH, slow),
                 demand(AlarmId::StickSlip, MEDIUM, fast),
@@ -358,10 +359,10 @@ mod tests {
             10.0,
         );
         assert_eq!(
-            texts,
+            sentences,
             [
                 "Pick up off bottom and stop the drive.",
-                "Follow the advice for lateral shock first; this alarm is judged again after it."
+                "Follow the advice for lateral shock first, then check this alarm again."
             ]
         );
     }

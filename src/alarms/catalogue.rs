@@ -1,4 +1,4 @@
-//! Which alarms there are.
+//! The catalogue of alarms: ids, names, categories and definitions.
 
 use crate::messages::Alarm;
 use flexdrill_alarms::{Definition, Delays, Priority};
@@ -6,42 +6,42 @@ use flexdrill_config::{Alarms, NodeAlarm, ToolAlarm};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::motion::HazardKind;
 
-/// One thing that an operator can do something about.
+/// A condition that requires a response of an operator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(usize)]
 pub enum AlarmId {
-    /// The pipe or the guide goes round against the rotation.
+    /// Whirl of the pipe or the guide against the rotation.
     BackwardWhirl,
-    /// It goes round with the rotation.
+    /// Whirl in the direction of the rotation.
     ForwardWhirl,
-    /// Collisions.
+    /// Lateral collisions.
     Shock,
-    /// The bit stops and springs forward.
+    /// The bit stops, or nearly, and accelerates again.
     StickSlip,
-    /// Joints beyond their rating.
+    /// The stop of a joint carries more than its rated moment.
     JointLoad,
-    /// The pipe is thrown about without direction.
+    /// Irregular lateral motion of the pipe.
     ChaoticWhirl,
-    /// The model contradicts itself.
+    /// Numerical errors are too large for the computed motion to be reliable.
     ModelQuality,
     /// Rotary speed not received, refused or stale.
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
     WeightOnBitInput,
-    /// More than one publisher drives an input.
+    /// Several publishers send the same input at the same time.
     TwoDrivers,
-    /// The model is slower than time.
+    /// The model is slower than real time.
     RealTime,
-    /// A step failed.
+    /// A step failed and the model stopped.
     Solver,
-    /// The recording stopped or loses messages.
+    /// The recording stopped or lost messages.
     Recording,
-    /// DDS had to be started again.
+    /// DDS restarted, or another node has the name of this one.
     Network,
 }
 
 impl AlarmId {
-    /// All of them; where they are equally bad, the first goes first.
+    /// All alarms. The order decides between alarms of equal priority.
     pub const ALL: [AlarmId; 14] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
@@ -59,7 +59,7 @@ impl AlarmId {
         AlarmId::Network,
     ];
 
-    /// For programs: as in the configuration.
+    /// The identifier for programs, as in the configuration.
     pub const fn id(self) -> &'static str {
         match self {
             AlarmId::BackwardWhirl => "backward_whirl",
@@ -79,28 +79,28 @@ impl AlarmId {
         }
     }
 
-    /// For people.
+    /// The name for people, in lower case.
     pub const fn name(self) -> &'static str {
         match self {
             AlarmId::BackwardWhirl => "backward whirl",
             AlarmId::ForwardWhirl => "forward whirl",
             AlarmId::Shock => "lateral shock",
             AlarmId::StickSlip => "stick-slip",
-            AlarmId::JointLoad => "joints beyond their rating",
+            AlarmId::JointLoad => "joint overload",
             AlarmId::ChaoticWhirl => "chaotic whirl",
-            AlarmId::ModelQuality => "model not to be relied on",
-            AlarmId::RotarySpeedInput => "rotary speed not known",
-            AlarmId::WeightOnBitInput => "weight on bit not known",
-            AlarmId::TwoDrivers => "two drivers",
+            AlarmId::ModelQuality => "model unreliable",
+            AlarmId::RotarySpeedInput => "no valid rotary speed",
+            AlarmId::WeightOnBitInput => "no valid weight on bit",
+            AlarmId::TwoDrivers => "conflicting rig data",
             AlarmId::RealTime => "not in real time",
-            AlarmId::Solver => "model stands still",
-            AlarmId::Recording => "recording",
-            AlarmId::Network => "network started again",
+            AlarmId::Solver => "model stopped",
+            AlarmId::Recording => "recording fault",
+            AlarmId::Network => "network fault",
         }
     }
 
-    /// Whom it is for: a constant of [`Alarm`]. What only the computer, its disk or its network is about must not fill
-    /// the driller's banner; what means that the model no longer follows the tool belongs there.
+    /// A constant of [`Alarm`]: `SYSTEM` for a matter of the twin's computer, its disk or its network, which must not
+    /// fill the driller's banner; `DRILLING` for all else, including a model that no longer follows the tool.
     pub const fn category(self) -> u8 {
         match self {
             AlarmId::RealTime | AlarmId::Recording | AlarmId::Network => Alarm::SYSTEM,
@@ -108,8 +108,8 @@ impl AlarmId {
         }
     }
 
-    /// The lowest priority with which it is an alarm; what is less stays a displayed state. Nothing is to be done about
-    /// forward whirl before it wears the pipe: it is how the tool turns at moderate speed and load.
+    /// The lowest priority at which the condition is an alarm; below it the condition is a displayed state. Forward
+    /// whirl requires no action before it wears the pipe: the tool turns this way at moderate speed and load.
     pub const fn lowest(self) -> Priority {
         match self {
             AlarmId::ForwardWhirl => Priority::Medium,
@@ -137,7 +137,7 @@ impl AlarmId {
         }
     }
 
-    /// Its definition in a configuration.
+    /// The definition of the alarm in a configuration.
     pub fn define(self, alarms: &Alarms) -> Definition {
         let tool = |alarm: &ToolAlarm| (alarm.in_service, alarm.on_delay, alarm.off_delay);
         let node = |alarm: &NodeAlarm| (alarm.in_service, alarm.on_delay, alarm.off_delay);

@@ -4,15 +4,15 @@ use std::cmp::Reverse;
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
-use super::shown::Shown;
+use super::worst_moment::WorstMoment;
 use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
 use crate::messages::{Alarm, AlarmEvent, AlarmList};
 use flexdrill_alarms::{AlarmSystem, Change, Event, Priority, State, Unshelving};
 use flexdrill_core::tool::Body;
 
-/// All alarms, the worst first. `restored` says of each whether its state is that of an earlier run.
-pub(super) fn list(system: &AlarmSystem, shown: &[Shown], restored: &[bool], header: Header) -> AlarmList {
+/// All alarms, the worst first. `restored` says per alarm whether its state began in an earlier run.
+pub(super) fn list(system: &AlarmSystem, moments: &[WorstMoment], restored: &[bool], header: Header) -> AlarmList {
     let mut order: Vec<usize> = (0..AlarmId::ALL.len()).collect();
     order.sort_by_key(|index| {
         let standing = system.alarm(*index).standing;
@@ -23,7 +23,7 @@ pub(super) fn list(system: &AlarmSystem, shown: &[Shown], restored: &[bool], hea
     let alarms: Vec<Alarm> = order
         .into_iter()
         .filter_map(|index| {
-            let mut alarm = alarm(system, AlarmId::ALL[index], shown.get(index)?);
+            let mut alarm = alarm(system, AlarmId::ALL[index], moments.get(index)?);
             alarm.from_earlier_run = restored.get(index) == Some(&true);
             Some(alarm)
         })
@@ -40,7 +40,7 @@ pub(super) fn list(system: &AlarmSystem, shown: &[Shown], restored: &[bool], hea
     }
 }
 
-/// What calls for somebody is first.
+/// The order of the states in the list: those that require a response come first.
 fn rank(state: State) -> u8 {
     match state {
         State::ActiveUnacknowledged => 0,
@@ -53,8 +53,8 @@ fn rank(state: State) -> u8 {
     }
 }
 
-fn alarm(system: &AlarmSystem, id: AlarmId, shown: &Shown) -> Alarm {
-    let (index, finding) = (id as usize, &shown.finding);
+fn alarm(system: &AlarmSystem, id: AlarmId, moment: &WorstMoment) -> Alarm {
+    let (index, finding) = (id as usize, &moment.finding);
     let alarm = system.alarm(index);
     let standing = alarm.standing;
     let (body, measured_depth, inclination) = place(finding);
@@ -75,7 +75,7 @@ fn alarm(system: &AlarmSystem, id: AlarmId, shown: &Shown) -> Alarm {
         threshold: finding.threshold,
         unit: finding.unit.to_owned(),
         confidence: finding.confidence,
-        evidence: shown.evidence(&standing),
+        evidence: moment.evidence(&standing),
         cause: finding.cause.clone(),
         consequence: finding.consequence.clone(),
         what_to_do: finding.what_to_do.clone(),
@@ -84,15 +84,15 @@ fn alarm(system: &AlarmSystem, id: AlarmId, shown: &Shown) -> Alarm {
         category: id.category(),
         from_earlier_run: false,
         what_the_engineer_can_do: finding.what_the_engineer_can_do.clone(),
-        worst_at: Time::from_nanoseconds(shown.worst_at),
-        ended: shown.ended.is_some(),
-        ended_at: Time::from_nanoseconds(shown.ended.unwrap_or_default()),
+        worst_at: Time::from_nanoseconds(moment.at),
+        ended: moment.ended.is_some(),
+        ended_at: Time::from_nanoseconds(moment.ended.unwrap_or_default()),
     }
 }
 
-/// One event at its stamp (ns since 1970), with what is known of its alarm's condition now.
-pub(super) fn event(event: &Event, stamp: i64, shown: &Shown, frame_id: &str) -> AlarmEvent {
-    let finding = &shown.finding;
+/// One event at its stamp (ns since 1970), with the worst moment of its alarm.
+pub(super) fn event(event: &Event, stamp: i64, moment: &WorstMoment, frame_id: &str) -> AlarmEvent {
+    let finding = &moment.finding;
     let (body, measured_depth, inclination) = place(finding);
     let alarm = AlarmId::ALL.get(event.alarm);
     let (id, name) = alarm.map_or(("", ""), |alarm| (alarm.id(), alarm.name()));
@@ -131,8 +131,8 @@ pub(super) fn event(event: &Event, stamp: i64, shown: &Shown, frame_id: &str) ->
         value: finding.value,
         category: alarm.map_or(Alarm::DRILLING, |alarm| alarm.category()),
         what_the_engineer_can_do: finding.what_the_engineer_can_do.clone(),
-        worst_at: Time::from_nanoseconds(shown.worst_at),
-        ended_at: Time::from_nanoseconds(shown.ended.unwrap_or_default()),
+        worst_at: Time::from_nanoseconds(moment.at),
+        ended_at: Time::from_nanoseconds(moment.ended.unwrap_or_default()),
     }
 }
 

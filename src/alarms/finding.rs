@@ -1,44 +1,44 @@
-//! What is known of an alarm's condition, with its words.
+//! A finding: the condition of an alarm with its texts.
 
 use flexdrill_alarms::{Priority, Time};
-use flexdrill_core::motion::IncidentLocation;
+use flexdrill_core::motion::ToolLocation;
 
-/// A condition as it is now. Sentences begin with a capital and end with a full stop.
+/// The present condition. Sentences begin with a capital and end with a full stop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// Its priority; none while it is not there.
+    /// The priority of the condition; none while the condition is not met.
     pub priority: Option<Priority>,
-    /// The tool is in a state in which it means nothing.
+    /// The state of drive or node makes the condition meaningless.
     pub suppressed: bool,
-    /// Where it was worst when it was seen.
-    pub place: Option<IncidentLocation>,
-    /// What it is judged by, in `unit`; NaN where there is no such number.
+    /// The worst location.
+    pub place: Option<ToolLocation>,
+    /// The value that is judged, in `unit`; NaN where the condition has none.
     pub value: f64,
-    /// What `value` is held against.
+    /// The limit of `value`.
     pub threshold: f64,
-    /// Of both.
+    /// The unit of `value` and `threshold`.
     pub unit: &'static str,
-    /// How far it can be trusted, 0 to 1.
+    /// The confidence of the analysis, 0 to 1.
     pub confidence: f64,
-    /// What is seen.
+    /// What was observed.
     pub evidence: String,
-    /// Why it comes.
+    /// The physical or technical cause.
     pub cause: String,
-    /// What it leads to.
+    /// Why it matters.
     pub consequence: String,
-    /// What the driller can do: weight, speed, pick up, call the engineer. It names no file, no parameter and no mesh.
-    /// The book writes it for the alarms of the tool's motion, which are advised together.
+    /// What the driller can do: weight, speed, pick up, call the engineer; never a file, a parameter or a mesh. For the
+    /// alarms of the tool's motion the book writes it, since they share one advice.
     pub what_to_do: String,
     /// What the engineer can do.
     pub what_the_engineer_can_do: String,
-    /// When place, value and evidence were seen (ns); none where that is now.
+    /// When location, value and evidence were observed (ns); none for the present.
     pub seen: Option<Time>,
-    /// When the condition ended, where the priority is only held (ns).
+    /// When the condition ended, where the analysis only holds the level (ns).
     pub ended: Option<Time>,
 }
 
 impl Default for Finding {
-    /// Nothing there.
+    /// The condition is not met.
     fn default() -> Self {
         Self {
             priority: None,

@@ -1,15 +1,16 @@
-//! Alarms: what the motion and the node's own state mean for an operator, from condition to message. The life of an
-//! alarm is the crate [`flexdrill_alarms`]; here are the conditions and the words.
+//! Alarms, from condition to message: the conditions and the texts. The life of an alarm is the crate
+//! [`flexdrill_alarms`].
 //!
 //! # Layout
 //! - [`AlarmBook`] joins them: conditions and requests in, [`AlarmList`] and [`AlarmEvent`]s out.
-//! - `catalogue`: which alarms there are. `finding`: a condition with its words.
+//! - `catalogue`: the alarms that exist. `finding`: a condition with its texts.
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
-//!   inputs, pace, solver and recording. `shown`: an alarm shows its worst moment while it stands. `advice`: what the
-//!   driller can do, for all alarms together, from the rules of the configuration. `sentence`: parts of sentences.
-//! - `fill`: messages. `state_file`: what is kept over a restart.
+//!   inputs, real time, solver, recording and network. `worst_moment`: a standing alarm shows its worst moment.
+//!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `sentence`: parts
+//!   of sentences.
+//! - `fill`: messages. `state_file`: the state that outlasts a restart.
 //!
-//! `docs/alarms.md` is for those who use them.
+//! `docs/alarms.md` is for operators.
 
 mod advice;
 mod catalogue;
@@ -18,13 +19,14 @@ mod finding;
 mod node;
 mod request;
 mod sentence;
-mod shown;
 pub mod state_file;
 mod tool;
+mod worst_moment;
 
 pub use catalogue::AlarmId;
 pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
+pub(crate) use node::{another_of_this_name, not_in_real_time};
 pub use request::Request;
 
 use std::sync::Arc;
@@ -39,36 +41,36 @@ use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
 
 use advice::{Demand, Operating};
-use shown::Shown;
+use worst_moment::WorstMoment;
 
 /// Step back of the clock beyond which the journal's stamps follow it (ns).
 const SET_BACK: Time = 60_000_000_000;
 /// Longest time between two lists (ns).
 const LIST_INTERVAL: Time = 1_000_000_000;
 
-/// All alarms with what is known of their conditions.
+/// All alarms with their conditions.
 pub struct AlarmBook {
     system: AlarmSystem,
     config: Arc<Config>,
-    /// Per alarm, while it stands or is to be acknowledged: its worst moment.
-    shown: Vec<Shown>,
-    /// Where the tool is driven, by the newest snapshot.
+    /// The worst moment of each alarm that stands or is not yet acknowledged.
+    moments: Vec<WorstMoment>,
+    /// The operating point of the newest snapshot.
     operating: Operating,
     memory: node::Memory,
-    /// Per alarm: its present state is that of an earlier run.
+    /// Per alarm: whether its present state began in an earlier run.
     restored: Vec<bool>,
-    /// Not yet published.
+    /// Events that are not yet published.
     journal: Vec<AlarmEvent>,
-    /// Stamp of the newest event: the tool's are at the model's instants and the node's at the present, and a journal
-    /// read by time keeps its sequence.
+    /// Stamp of the newest event. The tool's events have the model's instants and the node's the present time; stamps
+    /// that never decrease keep a journal that is read by time in sequence.
     newest: Time,
-    /// When the list was published last, and the newest event in it.
+    /// The last publication of the list: its time and the number of the newest event.
     listed: Option<(Time, u64)>,
     bytes: Vec<u8>,
 }
 
 impl AlarmBook {
-    /// Alarms as a run before has left them in `saved`, where there is one.
+    /// The alarms in the state that an earlier run saved, all normal without one.
     ///
     /// # Errors
     /// When another version saved it.
@@ -87,7 +89,7 @@ impl AlarmBook {
 
     fn with(system: AlarmSystem, config: Arc<Config>, time: Time) -> Self {
         let mut book = Self {
-            shown: vec![Shown::default(); AlarmId::ALL.len()],
+            moments: vec![WorstMoment::default(); AlarmId::ALL.len()],
             operating: Operating::default(),
             memory: node::Memory::default(),
             restored: (0..AlarmId::ALL.len())
@@ -106,19 +108,19 @@ impl AlarmBook {
         book
     }
 
-    /// Takes over limits and rules that may change while running.
+    /// Adopts the limits and rules of a configuration that changed while the node runs.
     pub fn reconfigure(&mut self, config: &Arc<Config>) {
         self.config = Arc::clone(config);
     }
 
-    /// Lets time pass on the clock of requests. To be called before what happens then is taken.
+    /// Advances the clock of requests. Call it before the observations of that time.
     pub fn advance(&mut self, time: Time) {
         let mut events = Vec::new();
         self.system.advance(time, &mut events);
         self.keep(events);
     }
 
-    /// Takes the hazards of a snapshot, at its stamp.
+    /// Observes the hazards of a snapshot at its stamp.
     pub fn observe_tool(&mut self, snapshot: &Snapshot, stamp: Time) {
         let stands = |id: AlarmId| self.system.alarm(id as usize).standing.active().is_some();
         let findings = tool::findings(snapshot, stamp, &self.config, stands);
@@ -126,7 +128,7 @@ impl AlarmBook {
         self.observe(findings, stamp);
     }
 
-    /// Takes the node's own state.
+    /// Observes the node's own state.
     pub fn observe_node(&mut self, state: &NodeState<'_>, time: Time) {
         let findings = node::findings(state, &self.config.alarms, &mut self.memory);
         self.observe(findings, time);
@@ -142,21 +144,21 @@ impl AlarmBook {
             };
             self.system.observe(id as usize, time, &observed, &mut events);
             let standing = self.system.alarm(id as usize).standing;
-            self.shown[id as usize].observe(finding, time, &standing);
+            self.moments[id as usize].observe(finding, time, &standing);
         }
         self.keep(events);
     }
 
-    /// Advises the driller on all alarms of the tool's motion together.
+    /// Writes the advice to the driller on all alarms of the tool's motion.
     fn advise(&mut self) {
         let mut demands = Vec::new();
         for kind in HazardKind::ALL {
             let id = AlarmId::of_hazard(kind);
-            let (shown, standing) = (&self.shown[id as usize], self.system.alarm(id as usize).standing);
-            if shown.is_known() {
+            let (moment, standing) = (&self.moments[id as usize], self.system.alarm(id as usize).standing);
+            if moment.is_known() {
                 demands.push(Demand {
                     id,
-                    priority: shown.present,
+                    priority: moment.present,
                     rule: tool::rule(kind, &self.config.alarms.advice),
                     shelved: standing.shelf().is_some(),
                 });
@@ -165,14 +167,14 @@ impl AlarmBook {
         let texts = advice::what_to_do(&demands, &self.operating, &self.config.inputs);
         for (demand, text) in demands.iter().zip(texts) {
             let index = demand.id as usize;
-            self.shown[index].finding.what_to_do = match self.system.alarm(index).standing.active() {
+            self.moments[index].finding.what_to_do = match self.system.alarm(index).standing.active() {
                 Some(_) => text,
-                None => "No further action: acknowledge it.".to_owned(),
+                None => "No further action: acknowledge the alarm.".to_owned(),
             };
         }
     }
 
-    /// Carries out what somebody asks for, at the present time of the clock of requests. What was done.
+    /// Carries out a request of an operator at the present time of its clock. Returns what was done.
     ///
     /// # Errors
     /// When it is refused.
@@ -187,10 +189,10 @@ impl AlarmBook {
     fn keep(&mut self, events: Vec<Event>) {
         self.advise();
         let frame_id = &self.config.outputs.frame_id;
-        let calm = Shown::default();
+        let normal = WorstMoment::default();
         for event in &events {
-            let shown = self.shown.get(event.alarm).unwrap_or(&calm);
-            // The tool's events follow their instants within moments: further back, the clock was set.
+            let moment = self.moments.get(event.alarm).unwrap_or(&normal);
+            // The tool's events are published shortly after their instants: a larger step back means that the clock was set.
             self.newest = if self.newest.saturating_sub(event.time) > SET_BACK {
                 event.time
             } else {
@@ -201,17 +203,17 @@ impl AlarmBook {
             {
                 *restored = false;
             }
-            self.journal.push(fill::event(event, self.newest, shown, frame_id));
+            self.journal.push(fill::event(event, self.newest, moment, frame_id));
         }
-        for (index, shown) in self.shown.iter_mut().enumerate() {
+        for (index, moment) in self.moments.iter_mut().enumerate() {
             if self.system.alarm(index).standing.priority().is_none() {
-                *shown = Shown::default();
+                *moment = WorstMoment::default();
             }
         }
     }
 
-    /// Whether there is something to publish at an instant of any steady clock (ns): events, or the list, which goes
-    /// out with every event and every second.
+    /// Whether events or the list are due at an instant of any steady clock (ns). The list is published with every event
+    /// and every second.
     pub fn is_due(&self, clock: Time) -> bool {
         !self.journal.is_empty() || self.list_is_due(clock)
     }
@@ -222,7 +224,7 @@ impl AlarmBook {
         })
     }
 
-    /// Sends the events that have not been sent, and the list when it is due. The events.
+    /// Sends the new events, and the list when it is due. Returns the events.
     ///
     /// # Errors
     /// When a message cannot be encoded, or what `send` says.
@@ -254,9 +256,9 @@ impl AlarmBook {
         Ok(events)
     }
 
-    /// All alarms as they stand, the worst first.
+    /// The present state of all alarms, the worst first.
     pub fn list(&self, header: Header) -> AlarmList {
-        fill::list(&self.system, &self.shown, &self.restored, header)
+        fill::list(&self.system, &self.moments, &self.restored, header)
     }
 
     /// Events so far.
@@ -264,17 +266,17 @@ impl AlarmBook {
         self.system.sequence()
     }
 
-    /// What is to be kept over a restart.
+    /// The state that outlasts a restart.
     pub fn save(&self) -> Saved {
         self.system.save()
     }
 
-    /// How many alarms there have been.
+    /// The figures of the alarm system.
     pub fn figures(&self) -> Figures {
         self.system.statistics().figures()
     }
 
-    /// How many of each alarm there have been.
+    /// The counts per alarm.
     pub fn statistics(&self) -> &Statistics {
         self.system.statistics()
     }

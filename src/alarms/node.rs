@@ -1,8 +1,8 @@
-//! Alarms of the node itself: inputs, pace, solver, recording.
+//! Alarms of the node itself: inputs, real time, solver, recording, network.
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
-use super::sentence::number;
+use super::sentence::{self, number};
 use crate::bag::{Losses, Problem};
 use crate::dds::port::Health;
 use crate::rig_inputs::DriverSummary;
@@ -13,56 +13,58 @@ use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
 use flexdrill_realtime::link::RunState;
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, Pace, PaceReading};
 
-/// How long a loss of messages counts (s): longer than the alarm's default delay, which a loss of a moment would not
-/// outlast.
-const LOSS_COUNTS: f64 = 5.0;
+/// How long a loss of messages remains a condition (s): longer than the alarm's default on-delay, so that a short loss
+/// raises the alarm too.
+const LOSS_LASTS: f64 = 5.0;
 
-/// What the node knows of itself at an instant.
+/// The state of the node at an instant.
 #[derive(Debug)]
 pub struct NodeState<'a> {
-    /// Inputs.
+    /// Conditions the inputs.
     pub conditioner: &'a Conditioner,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
-    /// Who sends each input, by [`InputKind::index`].
+    /// The publishers of each input, by [`InputKind::index`].
     pub drivers: [DriverSummary; 2],
-    /// What the solver does.
+    /// Whether the solver runs.
     pub run_state: RunState,
-    /// Why and where the last step failed, while the model stands still for it.
+    /// Cause and location of the failed step, while the model is stopped by it.
     pub failure: Option<StepFailure>,
     /// How the model keeps up with the clock.
     pub pace: PaceReading,
     /// The recording, if there is one.
     pub recording: Option<RecordingState>,
-    /// DDS.
+    /// The state of DDS.
     pub dds: Health,
+    /// Other nodes with the name of this one.
+    pub namesakes: Vec<String>,
 }
 
-/// How the recording is.
+/// The state of the recording.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RecordingState {
     /// Why nothing can be written at present.
     pub error: Option<Problem>,
-    /// What was wrong a moment ago, when the recording goes on in another file since.
+    /// A recent problem, after which the recording continues in another file.
     pub notice: Option<Problem>,
     /// Messages lost so far.
     pub losses: Losses,
 }
 
-/// What judging needs from one time to the next.
+/// The part of earlier observations that later ones need.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Memory {
-    /// When the node was first looked at (s, the conditioner's clock).
+    /// Time of the first observation (s, the conditioner's clock).
     began: Option<f64>,
-    /// Messages that the recording had lost when it was last looked at.
+    /// Messages that the recording had lost at the last observation.
     lost: Losses,
-    /// Messages that it lost in a row of losses, and until when that counts (s).
+    /// Messages of the present series of losses, and the time until which the series remains a condition (s).
     losses: Option<(Losses, f64)>,
 }
 
-/// What the node's state says of every alarm of the node.
+/// The findings on the node's state, one per alarm of the node.
 pub(super) fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut Memory) -> [(AlarmId, Finding); 7] {
-    // A simulated clock stands at 0 before its first tick and may be set back.
+    // A simulated clock is 0 before its first tick and may be set back.
     let began = memory
         .began
         .filter(|began| *began > 0.0)
@@ -84,19 +86,19 @@ pub(super) fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut Memo
             AlarmId::Recording,
             recording(state.recording.as_ref(), memory, state.now),
         ),
-        (AlarmId::Network, network(&state.dds)),
+        (AlarmId::Network, network(&state.dds, &state.namesakes)),
     ]
 }
 
-/// `began` is when the node began (s, the conditioner's clock); an input that has never sent calls only when
-/// `first_sample_within` (s) has passed since.
+/// The finding on an input. `began` is when the node began (s, the conditioner's clock): an input that has never sent a
+/// sample raises its alarm only `first_sample_within` (s) later.
 fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within: f64) -> Finding {
     let (conditioner, topic) = (state.conditioner, kind.topic());
     let rule = conditioner.rule(kind);
-    // Where no sample was ever good, since the first that was refused.
+    // Without any good sample, the time counts from the first that was refused.
     let silence = conditioner.without_good(kind, state.now);
-    let acts = format!(
-        "{:.1} {} asked for instead",
+    let fallback = format!(
+        "the model uses {:.1} {}",
         conditioner.target(kind, state.now),
         kind.unit()
     );
@@ -110,32 +112,32 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
         }
         InputState::NotReceived => (
             Priority::Low,
-            format!("Nothing received on {topic}, {acts}."),
-            "The rig's publisher is not running, or it is in another domain or namespace.",
+            format!("No sample received on {topic}; {fallback}."),
+            "The rig's publisher is not running, or it uses another DDS domain or namespace.",
         ),
         InputState::Rejected => (
             Priority::Low,
             match conditioner.last_rejection(kind) {
                 Some(rejection) => format!("{rejection}."),
-                None => format!("The newest sample on {topic} was refused, {acts}."),
+                None => format!("The newest sample on {topic} was refused; {fallback}."),
             },
-            "The sensor or what sends it is out of order, or the limits are too narrow.",
+            "The sensor or its publisher is faulty, or the configured limits are too narrow.",
         ),
         InputState::Stale => {
             let silence = silence.unwrap_or_default();
-            // Then the model no longer holds what was, and what it says of the tool is not the tool's.
+            // On safe values the model no longer represents the tool, which is worse than a value that is held.
             let safe = conditioner.is_brought_to_safe(kind, state.now);
             let refused = conditioner.last_rejection(kind);
             let (refused, cause) = match refused.filter(|refused| state.now - refused.time < rule.max_age) {
                 Some(refused) => (
-                    format!(" The newest: {refused}."),
-                    "The sensor or what sends it is out of order, or the limits are too narrow.",
+                    format!(" The newest sample: {refused}."),
+                    "The sensor or its publisher is faulty, or the configured limits are too narrow.",
                 ),
                 None => (String::new(), "The rig's software or the network has stopped."),
             };
             (
                 if safe { Priority::High } else { Priority::Medium },
-                format!("No good sample on {topic} for {silence:.0} s, {acts}.{refused}"),
+                format!("No good sample on {topic} for {silence:.0} s; {fallback}.{refused}"),
                 cause,
             )
         }
@@ -147,8 +149,8 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
         unit: "s",
         evidence,
         cause: cause.to_owned(),
-        consequence: "The model no longer follows the rig: its hazards may be missed.".to_owned(),
-        what_to_do: "Go by the rig's own instruments until it is back, and call the engineer.".to_owned(),
+        consequence: "The model no longer follows the rig; whirl and shock may be missed.".to_owned(),
+        what_to_do: "Rely on the rig's own instruments until the signal returns, and call the engineer.".to_owned(),
         what_the_engineer_can_do: format!("Check the sensor and the program that publishes {topic}."),
         ..Finding::default()
     }
@@ -159,16 +161,20 @@ fn two_drivers(drivers: &[DriverSummary; 2]) -> Finding {
         .into_iter()
         .zip(drivers)
         .filter(|(_, drivers)| drivers.several);
-    let said: Vec<String> = several
+    let conflicts: Vec<String> = several
         .map(|(kind, drivers)| {
             let driving = match drivers.driving.as_str() {
-                "" => "nobody drives".to_owned(),
-                driving => format!("{driving} drives"),
+                "" => "the model follows none of them".to_owned(),
+                driving => format!("the model follows {driving}"),
             };
-            format!("{kind} is sent by {} at once, {driving}", drivers.heard.join(" and "))
+            format!(
+                "{} is published by {} at the same time; {driving}.",
+                sentence::capitalized(&kind.name().replace('_', " ")),
+                drivers.heard.join(" and ")
+            )
         })
         .collect();
-    if said.is_empty() {
+    if conflicts.is_empty() {
         return Finding::default();
     }
     let most = drivers
@@ -181,13 +187,13 @@ fn two_drivers(drivers: &[DriverSummary; 2]) -> Finding {
         value: most as f64,
         threshold: 1.0,
         unit: "publishers",
-        evidence: format!("{}.", said.join("; ")),
+        evidence: conflicts.join(" "),
         cause: "A second rig, a replayed log or a test publishes in the same domain and namespace.".to_owned(),
-        consequence: "The model may follow what the tool does not do: its hazards may be missed or made up.".to_owned(),
-        what_to_do: "Go by the rig's own instruments until one source is left, and call the engineer.".to_owned(),
+        consequence: "The model may follow the wrong source; alarms may be missing or false.".to_owned(),
+        what_to_do: "Rely on the rig's own instruments until this alarm clears, and call the engineer.".to_owned(),
         what_the_engineer_can_do:
-            "Stop all publishers but the rig's own, or set inputs.driver.policy to named with its \
-                                   node or id."
+            "Stop all publishers except the rig's own, or set inputs.driver.policy to named with the node or the id of \
+             the rig's publisher."
                 .to_owned(),
         ..Finding::default()
     }
@@ -210,19 +216,16 @@ fn real_time(state: &NodeState<'_>) -> Finding {
         value: factor,
         threshold,
         unit: "s/s",
-        evidence: match number(factor, 2) {
-            Some(factor) => format!("The model gained {factor} s per second over the last 10 s and skipped the rest."),
-            None => "The model does not keep up with the clock and skips the rest.".to_owned(),
-        },
-        cause: "This computer is too slow for the tool and its motion, or other programs take its processors."
+        evidence: format!("{}.", sentence::capitalized(&not_in_real_time(factor))),
+        cause: "The twin's computer is too slow for this motion of the tool, or other programs use its processor."
             .to_owned(),
         consequence:
-            "The outputs keep to the clock and show a tool that drills slower in time; hazards may be seen late."
+            "The model shows less time of motion than the rig has drilled; whirl and shock may be detected late."
                 .to_owned(),
-        what_to_do: "Nothing at the rig: tell whoever runs the twin's computer.".to_owned(),
+        what_to_do: "No action at the rig. Inform the person who runs the twin's computer.".to_owned(),
         what_the_engineer_can_do:
-            "End other programs on the computer, or take one with faster cores that have AVX2 or AVX-512. With \
-             solver.step: auto the twin takes whole steps by itself while time is short."
+            "Close other programs and viewers on the computer, set solver.step: fixed for the next run, or use a \
+             computer with faster cores and AVX2 or AVX-512."
                 .to_owned(),
         ..Finding::default()
     }
@@ -234,24 +237,24 @@ fn solver(failure: Option<StepFailure>) -> Finding {
     };
     Finding {
         priority: Some(Priority::High),
-        evidence: format!("A step failed at model time {:.4} s: {failure}.", failure.time),
-        cause: "The motion is too hard for the step at its smallest size.".to_owned(),
-        consequence: "The outputs stand still: no hazard is seen.".to_owned(),
-        what_to_do: "Go by the rig's own instruments and call the engineer.".to_owned(),
-        what_the_engineer_can_do: "Call ~/reset, or wait for other inputs; take a smaller solver.time_step or softer \
-                                   contact for the next run."
+        evidence: format!("The model stopped at model time {:.4} s: {failure}.", failure.time),
+        cause: "The motion changes too fast for the smallest time step.".to_owned(),
+        consequence: "All outputs are frozen; whirl and shock are not detected.".to_owned(),
+        what_to_do: "Rely on the rig's own instruments and call the engineer.".to_owned(),
+        what_the_engineer_can_do: "Call ~/reset, or wait until the inputs change. Set a smaller solver.time_step or a \
+                                   softer contact for the next run."
             .to_owned(),
         ..Finding::default()
     }
 }
 
-/// Restarts of DDS within a minute from which on it is not a single event.
+/// Restarts of DDS within a minute from which on the fault is not a single event.
 const MANY_RESTARTS: usize = 3;
 
-fn network(dds: &Health) -> Finding {
+fn network(dds: &Health, namesakes: &[String]) -> Finding {
     let recent = dds.recent_restarts();
     let Some(cause) = dds.cause().filter(|_| recent > 0) else {
-        return Finding::default();
+        return two_nodes(namesakes);
     };
     let many = recent >= MANY_RESTARTS;
     Finding {
@@ -259,22 +262,58 @@ fn network(dds: &Health) -> Finding {
         value: recent as f64,
         threshold: if many { MANY_RESTARTS as f64 } else { 1.0 },
         unit: "1/min",
-        evidence: format!("DDS was started again {recent} times within a minute; the last time {cause}."),
-        cause: "A packet of another program, a stopped process, a clock that was set, or too little memory.".to_owned(),
+        evidence: match recent {
+            1 => format!("DDS restarted within the last minute: {cause}."),
+            _ => format!("DDS restarted {recent} times within the last minute; the last cause: {cause}."),
+        },
+        cause: "A malformed packet of another program, a suspended process, a changed clock, or too little memory."
+            .to_owned(),
         consequence:
-            "Dashboards and the rig's values are cut off for up to 3 s each time; the model and its recording \
-                      go on."
+            "Dashboards and rig data are interrupted for up to 3 s each time; the model and its recording continue."
                 .to_owned(),
         what_to_do: if many {
-            "Go by the rig's own instruments while values stand still, and call the engineer."
+            "Rely on the rig's own instruments while values are frozen, and call the engineer."
         } else {
-            "Call the engineer if it comes again."
+            "Call the engineer if this alarm returns."
         }
         .to_owned(),
-        what_the_engineer_can_do: "Read the cause in the log. Look for a program that sends broken packets; \
-                                   ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST keeps other machines out."
+        what_the_engineer_can_do: "Read the cause in the log. Look for a program that sends malformed packets; \
+                                   ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST excludes other machines."
             .to_owned(),
         ..Finding::default()
+    }
+}
+
+/// The finding on other nodes with the name of this one.
+fn two_nodes(namesakes: &[String]) -> Finding {
+    if namesakes.is_empty() {
+        return Finding::default();
+    }
+    Finding {
+        priority: Some(Priority::Low),
+        value: namesakes.len() as f64,
+        threshold: 1.0,
+        unit: "nodes",
+        evidence: format!("{}.", sentence::capitalized(&another_of_this_name(namesakes))),
+        cause: "A second twin runs with the same name in the same domain and namespace.".to_owned(),
+        consequence: "Dashboards show the values of both twins in turn.".to_owned(),
+        what_to_do: "Call the engineer.".to_owned(),
+        what_the_engineer_can_do: "Stop one of the two nodes, or start it with another --namespace.".to_owned(),
+        ..Finding::default()
+    }
+}
+
+/// The text of log and alarm on other nodes with the name of this one.
+pub(crate) fn another_of_this_name(others: &[String]) -> String {
+    format!("another node has the name of this one: {}", others.join(", "))
+}
+
+/// The text of log and alarm on a model that is slower than real time, with the model time per second over the last
+/// ten seconds.
+pub(crate) fn not_in_real_time(factor: f64) -> String {
+    match number(factor, 2) {
+        Some(factor) => format!("the model advanced {factor} s per second over the last 10 s and skipped the rest"),
+        None => "the model is slower than the clock and skips time".to_owned(),
     }
 }
 
@@ -287,7 +326,7 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
     let row = memory.losses.filter(|(_, until)| now < *until);
     memory.losses = if lost.total() > 0 {
         let before = row.map(|(lost, _)| lost).unwrap_or_default();
-        Some((before.and(&lost), now + LOSS_COUNTS))
+        Some((before.and(&lost), now + LOSS_LASTS))
     } else {
         row
     };
@@ -299,17 +338,14 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
         ),
         (None, Some(problem)) => (
             Priority::Medium,
-            format!(
-                "The recording had stopped and goes on in another file: {}.",
-                problem.text
-            ),
+            format!("The recording stopped and continues in another file: {}.", problem.text),
             problem.cause.to_owned(),
         ),
         (None, None) => match memory.losses {
             Some((lost, _)) => (
                 Priority::Low,
                 format!(
-                    "{} messages did not get into the recording, {} so far.",
+                    "{} messages are missing from the recording, {} since its start.",
                     lost.total(),
                     recording.losses.total()
                 ),
@@ -324,13 +360,13 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
         priority: Some(priority),
         evidence,
         cause,
-        consequence: "The run cannot be replayed to the bit, and the journal of alarms has gaps.".to_owned(),
-        what_to_do: "Nothing at the rig: tell whoever runs the twin's computer.".to_owned(),
+        consequence: "The run cannot be replayed exactly, and the alarm journal has gaps.".to_owned(),
+        what_to_do: "No action at the rig. Inform the person who runs the twin's computer.".to_owned(),
         what_the_engineer_can_do: if flooded {
-            "Find the program that floods an input: twin/status names the publishers of each."
+            "Find the program that floods an input: twin/status names the publishers of each input."
         } else {
-            "Free the disk: the recording then goes on in another file by itself. Or start the node again with \
-             --record on another disk."
+            "Free disk space: the recording then continues in another file. Otherwise restart the node with --record \
+             on another disk."
         }
         .to_owned(),
         ..Finding::default()

@@ -1,24 +1,24 @@
-//! What an operator asks for by service.
+//! Requests of an operator by service.
 
 use crate::messages::{AcknowledgeAlarmRequest, ShelveAlarmRequest, UnshelveAlarmRequest};
 use flexdrill_alarms::{AlarmSystem, Event, Operator, Refusal, Shelving, Time};
 
-/// Stands for every alarm in an acknowledgement.
+/// Addresses every alarm in an acknowledgement.
 const ALL: &str = "all";
 
 /// A request of an operator.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
-    /// Somebody knows.
+    /// Acknowledges an alarm, or all.
     Acknowledge(AcknowledgeAlarmRequest),
-    /// To be put aside.
+    /// Shelves an alarm.
     Shelve(ShelveAlarmRequest),
-    /// To be taken back.
+    /// Ends a shelving.
     Unshelve(UnshelveAlarmRequest),
 }
 
 impl Request {
-    /// Carries it out; what was done.
+    /// Carries the request out. Returns what was done.
     pub(super) fn carry_out(
         &self,
         system: &mut AlarmSystem,
@@ -44,7 +44,7 @@ impl Request {
                 let until = system.shelve(system.find(&request.id)?, time, how, &by, events)?;
                 let seconds = (until - time) as f64 * 1e-9;
                 let when = if request.one_shot {
-                    format!("until its condition has gone, at most for {seconds:.0} s")
+                    format!("until its condition ends, for {seconds:.0} s at most")
                 } else {
                     format!("for {seconds:.0} s")
                 };
@@ -52,7 +52,7 @@ impl Request {
             }
             Request::Unshelve(request) => {
                 system.unshelve(system.find(&request.id)?, time, &by, events)?;
-                Ok(format!("{} is back from the shelf", request.id))
+                Ok(format!("{} is no longer shelved", request.id))
             }
         }
     }

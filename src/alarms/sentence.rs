@@ -1,22 +1,22 @@
 //! Parts of sentences.
 
-/// Numbers from here on are no measurement of this tool, whatever their unit.
-const BEYOND_ALL: f64 = 1e6;
+/// No quantity of this tool reaches this magnitude in any unit of the texts.
+const IMPLAUSIBLE: f64 = 1e6;
 
-/// A number for a sentence; none for one that was not measured, which the sentence leaves out.
+/// A number for a sentence; none for one that was not measured, so that the sentence leaves it out.
 pub(super) fn number(value: f64, digits: usize) -> Option<String> {
-    if !value.is_finite() || value.abs() >= BEYOND_ALL {
+    if !value.is_finite() || value.abs() >= IMPLAUSIBLE {
         return None;
     }
     let text = format!("{value:.digits$}");
-    // Rounding leaves the sign of a small negative number.
+    // Rounding keeps the sign of a small negative number.
     Some(match text.strip_prefix('-') {
         Some(zero) if zero.chars().all(|digit| digit == '0' || digit == '.') => zero.to_owned(),
         _ => text,
     })
 }
 
-/// With a capital.
+/// The text with a capital first letter.
 pub(super) fn capitalized(text: &str) -> String {
     let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
     first.to_uppercase() + rest

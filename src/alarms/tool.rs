@@ -1,4 +1,4 @@
-//! Alarms of the tool's motion, from the hazards that the analysis sees, and of how far it can be trusted.
+//! Alarms of the tool's motion: conditions from the hazards of the analysis and from the quality of the model.
 
 use super::advice::{self, Operating};
 use super::catalogue::AlarmId;
@@ -6,15 +6,17 @@ use super::finding::Finding;
 use super::sentence::number;
 use flexdrill_alarms::{Priority, Time, span};
 use flexdrill_config::{Advice, AdviceTable, Config};
-use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
+use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Severity, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
 
-/// Difference to the rate of rolling without slip up to which whirl is said to roll, as by default in the analysis.
-const ROLLS: f64 = 0.15;
+/// Largest difference of the whirl rate from that of rolling without slip, over the latter, for whirl that is called
+/// rolling: the default of the analysis.
+const ROLLING_TOLERANCE: f64 = 0.15;
 
-/// What a snapshot at the instant `stamp` says of every alarm of the tool. `stands` is whether an alarm stands already.
+/// The findings of a snapshot at the instant `stamp`, one per alarm of the tool. `stands` says whether an alarm stands
+/// already.
 pub(super) fn findings(
     snapshot: &Snapshot,
     stamp: Time,
@@ -55,43 +57,43 @@ pub(super) fn findings(
     findings
 }
 
-/// Whether the motion can be trusted: the same standing and turning.
+/// The finding on the quality of the model. It does not depend on the drive: the errors are the same at standstill.
 fn quality(quality: &ModelQuality) -> Finding {
-    // The status reports what is degraded: no action of an operator would change it now.
+    // A degraded model is a displayed state of the status: no action of an operator would change it now.
     if quality.level < QualityLevel::Poor {
         return Finding::default();
     }
     let share = number(100.0 * quality.value, 0).map_or(String::new(), |share| match quality.cause {
         Some(QualityCause::NumericalDamping) => {
-            format!(": numerical damping takes {share} % of the energy that contacts and damping take")
+            format!(": numerical damping takes {share} % of the energy that contacts and damping dissipate")
         }
-        _ => format!(": energy errors come to {share} % of what contacts and damping take"),
+        _ => format!(": numerical energy errors reach {share} % of the energy that contacts and damping dissipate"),
     });
     Finding {
         priority: Some(Priority::Medium),
         value: quality.value,
         threshold: quality.bound,
-        unit: "of what damping takes",
-        evidence: format!("The computed motion is not reliable{share}."),
+        unit: "of the dissipated energy",
+        evidence: format!("The computed motion is unreliable{share}."),
         cause: match quality.cause {
             Some(QualityCause::NumericalDamping) => "The time integration damps the motion.",
             Some(QualityCause::EnergyError) | None => {
-                "Collisions are too short for the time step, or axial forces change too much within it."
+                "Collisions are too short for the time step, or axial forces change too much within one step."
             }
         }
         .to_owned(),
-        consequence: "Vibration and forces may be off by a third and more: whirl and shock may be missed or false."
+        consequence: "Vibration levels and forces may be wrong by a third or more; alarms of whirl and shock may be missing or false."
             .to_owned(),
-        what_to_do: "Go by the rig's own instruments until this clears, and call the engineer.".to_owned(),
+        what_to_do: "Rely on the rig's own instruments until this alarm clears, and call the engineer.".to_owned(),
         what_the_engineer_can_do:
-            "Take a smaller solver.time_step for the next run, or solver.step: auto; compare with \
-                                   the measured torque."
+            "Set solver.step: auto or a smaller solver.time_step for the next run. Compare the computed torque with the \
+             measured torque."
                 .to_owned(),
         ..Finding::default()
     }
 }
 
-/// The priority that a level of the analysis has: what to watch is low, what warns medium, what is critical high.
+/// The priority of a level of the analysis: watch is low, warning medium, critical high.
 pub(super) fn priority(severity: Severity) -> Option<Priority> {
     match severity {
         Severity::Ok => None,
@@ -138,18 +140,19 @@ struct Words {
     engineer: &'static str,
 }
 
-/// Numbers that were not measured are left out.
+/// The texts on a hazard. Numbers that were not measured are left out.
 fn words(hazard: &Hazard) -> Words {
     let at = hazard.place.as_ref().and_then(place).unwrap_or_default();
     let of_guide = hazard.place.is_some_and(|place| place.body == Body::Guide);
     let body = if of_guide { "guide" } else { "pipe" };
-    let ratio =
-        number(hazard.whirl_ratio.abs(), 1).map_or(String::new(), |ratio| format!(", {ratio} times the rotary speed"));
+    let ratio = number(hazard.whirl_ratio.abs(), 1).map_or(String::new(), |ratio| {
+        format!(", whirl rate {ratio} times the rotary speed")
+    });
     let value = |digits| number(hazard.value, digits);
     match hazard.kind {
         HazardKind::BackwardWhirl => {
             let manner = match hazard.rolling_share {
-                share if (share - 1.0).abs() <= ROLLS => ", rolling",
+                share if (share - 1.0).abs() <= ROLLING_TOLERANCE => ", rolling",
                 share if share > 0.0 => ", sliding",
                 _ => "",
             };
@@ -157,33 +160,33 @@ fn words(hazard: &Hazard) -> Words {
                 unit: "per turn",
                 evidence: format!("Backward whirl of the {body}{at}{manner}{ratio}"),
                 cause: if of_guide {
-                    "Friction between guide and wall drives it."
+                    "Friction between guide and wall drives the whirl."
                 } else {
-                    "Friction between pipe and guide drives it."
+                    "Friction between pipe and guide drives the whirl."
                 },
                 consequence: match value(1) {
                     Some(cycles) => format!("Each link bends {cycles} times per turn; joint fatigue"),
                     None => "Each link bends several times per turn; joint fatigue".to_owned(),
                 },
-                engineer: "Compare the surface torque with the model's: a lower measured torque means less friction than \
-                           contact.inner.friction_tangential assumes. Add lubricant to the mud. At the next trip inspect \
-                           the joints near this depth for fatigue.",
+                engineer: "Compare the measured surface torque with the computed one: a lower measured torque means less \
+                           friction than contact.inner.friction_tangential assumes. Add lubricant to the mud. On the next \
+                           trip, inspect the joints near this depth for fatigue cracks.",
             }
         }
         HazardKind::ForwardWhirl => Words {
             unit: "W/m",
             evidence: format!("Forward whirl of the {body}{at}{ratio}"),
-            cause: "Load presses the bent tool against one side, and the rotation carries it round.",
+            cause: "The load presses the bent tool against one side of the bore, and the rotation carries it around.",
             consequence: match value(0) {
-                Some(power) => format!("One side of the {body} rubs with {power} W/m; it wears flat"),
-                None => format!("One side of the {body} rubs all the time; it wears flat"),
+                Some(power) => format!("One side of the {body} rubs with {power} W/m and wears flat"),
+                None => format!("One side of the {body} rubs continuously and wears flat"),
             },
-            engineer: "Add lubricant to the mud. At the next trip measure the wear of the side that rubs near this depth.",
+            engineer: "Add lubricant to the mud. On the next trip, measure the one-sided wear near this depth.",
         },
         HazardKind::Shock => Words {
             unit: "N s",
             evidence: match value(1) {
-                Some(impulse) => format!("Lateral shock of the {body}{at}: collisions of up to {impulse} N s"),
+                Some(impulse) => format!("Lateral shock of the {body}{at}: impacts of up to {impulse} N s"),
                 None => format!("Lateral shock of the {body}{at}"),
             },
             cause: if of_guide {
@@ -191,20 +194,22 @@ fn words(hazard: &Hazard) -> Words {
             } else {
                 "The pipe is thrown across its clearance and strikes the guide."
             },
-            consequence: "Damage to joints, cutters and instruments".to_owned(),
-            engineer: "Compare with a downhole vibration log. Check hole size and clearance; at the next trip inspect \
-                       joints and cutters near this depth.",
+            consequence: "Impacts damage joints, cutters and downhole instruments".to_owned(),
+            engineer: "Compare with a downhole vibration log. Check the hole size and the clearance. On the next trip, \
+                       inspect joints and cutters near this depth.",
         },
         HazardKind::StickSlip => Words {
             unit: "of the mean",
-            evidence: match value(2) {
-                Some(index) => format!("Stick-slip: the bit's speed swings by {index} of its mean; at 1 the bit stops"),
+            evidence: match number(100.0 * hazard.value, 0) {
+                Some(swing) => format!(
+                    "Stick-slip: the bit speed swings {swing} % above and below its mean; at 100 % the bit stops"
+                ),
                 None => "Stick-slip of the bit".to_owned(),
             },
-            cause: "The torque at the bit winds the tool up until the bit breaks loose.",
-            consequence: "Impacts on the cutters; torque swings in every joint".to_owned(),
-            engineer: "Check tool.bit.friction_factor against the measured torque. Tune the drive's speed controller \
-                       (soft torque); a less aggressive bit needs less torque.",
+            cause: "The bit torque winds up the tool until the bit breaks free and spins.",
+            consequence: "Impacts damage the cutters, and every joint carries a cyclic torque".to_owned(),
+            engineer: "Compare the measured torque with that of tool.bit.friction_factor. Tune the soft-torque control of \
+                       the top drive. A less aggressive bit needs less torque.",
         },
         HazardKind::JointLoad => Words {
             unit: "of its rating",
@@ -212,32 +217,32 @@ fn words(hazard: &Hazard) -> Words {
                 Some(ratio) => format!("Joint overload{at}: the stop carries {ratio} times its rated moment"),
                 None => format!("Joint overload{at}"),
             },
-            cause: "The tool is bent further than its joints turn, and their stops carry the rest.",
-            consequence: "A cracked joint or a broken pin".to_owned(),
-            engineer: "Check joint_load.rated_moment_nm against the maker's rating. At the next trip inspect the joint near \
-                       this depth.",
+            cause: "The tool bends beyond the angle limit of its joints, and their stops carry the remaining moment.",
+            consequence: "The joint may crack, or its pin may break".to_owned(),
+            engineer: "Check joint_load.rated_moment_nm against the manufacturer's rating. On the next trip, inspect the \
+                       joint near this depth.",
         },
         HazardKind::ChaoticWhirl => Words {
             unit: "W/m",
             evidence: match value(1) {
                 Some(power) => {
                     format!(
-                        "Chaotic whirl of the pipe, hardest{at}: its collisions take {power} W per metre of the tool"
+                        "Chaotic whirl of the pipe, strongest{at}: impacts dissipate {power} W per metre of the tool"
                     )
                 }
-                None => format!("Chaotic whirl of the pipe, hardest{at}"),
+                None => format!("Chaotic whirl of the pipe, strongest{at}"),
             },
-            cause: "Friction between pipe and guide throws the pipe about without direction.",
-            consequence: "Blows all along the tool; joint fatigue, loosened connections, damaged instruments"
+            cause: "Friction between pipe and guide drives the pipe from impact to impact.",
+            consequence: "Impacts along the whole tool fatigue the joints, loosen connections and damage instruments"
                 .to_owned(),
-            engineer: "Add lubricant to the mud. Compare with a downhole vibration log. At the next trip inspect joints and \
-                       connections along the whole tool.",
+            engineer: "Add lubricant to the mud. Compare with a downhole vibration log. On the next trip, inspect joints \
+                       and connections along the whole tool.",
         },
     }
 }
 
 /// ` at 2.31 m (42 deg)`.
-fn place(place: &IncidentLocation) -> Option<String> {
+fn place(place: &ToolLocation) -> Option<String> {
     let depth = number(place.measured_depth, 2)?;
     let inclination = number(rad_to_deg(place.inclination), 0);
     let inclination = inclination.map_or(String::new(), |degrees| format!(" ({degrees} deg)"));

@@ -1,7 +1,7 @@
 //! `flexdrill replay`: runs a bag or a field log through the model as fast as possible.
 
 mod alarms;
-mod incidents;
+mod episodes;
 mod inputs;
 mod player;
 mod recording;
@@ -118,15 +118,15 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
 fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow::Result<()> {
     progress.done();
     let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);
-    let joints = incidents::Joints(player.joint_stations().to_vec());
+    let joints = episodes::Joints(player.joint_stations().to_vec());
     let (recording, mut tally) = player.finish()?;
     say!("wrote {} messages to {}", recording.messages, recording.path.display());
     tally.print(wall, time_step);
     say_text!("{}", tally.alarms);
-    let found = tally.incidents();
-    say_text!("{}", incidents::table(&found, &joints));
+    let found = tally.episodes();
+    say_text!("{}", episodes::table(&found, &joints));
     if let Some(path) = json {
-        incidents::write_json(path, &found, &joints)?;
+        episodes::write_json(path, &found, &joints)?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! `flexdrill watch`: a terminal dashboard over DDS. It sees what any outside client sees, and nothing else.
+//! `flexdrill watch`: a terminal dashboard over DDS. It reads the same topics as any outside client.
 
 mod alarms;
 mod board;
@@ -26,9 +26,9 @@ use feed::Feed;
 const POLL: Duration = Duration::from_millis(50);
 /// Longest time for an orderly end of the full screen.
 const PATIENCE: Duration = Duration::from_secs(3);
-/// Time between two pictures.
+/// Time between two screen updates.
 const FRAME: Duration = Duration::from_millis(100);
-/// How long `--once` waits for a complete set of messages when `--duration` does not say.
+/// How long `--once` waits for a complete set of messages without `--duration`.
 const ONCE_PATIENCE: Duration = Duration::from_secs(30);
 
 /// Shows a running twin in the terminal, over DDS.
@@ -43,19 +43,19 @@ pub(super) struct WatchArgs {
     /// Print blocks of lines instead of a full screen; the default when the output is no terminal.
     #[arg(long)]
     plain: bool,
-    /// Print one block as soon as everything has been heard once, and end. Implies --plain.
+    /// Print one block as soon as every topic has been received once, and end. Implies --plain.
     #[arg(long)]
     once: bool,
     /// Time between two blocks of --plain (s).
     #[arg(long, default_value_t = 1.0, value_parser = numbers::seconds)]
     interval: f64,
-    /// End after this time (s); fails when no twin was heard.
+    /// End after this time (s); fails when no message of a twin was received.
     #[arg(long, value_parser = numbers::seconds)]
     duration: Option<f64>,
 }
 
 /// # Errors
-/// When DDS does not start, the terminal cannot be used, or no twin was heard in the given time.
+/// When DDS does not start, the terminal cannot be used, or no message of a twin was received in time.
 pub(super) fn run(args: &WatchArgs) -> anyhow::Result<()> {
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok())?;
     let stop = signals::stop_flag()?;
@@ -73,11 +73,11 @@ pub(super) fn run(args: &WatchArgs) -> anyhow::Result<()> {
     } else {
         let mut terminal =
             ratatui::try_init().context("the terminal cannot be switched to full screen; use --plain")?;
-        let shown = show_screen(&mut terminal, &mut feed, &mut board, deadline, &stop);
+        let result = show_screen(&mut terminal, &mut feed, &mut board, deadline, &stop);
         ratatui::restore();
-        shown?;
+        result?;
     }
-    // Ended by a person or a signal, nothing is wrong; ended by the clock, a twin should have been heard.
+    // An operator or a signal may end it at any time; after the given time, a twin must have been received.
     let by_clock = args.once || (deadline.is_some() && !stop.load(Ordering::Relaxed));
     if by_clock && board.status().is_none() {
         bail!(
@@ -122,7 +122,7 @@ fn print_blocks(
         if patience.is_some_and(|patience| now - start >= patience) {
             if args.once {
                 plain::print(board, now);
-                bail!("not everything was heard in time: {}", board.missing().join(", "));
+                bail!("not received in time: {}", board.missing().join(", "));
             }
             break;
         }
@@ -140,7 +140,7 @@ fn show_screen(
     let start = Instant::now();
     let mut next = start;
     let asked = Arc::clone(stop);
-    // Reading the keys of a terminal that is gone may never return.
+    // Reading the keys of a closed terminal may never return.
     std::thread::spawn(move || {
         while !asked.load(Ordering::Relaxed) {
             std::thread::sleep(POLL);

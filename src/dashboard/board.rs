@@ -18,6 +18,7 @@ use crate::messages::{
     AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus,
     WhirlState, WhirlWarning, from_cdr_body,
 };
+use flexdrill_alarms::Incidents;
 use flexdrill_text::printable;
 
 /// Events kept for a page that is opened late.
@@ -38,17 +39,6 @@ const HEADER_ONLY: [&str; 4] = [
     topics::REACTIONS.name,
 ];
 
-/// An alarm from its call to its end.
-#[derive(Debug, Clone)]
-struct Incident {
-    /// ns since 1970.
-    begin: i64,
-    end: Option<i64>,
-    severity: u8,
-    alarm: String,
-    text: String,
-}
-
 struct Known {
     session: Option<Session>,
     history: History,
@@ -57,7 +47,8 @@ struct Known {
     events: VecDeque<(i64, AlarmEvent)>,
     /// Of all events, also those that are no longer kept.
     event_count: u64,
-    incidents: Vec<Incident>,
+    /// In ns since 1970, with the evidence of the worst moment.
+    incidents: Incidents<String>,
     status: Option<(TwinStatus, Instant)>,
     /// Newest message of each topic: the instant that it speaks of (ns since 1970), and when it arrived here.
     heard: BTreeMap<&'static str, (i64, Instant)>,
@@ -84,7 +75,7 @@ impl Board {
             orbits,
             events: VecDeque::new(),
             event_count: 0,
-            incidents: Vec::new(),
+            incidents: Incidents::new(MOST_EVENTS),
             status: None,
             heard: BTreeMap::new(),
         }))
@@ -181,16 +172,16 @@ impl Board {
         known.status.clone().filter(|(_, arrived)| arrived.elapsed() < GONE)
     }
 
-    /// What happened, first to last, as the page gets it.
+    /// The incidents in the order of their begin, as the page gets them.
     pub fn incidents(&self) -> Value {
         let known = self.known();
-        let incidents = known.incidents.iter().map(|incident| {
+        let incidents = known.incidents.list().iter().map(|incident| {
             json!({
                 "time_ns": incident.begin.to_string(),
                 "duration_s": incident.end.map(|end| (end - incident.begin) as f64 * 1e-9),
-                "severity": incident.severity,
+                "severity": incident.priority,
                 "alarm": incident.alarm,
-                "text": incident.text,
+                "text": incident.worst,
             })
         });
         incidents.collect()
@@ -301,28 +292,8 @@ impl Known {
         {
             return;
         }
-        let open = self
-            .incidents
-            .iter()
-            .rposition(|incident| incident.alarm == event.id && incident.end.is_none());
-        match (event.change, open) {
-            (AlarmEvent::ACTIVATED, None) if self.incidents.len() < MOST_EVENTS => self.incidents.push(Incident {
-                begin: time,
-                end: None,
-                severity: event.priority,
-                alarm: event.id.clone(),
-                text: shortened(&event.evidence),
-            }),
-            (AlarmEvent::RAISED, Some(open)) => {
-                let incident = &mut self.incidents[open];
-                incident.severity = incident.severity.max(event.priority);
-                incident.text = shortened(&event.evidence);
-            }
-            (AlarmEvent::RETURNED | AlarmEvent::SUPPRESSED | AlarmEvent::TAKEN_OUT, Some(open)) => {
-                self.incidents[open].end = Some(time);
-            }
-            _ => {}
-        }
+        self.incidents
+            .add(time, &event.occurrence(), || shortened(&event.evidence));
         if self.events.len() == MOST_EVENTS {
             self.events.pop_front();
         }
@@ -331,7 +302,7 @@ impl Known {
     }
 }
 
-/// An incident's text, as long as any of the node's own.
+/// The evidence, at most as long as any text of the node.
 fn shortened(text: &str) -> String {
     text.chars().take(LONGEST_TEXT).collect()
 }

@@ -1,102 +1,40 @@
-//! `/diagnostics`: items judged from the status, the newest snapshot and the alarms, with hysteresis.
+//! `/diagnostics`: the alarms, grouped into items, each with the figures that belong to it. The alarms alone decide the
+//! levels, with their own delays, so that a dashboard of diagnostics never contradicts the list of alarms.
 
 use super::alarms::alarms;
 use super::items::{inputs, network, pacing, recording, solver};
 use super::motion::MotionEvidence;
-use crate::messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
+use crate::messages::diagnostic_msgs::DiagnosticStatus;
 use crate::messages::{AlarmList, TwinStatus};
-use flexdrill_core::dynamics::StepFailure;
 
-/// Judgements in a row that must be better before an item's level falls.
-const CALM: u32 = 3;
-
-/// A level that rises at once and falls when things have been better for a while, with the sentence that belongs to it.
-#[derive(Debug, Clone, Default)]
-struct Hysteresis {
-    level: u8,
-    message: String,
-    better: u32,
-}
-
-impl Hysteresis {
-    /// The level that holds and its sentence: while a level is held, that of its last judgement, never of a better one.
-    fn judge(&mut self, level: u8, message: String) -> (u8, String) {
-        if level < self.level && self.better + 1 < CALM {
-            self.better += 1;
-            let held = format!(
-                "{} (better in the last {} of {CALM} reports)",
-                self.message, self.better
-            );
-            return (self.level, held);
-        }
-        *self = Self {
-            level,
-            message,
-            better: 0,
-        };
-        (level, self.message.clone())
-    }
-}
-
-/// Keeps what the next judgement needs.
-#[derive(Debug, Default)]
-pub struct Diagnostics {
-    levels: [Hysteresis; 9],
-    previous: Option<TwinStatus>,
-}
-
-/// What beside the status is judged.
-#[derive(Debug, Clone, Default)]
-pub struct Evidence {
-    /// Cause and place of the failed step, while the model stands still.
-    pub failure: Option<StepFailure>,
-    /// What the analysis says of the motion.
-    pub motion: MotionEvidence,
-    /// The alarms as they stand.
-    pub alarms: AlarmList,
-}
-
-impl Diagnostics {
-    /// Judges the present status. `node` names the items: `node: pacing`.
-    pub fn judge(&mut self, node: &str, status: &TwinStatus, evidence: &Evidence) -> Vec<DiagnosticStatus> {
-        let previous = self.previous.replace(status.clone()).unwrap_or_else(|| status.clone());
-        let judgements = [
-            pacing(status, &previous),
-            solver(status, &previous, evidence.failure),
-            inputs(status),
-            evidence.motion.whirl(),
-            evidence.motion.stick_slip(),
-            evidence.motion.shock(),
-            recording(status, &previous),
-            network(status, &previous),
-            alarms(&evidence.alarms),
-        ];
-        judgements
-            .into_iter()
-            .zip(&mut self.levels)
-            .map(|(judgement, hysteresis)| {
-                let (level, message) = hysteresis.judge(judgement.level, judgement.message);
-                DiagnosticStatus {
-                    level,
-                    name: format!("{node}: {}", judgement.name),
-                    message,
-                    hardware_id: "flexdrill".into(),
-                    values: judgement
-                        .values
-                        .into_iter()
-                        .map(|(key, value)| KeyValue { key: key.into(), value })
-                        .collect(),
-                }
-            })
-            .collect()
-    }
+/// All items. `node` is the prefix of their names, as in `node: pacing`.
+pub fn items(node: &str, status: &TwinStatus, motion: &MotionEvidence, list: &AlarmList) -> Vec<DiagnosticStatus> {
+    let items = [
+        pacing(status),
+        solver(status),
+        inputs(status),
+        motion.whirl(),
+        motion.stick_slip(),
+        motion.shock(),
+        recording(status),
+        network(status),
+    ];
+    items
+        .into_iter()
+        .map(|item| item.with(list))
+        .chain([alarms(list)])
+        .map(|item| DiagnosticStatus {
+            name: format!("{node}: {}", item.name),
+            hardware_id: "flexdrill".into(),
+            ..item
+        })
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_core::dynamics::FailureCause;
-    use flexdrill_core::tool::Body;
+    use crate::messages::Alarm;
 
     fn running() -> TwinStatus {
         TwinStatus {
@@ -115,12 +53,31 @@ mod tests {
         }
     }
 
-    fn level(items: &[DiagnosticStatus], name: &str) -> u8 {
-        items.iter().find(|item| item.name.ends_with(name)).unwrap().level
+    fn item(name: &str, status: &TwinStatus, alarms: &[Alarm]) -> DiagnosticStatus {
+        let list = AlarmList {
+            alarms: alarms.to_vec(),
+            ..AlarmList::default()
+        };
+        let items = items("n", status, &MotionEvidence::default(), &list);
+        items
+            .into_iter()
+            .find(|item| item.name == format!("n: {name}"))
+            .unwrap()
+    }
+
+    fn alarm(id: &str, state: u8, priority: u8) -> Alarm {
+        Alarm {
+            id: id.into(),
+            name: id.replace('_', " "),
+            state,
+            priority,
+            evidence: "The evidence.".into(),
+            ..Alarm::default()
+        }
     }
 
     #[test]
-    fn inputs_say_who_sends_and_how_they_are() {
+    fn without_an_alarm_the_figures_speak_and_the_level_is_ok() {
         let status = TwinStatus {
             input_several_drivers: vec![true, false],
             input_suspect: vec![false, true],
@@ -129,127 +86,106 @@ mod tests {
             input_unreadable: vec![0, 3],
             ..running()
         };
-        let items = Diagnostics::default().judge("n", &status, &Evidence::default());
-        assert_eq!(level(&items, "inputs"), DiagnosticStatus::WARN);
-        let item = items.iter().find(|item| item.name.ends_with("inputs")).unwrap();
+        let item = item("inputs", &status, &[]);
+        assert_eq!(item.level, DiagnosticStatus::OK);
         assert_eq!(
             item.message,
-            "rotary_speed ok, SEVERAL PUBLISHERS AT ONCE, weight_on_bit ok, its source has doubts"
+            "rotary_speed ok, SEVERAL PUBLISHERS AT ONCE, weight_on_bit ok, marked suspect by its source"
         );
-        let said: Vec<&str> = item.values.iter().map(|value| value.value.as_str()).collect();
+        let values: Vec<&str> = item.values.iter().map(|pair| pair.value.as_str()).collect();
         assert!(
-            said[1].starts_with("/rig @ 10.0.0.7 (0a), /player") && said[1].contains("7 samples of others"),
-            "{said:?}"
+            values[1].starts_with("/rig @ 10.0.0.7 (0a), /player") && values[1].contains("7 samples of others"),
+            "{values:?}"
         );
-        assert_eq!(said[3], "none; 0 samples of others refused, 3 unreadable");
+        assert_eq!(values[3], "none; 0 samples of others refused, 3 unreadable");
     }
 
     #[test]
-    fn levels_rise_at_once_and_fall_after_a_while_with_the_sentence_that_belongs_to_them() {
-        let mut diagnostics = Diagnostics::default();
-        let mut pacing = |status: &TwinStatus| {
-            let items = diagnostics.judge("n", status, &Evidence::default());
-            let item = items.into_iter().find(|item| item.name == "n: pacing").unwrap();
-            (item.level, item.message)
-        };
-        let late = TwinStatus {
+    fn an_alarm_gives_its_item_the_level_and_the_text() {
+        let status = TwinStatus {
             pace: TwinStatus::PACE_FAR_BEHIND,
             pace_factor: 0.5,
             ..running()
         };
-        let (in_time, not_in_time) = ("in real time".to_owned(), crate::health::not_in_real_time(0.5));
-        assert_eq!(pacing(&running()), (DiagnosticStatus::OK, in_time.clone()));
-        assert_eq!(pacing(&late), (DiagnosticStatus::ERROR, not_in_time.clone()));
-        for report in 1..CALM {
-            let held = format!("{not_in_time} (better in the last {report} of {CALM} reports)");
-            assert_eq!(pacing(&running()), (DiagnosticStatus::ERROR, held));
-        }
-        assert_eq!(pacing(&running()), (DiagnosticStatus::OK, in_time));
+        // The alarm's delay is not over.
+        let before = item(
+            "pacing",
+            &status,
+            &[alarm("real_time", Alarm::NORMAL, Alarm::NO_PRIORITY)],
+        );
+        assert_eq!(before.level, DiagnosticStatus::OK);
+        assert!(
+            before
+                .message
+                .starts_with("not in real time: the model advanced 0.50 s")
+        );
+        let late = item(
+            "pacing",
+            &status,
+            &[alarm("real_time", Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::MEDIUM)],
+        );
+        assert_eq!(late.level, DiagnosticStatus::WARN);
+        assert_eq!(late.message, "MEDIUM real time (active, unacknowledged): The evidence.");
+        let state = late.values.iter().find(|pair| pair.key == "alarm real_time").unwrap();
+        assert_eq!(state.value, "medium, active, unacknowledged");
+        // The alarm's off-delay is not over: the item does not clear before the alarm.
+        let held = item(
+            "pacing",
+            &running(),
+            &[alarm("real_time", Alarm::ACTIVE_ACKNOWLEDGED, Alarm::MEDIUM)],
+        );
+        assert_eq!(held.level, DiagnosticStatus::WARN);
+        let shelved = item(
+            "pacing",
+            &running(),
+            &[alarm("real_time", Alarm::SHELVED, Alarm::MEDIUM)],
+        );
+        assert_eq!(
+            (shelved.level, shelved.message.as_str()),
+            (DiagnosticStatus::OK, "in real time (shelved: real time)")
+        );
     }
 
     #[test]
-    fn a_pause_and_the_first_seconds_after_it_are_no_lateness() {
-        let mut diagnostics = Diagnostics::default();
-        let mut level_of = |status: TwinStatus| level(&diagnostics.judge("n", &status, &Evidence::default()), "pacing");
-        assert_eq!(level_of(running()), DiagnosticStatus::OK);
+    fn several_alarms_of_an_item_are_all_named_and_the_worst_decides() {
+        let alarms = [
+            alarm("weight_on_bit_input", Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::HIGH),
+            alarm("two_drivers", Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::MEDIUM),
+            alarm("shock", Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::HIGH),
+        ];
+        let inputs = item("inputs", &running(), &alarms);
+        assert_eq!(inputs.level, DiagnosticStatus::ERROR);
+        assert!(
+            inputs.message.contains("HIGH weight on bit input") && inputs.message.contains("MEDIUM two drivers"),
+            "{}",
+            inputs.message
+        );
+        assert_eq!(item("solver", &running(), &alarms).level, DiagnosticStatus::OK);
+    }
+
+    #[test]
+    fn a_figure_that_was_not_measured_is_not_a_number() {
         let resumed = TwinStatus {
             real_time_factor: f64::NAN,
             pace_factor: f64::NAN,
             pace: TwinStatus::PACE_NOT_JUDGED,
             steps_stood_still: 5000,
+            input_state: vec![TwinStatus::INPUT_NOT_RECEIVED; 2],
+            input_age: vec![f64::NAN; 2],
+            input_received: vec![f64::NAN; 2],
             ..running()
         };
-        assert_eq!(level_of(resumed), DiagnosticStatus::OK);
-    }
-
-    #[test]
-    fn a_failure_is_reported_with_cause_and_place() {
-        let failure = StepFailure {
-            cause: FailureCause::NotConverged,
-            time: 1.5,
-            step: 1e-5,
-            station: 42,
-            body: Body::Guide,
-            value: 3.0,
+        let motion = MotionEvidence {
+            stick_slip_index: f64::NAN,
+            ..MotionEvidence::default()
         };
-        let evidence = Evidence {
-            failure: Some(failure),
-            ..Evidence::default()
-        };
-        let items = Diagnostics::default().judge(
-            "n",
-            &TwinStatus {
-                state: TwinStatus::FAILED,
-                ..running()
-            },
-            &evidence,
-        );
-        let solver = items.iter().find(|item| item.name == "n: solver").unwrap();
-        assert_eq!(solver.level, DiagnosticStatus::ERROR);
-        for part in ["station 42", "guide pipe", "did not converge", "~/reset"] {
-            assert!(solver.message.contains(part), "{}", solver.message);
+        let items = items("n", &resumed, &motion, &AlarmList::default());
+        for item in &items {
+            let values = item.values.iter().map(|pair| &pair.value);
+            for text in values.chain([&item.message]) {
+                assert!(!text.contains("NaN"), "{}: {text}", item.name);
+            }
         }
-    }
-
-    #[test]
-    fn a_motion_that_is_not_the_tools_is_an_error_with_its_cause() {
-        let said = |quality| {
-            let status = TwinStatus {
-                model_quality: quality,
-                model_quality_cause: "energy errors of the steps come to 56 %".into(),
-                // Of the drive's work: what most of a run's errors look like from there.
-                energy_error_ratio: 0.0008,
-                ..running()
-            };
-            let items = Diagnostics::default().judge("n", &status, &Evidence::default());
-            items.into_iter().find(|item| item.name == "n: solver").unwrap()
-        };
-        assert_eq!(said(TwinStatus::QUALITY_GOOD).message, "converging");
-        let degraded = said(TwinStatus::QUALITY_DEGRADED);
-        assert_eq!(degraded.level, DiagnosticStatus::WARN);
-        assert!(
-            degraded.message.contains("doubtful: energy errors"),
-            "{}",
-            degraded.message
-        );
-        let poor = said(TwinStatus::QUALITY_POOR);
-        assert_eq!(poor.level, DiagnosticStatus::ERROR);
-        assert!(poor.message.contains("56 %"), "{}", poor.message);
-        assert!(
-            poor.values
-                .iter()
-                .any(|pair| pair.key == "model_quality" && pair.value == "poor")
-        );
-    }
-
-    #[test]
-    fn the_worse_input_counts() {
-        let stale = TwinStatus {
-            input_state: vec![TwinStatus::INPUT_OK, TwinStatus::INPUT_STALE],
-            ..running()
-        };
-        let items = Diagnostics::default().judge("n", &stale, &Evidence::default());
-        assert_eq!(level(&items, "inputs"), DiagnosticStatus::ERROR);
-        assert!(items.iter().any(|item| item.message.contains("weight_on_bit stale")));
+        assert_eq!(items[0].message, "not judged yet: the model has run for less than 10 s");
     }
 }

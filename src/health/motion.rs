@@ -1,42 +1,39 @@
-//! What the analysis says of the tool's motion, as items of `/diagnostics`: whirl, stick-slip and lateral shock.
+//! The items of `/diagnostics` on the tool's motion: whirl, stick-slip and lateral shock.
 
-use super::judgement::Judgement;
-use crate::messages::diagnostic_msgs::DiagnosticStatus;
+use super::item::{Item, figure, figure_in};
+use crate::alarms::AlarmId;
 use crate::messages::words;
-use flexdrill_core::motion::{Severity, ShockLevel, WhirlWarningLevel};
+use flexdrill_core::motion::{Severity, ShockLevel, WhirlKind, WhirlWarningLevel};
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{rad_per_s_to_rpm, rad_to_deg};
 
-/// Levels of the motion with what led to them, of the newest snapshot.
+/// The figures of the motion in the newest snapshot.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MotionEvidence {
-    /// Level of the whirl warning.
+    /// The whirl warning.
     pub whirl: WhirlWarningLevel,
-    /// Level that the stick-slip index has reached.
-    pub stick_slip: Severity,
     /// (max - min) / (2 mean) of the bit's speed over its window.
     pub stick_slip_index: f64,
     /// Speeds of drive and bit (rad/s).
     pub speeds: [f64; 2],
-    /// Level of lateral shock.
+    /// Lateral shock.
     pub shock: ShockLevel,
-    /// Where it was: along the path from the kick-off (m), inclination (rad).
-    pub shock_place: [f64; 2],
+    /// Location of the shock: measured depth from the kick-off (m), inclination (rad).
+    pub shock_location: [f64; 2],
     /// Largest lateral acceleration one station above the bit in the publishing interval (m/s2).
     pub lateral_acceleration_peak: f64,
 }
 
 impl MotionEvidence {
-    /// Of a snapshot.
+    /// The figures of a snapshot.
     pub fn of(snapshot: &Snapshot) -> Self {
         let at = |values: &[f64]| values.get(snapshot.shock.station).copied().unwrap_or_default();
         Self {
             whirl: snapshot.warning,
-            stick_slip: snapshot.bit.stick_slip,
             stick_slip_index: snapshot.bit.stick_slip_index,
             speeds: [snapshot.applied.rotary_speed, snapshot.bit.rotary_speed],
             shock: snapshot.shock,
-            shock_place: [
+            shock_location: [
                 at(&snapshot.contacts.measured_depth),
                 at(&snapshot.contacts.inclination),
             ],
@@ -44,75 +41,69 @@ impl MotionEvidence {
         }
     }
 
-    pub(super) fn whirl(&self) -> Judgement {
+    pub(super) fn whirl(&self) -> Item {
         let warning = &self.whirl;
-        Judgement {
+        let calm = match warning.kind {
+            WhirlKind::None => "no whirl".to_owned(),
+            kind => format!("{}, level {}", kind.name(), warning.severity),
+        };
+        Item {
             name: "whirl",
-            level: level(warning.severity),
-            message: format!("{}, {} whirl", warning.severity, words::whirl_kind(warning.kind as u8)),
+            alarms: &[AlarmId::BackwardWhirl, AlarmId::ForwardWhirl, AlarmId::ChaoticWhirl],
+            calm,
             values: vec![
-                ("whirl_ratio", format!("{:.3}", warning.whirl_ratio)),
-                ("clearance_ratio", format!("{:.3}", warning.clearance_ratio)),
-                ("contact_duty", format!("{:.3}", warning.contact_duty)),
-                ("peak_force", format!("{:.0} N", warning.peak_force)),
-                ("rolling_share", format!("{:.3}", warning.rolling_share)),
-                ("confidence", format!("{:.2}", warning.confidence)),
+                ("whirl_ratio", figure(warning.whirl_ratio, 3)),
+                ("clearance_ratio", figure(warning.clearance_ratio, 3)),
+                ("contact_duty", figure(warning.contact_duty, 3)),
+                ("peak_force", figure_in(warning.peak_force, 0, "N")),
+                ("rolling_share", figure(warning.rolling_share, 3)),
+                ("confidence", figure(warning.confidence, 2)),
             ],
         }
     }
 
-    pub(super) fn stick_slip(&self) -> Judgement {
+    pub(super) fn stick_slip(&self) -> Item {
         let [drive, bit] = self.speeds.map(rad_per_s_to_rpm);
-        Judgement {
+        Item {
             name: "stick-slip",
-            level: level(self.stick_slip),
-            message: format!(
-                "{}, index {:.2} of the bit's speed, 1 is a bit that just stops",
-                self.stick_slip, self.stick_slip_index
-            ),
+            alarms: &[AlarmId::StickSlip],
+            calm: format!("index {}; at 1 the bit stops", figure(self.stick_slip_index, 2)),
             values: vec![
-                ("stick_slip_index", format!("{:.3}", self.stick_slip_index)),
-                ("bit_speed", format!("{bit:.2} r/min")),
-                ("drive_speed", format!("{drive:.2} r/min")),
+                ("stick_slip_index", figure(self.stick_slip_index, 3)),
+                ("bit_speed", figure_in(bit, 2, "r/min")),
+                ("drive_speed", figure_in(drive, 2, "r/min")),
             ],
         }
     }
 
-    pub(super) fn shock(&self) -> Judgement {
+    pub(super) fn shock(&self) -> Item {
         let shock = &self.shock;
         let layer = words::layer(shock.layer);
-        let [depth, inclination] = self.shock_place;
-        // While all is well the place changes with every interval and says nothing.
-        let place = match shock.severity {
+        let [depth, inclination] = self.shock_location;
+        // Below the first level the location changes with every interval and means nothing.
+        let location = match shock.severity {
             Severity::Ok => String::new(),
             _ => format!(
-                ", {layer} at {depth:.2} m (inclination {:.0} deg)",
-                rad_to_deg(inclination)
+                ", {layer} at {} (inclination {})",
+                figure_in(depth, 2, "m"),
+                figure_in(rad_to_deg(inclination), 0, "deg")
             ),
         };
-        Judgement {
+        Item {
             name: "shock",
-            level: level(shock.severity),
-            message: format!("{}, {:.1} N s{place}", shock.severity, shock.impulse),
+            alarms: &[AlarmId::Shock],
+            calm: format!("impacts of {}{location}", figure_in(shock.impulse, 1, "N s")),
             values: vec![
-                ("impulse", format!("{:.2} N s", shock.impulse)),
+                ("impulse", figure_in(shock.impulse, 2, "N s")),
                 ("layer", layer.to_owned()),
                 ("station", shock.station.to_string()),
-                ("measured_depth", format!("{depth:.2} m")),
+                ("measured_depth", figure_in(depth, 2, "m")),
                 (
                     "bit_lateral_acceleration_peak",
-                    format!("{:.1} m/s2", self.lateral_acceleration_peak),
+                    figure_in(self.lateral_acceleration_peak, 1, "m/s2"),
                 ),
             ],
         }
-    }
-}
-
-fn level(severity: Severity) -> u8 {
-    match severity {
-        Severity::Ok => DiagnosticStatus::OK,
-        Severity::Watch | Severity::Warning => DiagnosticStatus::WARN,
-        Severity::Critical => DiagnosticStatus::ERROR,
     }
 }
 
@@ -121,9 +112,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn levels_carry_their_evidence_with_units() {
+    fn figures_carry_their_units() {
         let evidence = MotionEvidence {
-            stick_slip: Severity::Critical,
             stick_slip_index: 1.2,
             shock: ShockLevel {
                 severity: Severity::Watch,
@@ -132,31 +122,23 @@ mod tests {
                 impulse: 7.25,
                 ..ShockLevel::default()
             },
-            shock_place: [2.5, 0.785],
+            shock_location: [2.5, 0.785],
             ..MotionEvidence::default()
         };
-        let (stick_slip, shock) = (evidence.stick_slip(), evidence.shock());
-        assert_eq!(stick_slip.level, DiagnosticStatus::ERROR);
-        assert!(
-            stick_slip.message.starts_with("critical, index 1.20"),
-            "{}",
-            stick_slip.message
-        );
-        assert_eq!(shock.level, DiagnosticStatus::WARN);
+        assert_eq!(evidence.stick_slip().calm, "index 1.20; at 1 the bit stops");
+        let shock = evidence.shock();
         // {:.1} of 7.25 rounds half to even.
         assert_eq!(
-            shock.message,
-            "watch, 7.2 N s, guide-wall at 2.50 m (inclination 45 deg)"
+            shock.calm,
+            "impacts of 7.2 N s, guide-wall at 2.50 m (inclination 45 deg)"
         );
         assert!(shock.values.contains(&("impulse", "7.25 N s".to_owned())));
     }
 
     #[test]
-    fn a_calm_tool_has_no_place_of_shock() {
-        let calm = MotionEvidence::default().shock();
-        assert_eq!(
-            (calm.level, calm.message.as_str()),
-            (DiagnosticStatus::OK, "ok, 0.0 N s")
-        );
+    fn a_calm_tool_has_no_location_of_shock() {
+        let calm = MotionEvidence::default();
+        assert_eq!(calm.shock().calm, "impacts of 0.0 N s");
+        assert_eq!(calm.whirl().calm, "no whirl");
     }
 }

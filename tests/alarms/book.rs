@@ -13,15 +13,19 @@ use std::sync::Arc;
 use flexdrill::alarms::{AlarmBook, AlarmId, NodeState, RecordingState, Request};
 use flexdrill::bag::{Losses, Problem};
 use flexdrill::dds::port::Health;
+use flexdrill::health::diagnostics;
+use flexdrill::health::motion::MotionEvidence;
 use flexdrill::messages::builtin_interfaces::Time;
+use flexdrill::messages::diagnostic_msgs::DiagnosticStatus;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
-    AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, from_cdr, topics,
+    AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, TwinStatus, from_cdr, topics,
 };
 use flexdrill::rig_inputs::{Driver, DriverId, Drivers, Rule};
 use flexdrill_config::Config;
+use flexdrill_core::dynamics::{FailureCause, StepFailure};
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute};
-use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
+use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Severity, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
@@ -57,7 +61,7 @@ fn snapshot_at(rpm: f64, kn: f64, hazards: &[Hazard]) -> Snapshot {
 fn rolling() -> Hazard {
     Hazard {
         severity: Severity::Critical,
-        place: Some(IncidentLocation {
+        place: Some(ToolLocation {
             station: 75,
             body: Body::Pipe,
             measured_depth: 2.31,
@@ -138,9 +142,9 @@ fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
     assert_eq!((worst.value, worst.threshold, worst.measured_depth), (4.4, 3.0, 2.31));
     assert_eq!(
         worst.evidence,
-        "Backward whirl of the pipe at 2.31 m (42 deg), rolling, 3.4 times the rotary speed."
+        "Backward whirl of the pipe at 2.31 m (42 deg), rolling, whirl rate 3.4 times the rotary speed."
     );
-    assert_eq!(worst.cause, "Friction between pipe and guide drives it.");
+    assert_eq!(worst.cause, "Friction between pipe and guide drives the whirl.");
     assert_eq!(worst.consequence, "Each link bends 4.4 times per turn; joint fatigue.");
     assert_eq!(
         worst.what_to_do,
@@ -153,7 +157,7 @@ fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
     assert_eq!((next.id.as_str(), next.priority), ("stick_slip", Alarm::LOW));
     assert_eq!(
         next.what_to_do,
-        "Follow the advice for backward whirl first; this alarm is judged again after it."
+        "Follow the advice for backward whirl first, then check this alarm again."
     );
     assert!(next.measured_depth.is_nan() && next.body == Alarm::NOWHERE);
     assert!(
@@ -183,7 +187,7 @@ fn what_has_gone_is_shown_until_it_is_acknowledged() {
         "{}",
         returned.evidence
     );
-    assert_eq!(returned.what_to_do, "No further action: acknowledge it.");
+    assert_eq!(returned.what_to_do, "No further action: acknowledge the alarm.");
     assert_eq!(
         book.request(&acknowledge(""), 15 * SECOND).unwrap(),
         "alarms acknowledged: 1"
@@ -240,7 +244,7 @@ fn a_model_that_contradicts_itself_calls_also_while_the_drive_stands() {
     let first = &list.alarms[0];
     assert_eq!((first.id.as_str(), first.priority), ("model_quality", Alarm::MEDIUM));
     assert!(
-        first.evidence.contains("energy errors come to 56 %"),
+        first.evidence.contains("energy errors reach 56 %"),
         "{}",
         first.evidence
     );
@@ -343,6 +347,7 @@ fn inputs_pace_and_recording_call_too() {
                 },
             }),
             dds: Health::default(),
+            namesakes: Vec::new(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
     }
@@ -391,6 +396,7 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
                 pace: PaceReading::default(),
                 recording: Some(recording(tenth)),
                 dds: Health::default(),
+                namesakes: Vec::new(),
                 drivers: Default::default(),
             };
             book.observe_node(&state, tenth * SECOND / 10);
@@ -532,6 +538,7 @@ fn two_drivers_call_with_who_they_are() {
             pace: PaceReading::default(),
             recording: None,
             dds: Health::default(),
+            namesakes: Vec::new(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
         if tenth == 90 {
@@ -542,7 +549,7 @@ fn two_drivers_call_with_who_they_are() {
                 (Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::MEDIUM)
             );
             assert!(
-                alarm.evidence.contains("rotary_speed is sent by")
+                alarm.evidence.starts_with("Rotary speed is published by ")
                     && alarm.evidence.contains("/log_player @ 10.0.0.9 (0202")
                     && alarm.evidence.contains("unnamed node @ unknown host (0101"),
                 "{}",
@@ -575,6 +582,7 @@ fn an_input_that_is_only_refused_is_stale_and_says_why() {
             pace: PaceReading::default(),
             recording: None,
             dds: Health::default(),
+            namesakes: Vec::new(),
         };
         book.observe_node(&state, tenth * SECOND / 10);
         // Stale after max_age of 5 s, on its safe value after 10 s more; each calls after the alarm's delay of 2 s.
@@ -590,7 +598,7 @@ fn an_input_that_is_only_refused_is_stale_and_says_why() {
             assert_eq!(alarm.priority, priority, "at {now} s: {}", alarm.evidence);
             assert!(alarm.evidence.contains(words), "{}", alarm.evidence);
             assert!(alarm.evidence.contains("500 r/min refused"), "{}", alarm.evidence);
-            assert!(alarm.cause.contains("the limits are too narrow"), "{}", alarm.cause);
+            assert!(alarm.cause.contains("limits are too narrow"), "{}", alarm.cause);
         }
     }
 }
@@ -613,6 +621,7 @@ fn an_input_that_has_never_sent_calls_after_the_configured_time_only() {
             pace: PaceReading::default(),
             recording: None,
             dds: Health::default(),
+            namesakes: Vec::new(),
         };
         book.observe_node(&state, second * SECOND);
         let list = book.list(Header::default());
@@ -653,6 +662,7 @@ fn a_matter_of_the_computer_is_for_whoever_runs_it_and_comes_after_the_drillers(
             },
             recording: None,
             dds: Health::default(),
+            namesakes: Vec::new(),
         };
         book.observe_node(&state, second * SECOND);
     }
@@ -693,4 +703,166 @@ fn a_state_of_an_earlier_run_is_marked_until_it_changes() {
     again.request(&acknowledge("backward_whirl"), 101 * SECOND).unwrap();
     let list = again.list(Header::default());
     assert!(!find(&list, "backward_whirl").from_earlier_run);
+}
+
+/// The items of `/diagnostics` with their alarms.
+const ITEMS: [(&str, &[AlarmId]); 8] = [
+    ("pacing", &[AlarmId::RealTime]),
+    ("solver", &[AlarmId::Solver, AlarmId::ModelQuality]),
+    (
+        "inputs",
+        &[
+            AlarmId::RotarySpeedInput,
+            AlarmId::WeightOnBitInput,
+            AlarmId::TwoDrivers,
+        ],
+    ),
+    (
+        "whirl",
+        &[AlarmId::BackwardWhirl, AlarmId::ForwardWhirl, AlarmId::ChaoticWhirl],
+    ),
+    ("stick-slip", &[AlarmId::StickSlip]),
+    ("shock", &[AlarmId::Shock]),
+    ("recording", &[AlarmId::Recording]),
+    ("network", &[AlarmId::Network]),
+];
+
+/// The level that the list of alarms has for some of them: ERROR for high, WARN for medium and low.
+fn level_of_alarms(list: &AlarmList, ids: &[AlarmId]) -> u8 {
+    let standing = ids
+        .iter()
+        .map(|id| find(list, id.id()))
+        .filter(|alarm| [Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::ACTIVE_ACKNOWLEDGED].contains(&alarm.state));
+    match standing.map(|alarm| alarm.priority).max() {
+        None => DiagnosticStatus::OK,
+        Some(Alarm::HIGH) => DiagnosticStatus::ERROR,
+        Some(_) => DiagnosticStatus::WARN,
+    }
+}
+
+/// A run in which every condition comes and goes, with an acknowledgement, a shelving and a drive at standstill: at no
+/// instant does an item of `/diagnostics` have another level than its alarms, whatever the figures next to it are.
+#[test]
+fn diagnostics_never_contradict_the_alarms() {
+    let config = config();
+    let mut conditioner = Conditioner::new(config.inputs.rules());
+    let mut book = AlarmBook::fresh(config, 0);
+    // Figures that would be an error by themselves throughout: they must not raise any level.
+    let status = TwinStatus {
+        state: TwinStatus::RUNNING,
+        pace: TwinStatus::PACE_FAR_BEHIND,
+        pace_factor: 0.5,
+        model_quality: TwinStatus::QUALITY_POOR,
+        recording_state: TwinStatus::RECORDING_FAILED,
+        input_name: vec!["rotary_speed".into(), "weight_on_bit".into()],
+        input_state: vec![TwinStatus::INPUT_STALE; 2],
+        ..TwinStatus::default()
+    };
+    let motion = MotionEvidence {
+        stick_slip_index: 1.5,
+        shock: flexdrill_core::motion::ShockLevel {
+            severity: Severity::Critical,
+            impulse: 90.0,
+            ..Default::default()
+        },
+        ..MotionEvidence::default()
+    };
+    let all_hazards = HazardKind::ALL.map(|kind| Hazard {
+        severity: Severity::Critical,
+        value: 9.0,
+        threshold: 3.0,
+        ..Hazard::calm(kind)
+    });
+    let mut seen: std::collections::BTreeSet<(&str, u8)> = std::collections::BTreeSet::new();
+    for tenth in 0..900_i64 {
+        let (now, stamp) = (tenth as f64 * 0.1, tenth * SECOND / 10);
+        let bad = (200..500).contains(&tenth);
+        let mut snapshot = snapshot(if bad { &all_hazards } else { &[] });
+        if (300..340).contains(&tenth) {
+            snapshot.hazards.drive = DriveState::RunningUp;
+        }
+        if bad {
+            snapshot.quality = ModelQuality {
+                level: QualityLevel::Poor,
+                cause: Some(QualityCause::EnergyError),
+                value: 0.7,
+                bound: 0.5,
+                judged: true,
+                ..ModelQuality::default()
+            };
+        } else {
+            for kind in InputKind::ALL {
+                conditioner.offer(kind, 10.0, now).unwrap();
+            }
+        }
+        let state = NodeState {
+            conditioner: &conditioner,
+            now,
+            drivers: Default::default(),
+            run_state: RunState::Running,
+            failure: bad.then_some(StepFailure {
+                cause: FailureCause::NotConverged,
+                time: 1.5,
+                step: 1e-5,
+                station: 42,
+                body: Body::Guide,
+                value: 3.0,
+            }),
+            pace: PaceReading {
+                level: if bad { Pace::FarBehind } else { Pace::Kept },
+                factor: Some(0.5),
+            },
+            recording: Some(RecordingState {
+                error: bad.then(|| Problem {
+                    text: "no space left".to_owned(),
+                    cause: "The disk is full.",
+                }),
+                ..RecordingState::default()
+            }),
+            dds: Health::default(),
+            namesakes: if bad {
+                vec!["/flexdrill @ 10.0.0.9".to_owned()]
+            } else {
+                Vec::new()
+            },
+        };
+        book.advance(stamp);
+        book.observe_tool(&snapshot, stamp);
+        book.observe_node(&state, stamp);
+        match tenth {
+            250 => drop(book.request(&acknowledge("stick_slip"), stamp).unwrap()),
+            260 => drop(book.request(&shelve("joint_load", 10.0), stamp).unwrap()),
+            _ => {}
+        }
+        let list = book.list(Header::default());
+        let items = diagnostics::items("n", &status, &motion, &list);
+        assert_eq!(items.len(), ITEMS.len() + 1);
+        for ((name, ids), item) in ITEMS.into_iter().chain([("alarms", &AlarmId::ALL[..])]).zip(&items) {
+            assert_eq!(item.name, format!("n: {name}"));
+            assert_eq!(
+                item.level,
+                level_of_alarms(&list, ids),
+                "{name} at {now} s: {}",
+                item.message
+            );
+            if item.level != DiagnosticStatus::OK {
+                let named = ids
+                    .iter()
+                    .map(|id| find(&list, id.id()))
+                    .any(|alarm| item.message.contains(&alarm.name) && item.message.contains(&alarm.evidence));
+                assert!(named, "{name} at {now} s does not quote its alarm: {}", item.message);
+            }
+            seen.insert((name, item.level));
+        }
+    }
+    // Every item was calm and was not: the comparison above is not empty.
+    for (name, _) in ITEMS {
+        let raised = [DiagnosticStatus::WARN, DiagnosticStatus::ERROR];
+        assert!(seen.contains(&(name, DiagnosticStatus::OK)), "{name} was never calm");
+        assert!(
+            raised.iter().any(|level| seen.contains(&(name, *level))),
+            "{name} was never raised"
+        );
+    }
+    assert!(seen.contains(&("whirl", DiagnosticStatus::ERROR)), "{seen:?}");
 }

@@ -18,7 +18,7 @@ use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{Alarm, AlarmEvent, AlarmList, CdrError};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Conditioner;
-use flexdrill_core::motion::{DriveState, Hazard, HazardKind, IncidentLocation, Severity};
+use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Severity, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
@@ -71,7 +71,7 @@ fn said(book: &mut AlarmBook) -> (AlarmList, Vec<AlarmEvent>) {
 fn a_held_alarm_shows_its_worst_moment_and_when_it_ended() {
     let mut book = AlarmBook::fresh(config(), 0);
     let whirl = Hazard {
-        place: Some(IncidentLocation {
+        place: Some(ToolLocation {
             station: 75,
             body: Body::Pipe,
             measured_depth: 1.5,
@@ -91,7 +91,7 @@ fn a_held_alarm_shows_its_worst_moment_and_when_it_ended() {
     let now = find(&list(&book), "backward_whirl").clone();
     assert_eq!(
         now.evidence,
-        "Backward whirl of the pipe at 1.50 m (27 deg), 2.4 times the rotary speed."
+        "Backward whirl of the pipe at 1.50 m (27 deg), whirl rate 2.4 times the rotary speed."
     );
     assert!(!now.ended && now.ended_at == Time::default());
     // The level is held for a moment of some seconds ago.
@@ -332,7 +332,7 @@ fn any_hazard(kind: HazardKind) -> impl Strategy<Value = Hazard> {
         .prop_map(move |(severity, a, b, place, ended)| Hazard {
             kind,
             severity,
-            place: place.map(|(measured_depth, inclination, pipe)| IncidentLocation {
+            place: place.map(|(measured_depth, inclination, pipe)| ToolLocation {
                 station: 0,
                 body: if pipe { Body::Pipe } else { Body::Guide },
                 measured_depth,
@@ -495,6 +495,7 @@ proptest! {
                     },
                 }),
                 dds: Health::default(),
+                namesakes: Vec::new(),
             };
             book.observe_node(&state, i64::from(second) * SECOND);
             let (list, events) = said(&mut book);

@@ -216,7 +216,7 @@ fn what_an_operator_asks_reaches_the_node_and_its_words_come_back() {
     let back = json!({"operator": "Kim", "id": "shock"});
     assert_eq!(
         said("unshelve", back),
-        (200, json!({"ok": true, "message": "shock is back from the shelf"}))
+        (200, json!({"ok": true, "message": "shock is no longer shelved"}))
     );
     let (code, refused) = said(
         "shelve",

@@ -98,7 +98,7 @@ fn two_nodes_of_one_name_are_told() {
                 item["message"]
                     .as_str()
                     .unwrap()
-                    .contains("another node has the name of this one"),
+                    .contains("Another node has the name of this one"),
             );
         }
     }

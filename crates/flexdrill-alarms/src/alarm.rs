@@ -1,43 +1,43 @@
-//! One alarm: when a condition becomes a change.
+//! One alarm with its delays, which decide when a condition becomes a change.
 
 use serde::{Deserialize, Serialize};
 
 use crate::{Change, Priority, Standing, Time, Unshelving, span};
 
-/// How long a condition must stand or be gone before it counts (s).
+/// How long a condition must stand or be absent before the alarm changes (s).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Delays {
-    /// Before the alarm is active, or its priority rises.
+    /// Before the alarm becomes active or its priority rises.
     pub on: f64,
-    /// Before it has returned, or its priority falls.
+    /// Before the alarm returns or its priority falls.
     pub off: f64,
 }
 
-/// A condition as it is at an instant.
+/// The state of a condition at an instant.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Observation<'a> {
-    /// Its priority; none while it is not there.
+    /// The priority of the condition; none while it is not met.
     pub priority: Option<Priority>,
-    /// The plant is in a state in which it means nothing.
+    /// Whether the condition has no meaning in the present state of the plant.
     pub suppressed: bool,
-    /// What it is judged by, in a sentence.
+    /// The evidence in a sentence.
     pub evidence: &'a str,
 }
 
-/// State of an alarm with the timers of its delays.
+/// The state of an alarm with the timers of its delays.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Timed {
     pub(crate) standing: Standing,
-    /// When its present state began.
+    /// The begin of the present state.
     pub(crate) since: Time,
-    /// Per priority: since when the condition has had at least it without a break.
+    /// Per priority: the begin of the uninterrupted time in which the condition has had at least this priority.
     present_since: [Option<Time>; 3],
-    /// Per priority: since when it has had less without a break.
+    /// Per priority: the begin of the uninterrupted time in which the condition has had less.
     absent_since: [Option<Time>; 3],
 }
 
 impl Timed {
-    /// The next change that an observation brings, if any. To be applied and asked again until there is none.
+    /// The next change due to an observation, if any. The caller applies it and asks again until there is none.
     pub(crate) fn next(&mut self, time: Time, observed: &Observation<'_>, delays: Delays) -> Option<Change> {
         let standing = self.standing;
         if standing.is_out_of_service() {
@@ -67,13 +67,13 @@ impl Timed {
         Some(change)
     }
 
-    /// Forgets the timers: a condition that comes now has all its delay before it.
+    /// Clears the timers, so that a new condition has its whole delay ahead.
     pub(crate) fn forget(&mut self) {
         self.present_since = [None; 3];
         self.absent_since = [None; 3];
     }
 
-    /// Whether a shelving is over by its time or by what it does not cover.
+    /// The end of a shelving by its time or by a priority that it does not cover.
     pub(crate) fn end_of_shelf(&self, time: Time, active: Option<Priority>) -> Option<Change> {
         let shelf = self.standing.shelf()?;
         if active > Some(shelf.covers) {
@@ -94,12 +94,12 @@ impl Timed {
                 (&mut self.absent_since[index], &mut self.present_since[index])
             };
             *ends = None;
-            // A clock that goes back begins the delay anew.
+            // A clock that steps back restarts the delay.
             *begins = Some(begins.map_or(time, |since| since.min(time)));
         }
     }
 
-    /// The priority that has stood long enough, or has not been gone for long enough.
+    /// The priority that has stood for the on-delay, or that has not been absent for the off-delay.
     fn level(&self, time: Time, active: Option<Priority>, delays: Delays) -> Option<Priority> {
         let lasted = |since: Option<Time>, delay: f64| since.is_some_and(|since| time - since >= span(delay));
         Priority::ALL.into_iter().rev().find(|level| {

@@ -1,51 +1,51 @@
-//! What the journal is made of.
+//! The events of the journal.
 
 use serde::{Deserialize, Serialize};
 
 use crate::{Change, Priority, State, Time};
 
-/// Who asks for something, and why.
+/// The operator of a request, with the reason.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Operator<'a> {
-    /// A name that others know. Never empty where somebody asks.
+    /// The operator's name. It is never empty in a request.
     pub name: &'a str,
-    /// For those who read the journal.
+    /// The reason, for readers of the journal.
     pub reason: &'a str,
 }
 
 /// One change of one alarm.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Event {
-    /// Counts from 1, over restarts too, without a gap.
+    /// The number of the event, from 1 without a gap, continued over restarts.
     pub sequence: u64,
-    /// When.
+    /// The time of the event.
     pub time: Time,
-    /// Which, in the order of the definitions.
+    /// The index of the alarm in the order of the definitions.
     pub alarm: usize,
-    /// What happened.
+    /// The change.
     pub change: Change,
-    /// State before.
+    /// The state before.
     pub from: State,
-    /// State after: the same for what happens under a shelf or suppressed, and for a change of priority.
+    /// The state after: the same for a change under a shelf or suppression, and for a change of priority.
     pub to: State,
-    /// The priority that the condition has now; of one that has gone, that which it had or which is to be acknowledged.
+    /// The present priority of the condition; after its end, the priority that it had or that is not yet acknowledged.
     pub priority: Option<Priority>,
-    /// Who asked for it; empty where nobody did.
+    /// The operator who requested the change; empty without a request.
     pub operator: String,
-    /// Why.
+    /// The reason of the request.
     pub reason: String,
-    /// What the condition was judged by, in a sentence; empty where there was none.
+    /// The evidence of the condition in a sentence; empty without one.
     pub evidence: String,
 }
 
 impl Event {
-    /// Whether it calls for somebody: the alarm stands unacknowledged and did not before. One that rises while it calls
-    /// already is the same call.
+    /// Whether the event annunciates: the alarm is active and unacknowledged, and was not before. A rise of an alarm that
+    /// is already unacknowledged belongs to the same annunciation.
     pub fn annunciates(&self) -> bool {
         self.to == State::ActiveUnacknowledged && self.from != State::ActiveUnacknowledged
     }
 
-    /// Whether it calls with a higher priority than it did.
+    /// Whether the event raises the priority of an unacknowledged alarm.
     pub fn rises(&self) -> bool {
         matches!(self.change, Change::Raised(_)) && self.to == State::ActiveUnacknowledged
     }

@@ -1,71 +1,71 @@
-//! What operators ask for, and why it may be refused.
+//! Requests of operators and the reasons for a refusal.
 
 use crate::{Operator, State};
 
-/// How an alarm is to be put aside.
+/// How an alarm is shelved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shelving {
-    /// Until the condition goes, at most for the longest time.
+    /// Until the condition ends, at most for the longest time.
     OneShot,
-    /// For so long (s).
+    /// For a time (s).
     Timed(f64),
 }
 
-/// Why a request was refused. `alarm` is the id.
+/// The reason for a refusal. `alarm` is the id.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// There is no such alarm.
     #[error("there is no alarm '{alarm}'; the alarms are {}", known.join(", "))]
     Unknown {
-        /// As asked for.
+        /// The requested id.
         alarm: String,
-        /// Those that there are.
+        /// The existing ids.
         known: Vec<&'static str>,
     },
-    /// Who asks must say who he is.
-    #[error("operator is empty: say who asks, the journal keeps it")]
+    /// The request has no name of an operator.
+    #[error("operator is empty: give a name, which the journal keeps")]
     NoOperator,
-    /// What is put aside needs a reason.
-    #[error("reason is empty: say why {alarm} is shelved, the journal keeps it")]
+    /// Shelving requires a reason.
+    #[error("reason is empty: give a reason for shelving {alarm}, which the journal keeps")]
     NoReason {
-        /// Which.
+        /// The alarm.
         alarm: &'static str,
     },
     /// There is nothing to acknowledge.
     #[error("{alarm} is {}: there is nothing to acknowledge", state.name())]
     NothingToAcknowledge {
-        /// Which.
+        /// The alarm.
         alarm: &'static str,
-        /// How it stands.
+        /// Its state.
         state: State,
     },
-    /// It is not on the shelf.
+    /// The alarm is not shelved.
     #[error("{alarm} is {}: it is not shelved", state.name())]
     NotShelved {
-        /// Which.
+        /// The alarm.
         alarm: &'static str,
-        /// How it stands.
+        /// Its state.
         state: State,
     },
     /// The configuration has switched it off.
     #[error("{alarm} is out of service: it is switched off in the configuration")]
     OutOfService {
-        /// Which.
+        /// The alarm.
         alarm: &'static str,
     },
-    /// Nothing is shelved for ever, or for no time.
-    #[error("duration = {asked} s; shelving {alarm} takes above 0, at most {most} s")]
+    /// The duration is outside its bounds.
+    #[error("duration = {asked} s; the duration for shelving {alarm} must be above 0 s and at most {most} s")]
     Duration {
-        /// Which.
+        /// The alarm.
         alarm: &'static str,
-        /// As asked for (s).
+        /// The requested duration (s).
         asked: f64,
-        /// The longest (s).
+        /// The longest duration (s).
         most: f64,
     },
 }
 
-/// Whether somebody says who he is.
+/// Whether the request has the name of an operator.
 pub(crate) fn named(by: &Operator<'_>) -> Result<(), Refusal> {
     if by.name.trim().is_empty() {
         Err(Refusal::NoOperator)

@@ -1,4 +1,4 @@
-//! What is kept over a restart.
+//! The state that outlasts a restart.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::alarm::Timed;
 /// Version of [`Saved`].
 pub const FORMAT: u32 = 1;
 
-/// The state of all alarms, by their ids.
+/// The state of all alarms by their ids.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Saved {
@@ -25,13 +25,13 @@ pub(crate) struct SavedAlarm {
     pub(crate) state: Timed,
 }
 
-/// Why a saved state is not taken up.
+/// Why a saved state cannot be restored.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SavedError {
-    /// Saved by another version.
+    /// Another version saved it.
     #[error("the alarms were saved in format {found}, this version reads {FORMAT}")]
     Format {
-        /// Of the file.
+        /// The format of the file.
         found: u32,
     },
 }

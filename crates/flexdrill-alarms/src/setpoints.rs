@@ -1,19 +1,19 @@
-//! From a value to a priority.
+//! Setpoints that turn a value into a priority.
 
 use crate::Priority;
 
-/// Setpoints of a value of which more is worse, with a deadband against flicker. For a value of which less is worse,
-/// give both with their sign turned.
+/// Setpoints of a value for which larger is worse, with a deadband against flicker. For a value for which smaller is
+/// worse, negate the value and the setpoints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setpoints {
-    /// Reached at or above these: low, medium, high; `None` where there is no such priority.
+    /// The setpoints of low, medium and high, reached at or above them; `None` for a priority that does not exist.
     pub at: [Option<f64>; 3],
-    /// A priority that stands is left only below its setpoint less this (in the value's unit).
+    /// A standing priority ends only below its setpoint minus this deadband (in the value's unit).
     pub deadband: f64,
 }
 
 impl Setpoints {
-    /// The priority of a value, where `before` stood. A value that is no number changes nothing.
+    /// The priority of a value after the priority `before`. A NaN changes nothing.
     pub fn judge(&self, value: f64, before: Option<Priority>) -> Option<Priority> {
         if value.is_nan() {
             return before;

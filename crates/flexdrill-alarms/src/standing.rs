@@ -1,14 +1,14 @@
-//! The state of one alarm, and what can happen to it.
+//! The state of one alarm and its changes.
 
 use serde::{Deserialize, Serialize};
 
 use crate::Time;
 
-/// How soon somebody must act.
+/// How soon an operator must act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Priority {
-    /// When there is time.
+    /// As time permits.
     Low,
     /// Soon.
     Medium,
@@ -17,10 +17,10 @@ pub enum Priority {
 }
 
 impl Priority {
-    /// All of them, rising.
+    /// All priorities in rising order.
     pub const ALL: [Priority; 3] = [Priority::Low, Priority::Medium, Priority::High];
 
-    /// As ISA-18.2 says it.
+    /// The name in ISA-18.2.
     pub fn name(self) -> &'static str {
         match self {
             Priority::Low => "low",
@@ -30,29 +30,29 @@ impl Priority {
     }
 }
 
-/// The state in one word: the states of ISA-18.2.
+/// The name of a state in ISA-18.2.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
 pub enum State {
-    /// Nothing to do.
+    /// No action required.
     Normal = 0,
-    /// The condition stands, and nobody has said that he knows.
+    /// The condition stands and is not yet acknowledged.
     ActiveUnacknowledged = 1,
-    /// The condition stands, and somebody knows.
+    /// The condition stands and is acknowledged.
     ActiveAcknowledged = 2,
-    /// The condition has gone before somebody said that he knew.
+    /// The condition ended before it was acknowledged.
     ReturnedUnacknowledged = 3,
-    /// An operator has put it aside for a time.
+    /// An operator has shelved the alarm for a time.
     Shelved = 4,
-    /// The plant is in a state in which the condition means nothing.
+    /// The condition has no meaning in the present state of the plant.
     SuppressedByDesign = 5,
     /// Switched off by the configuration.
     OutOfService = 6,
 }
 
 impl State {
-    /// All of them, by their codes.
+    /// All states in the order of their codes.
     pub const ALL: [State; 7] = [
         State::Normal,
         State::ActiveUnacknowledged,
@@ -63,7 +63,7 @@ impl State {
         State::OutOfService,
     ];
 
-    /// For a person.
+    /// The name for a person.
     pub fn name(self) -> &'static str {
         match self {
             State::Normal => "normal",
@@ -77,14 +77,14 @@ impl State {
     }
 }
 
-/// An alarm put aside.
+/// A shelving.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shelf {
-    /// When it ends at the latest.
+    /// The latest end.
     pub until: Time,
-    /// It ends when the condition goes, or for a condition that is not there, when it has come and gone.
+    /// Whether the shelving ends with the condition, or with the next occurrence of one that does not stand.
     pub one_shot: bool,
-    /// What rises above this is not covered.
+    /// The highest priority that the shelving covers.
     pub covers: Priority,
 }
 
@@ -92,37 +92,37 @@ pub struct Shelf {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unshelving {
-    /// An operator wanted it back.
+    /// An operator ended it.
     Asked,
-    /// The time was over, or the clock was set back.
+    /// Its time expired, or the clock was set back.
     Expired,
-    /// One shot: the condition has gone.
+    /// One shot: the condition ended.
     Returned,
-    /// The priority rose above what was covered.
+    /// The priority rose above the covered one.
     Raised,
 }
 
-/// What can happen to an alarm.
+/// A change of an alarm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Change {
     /// The condition has stood for the on-delay.
     Activated(Priority),
-    /// It has become worse, for the on-delay.
+    /// The priority of the condition has been higher for the on-delay.
     Raised(Priority),
-    /// It has become better, for the off-delay, but stands.
+    /// The priority of the condition has been lower for the off-delay.
     Lowered(Priority),
-    /// The condition has been gone for the off-delay.
+    /// The condition has been absent for the off-delay.
     Returned,
-    /// An operator knows.
+    /// An operator acknowledged the alarm.
     Acknowledged,
-    /// An operator has put it aside.
+    /// An operator shelved the alarm.
     Shelved(Shelf),
-    /// It is back.
+    /// The shelving ended.
     Unshelved(Unshelving),
-    /// The plant's state takes the condition its meaning.
+    /// The condition has no meaning in the present state of the plant.
     Suppressed,
-    /// The plant is back in a state in which the condition means something.
+    /// The condition has a meaning again.
     Released,
     /// The configuration switches it off.
     TakenOut,
@@ -131,7 +131,7 @@ pub enum Change {
 }
 
 impl Change {
-    /// In one word.
+    /// The name of the change.
     pub fn name(&self) -> &'static str {
         match self {
             Change::Activated(_) => "activated",
@@ -166,17 +166,17 @@ impl Standing {
         self.active
     }
 
-    /// The highest priority that nobody has acknowledged.
+    /// The highest priority that is not yet acknowledged.
     pub fn unacknowledged(&self) -> Option<Priority> {
         self.unacknowledged
     }
 
-    /// How it is shelved.
+    /// The shelving, if any.
     pub fn shelf(&self) -> Option<Shelf> {
         self.shelf
     }
 
-    /// Whether the plant's state takes the condition its meaning.
+    /// Whether the condition has no meaning in the present state of the plant.
     pub fn is_suppressed(&self) -> bool {
         self.suppressed
     }
@@ -186,12 +186,12 @@ impl Standing {
         self.out_of_service
     }
 
-    /// The priority to show: that of the condition, or of what is to be acknowledged, whichever is higher.
+    /// The published priority: the higher of the condition's and the unacknowledged one.
     pub fn priority(&self) -> Option<Priority> {
         self.active.max(self.unacknowledged)
     }
 
-    /// The state in one word. What covers more goes before what covers less.
+    /// The name of the state. A state that covers more of the alarm precedes one that covers less.
     pub fn state(&self) -> State {
         if self.out_of_service {
             State::OutOfService
@@ -209,12 +209,12 @@ impl Standing {
         }
     }
 
-    /// Takes over a change.
+    /// Applies a change.
     pub fn apply(&mut self, change: &Change) {
         match *change {
             Change::Activated(priority) | Change::Raised(priority) => {
                 self.active = Some(priority);
-                // Who shelved it knows of it.
+                // The operator who shelved the alarm knows of it.
                 if self.shelf.is_none() {
                     self.unacknowledged = self.unacknowledged.max(self.active);
                 }

@@ -1,4 +1,4 @@
-//! How many alarms there are: the figures by which ISA-18.2 and EEMUA 191 judge an alarm system.
+//! The figures by which ISA-18.2 and EEMUA 191 judge an alarm system.
 
 use std::collections::VecDeque;
 
@@ -6,20 +6,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Priority, Time, span};
 
-/// Span in which alarms make a flood (s).
+/// Span of a flood (s).
 const FLOOD_SPAN: f64 = 600.0;
-/// More than so many in that span are a flood.
+/// More annunciations than this within the span are a flood.
 const FLOOD: usize = 10;
-/// Span in which an alarm that repeats itself chatters (s).
+/// Span in which the repetitions of an alarm count as chattering (s).
 const CHATTER_SPAN: f64 = 60.0;
 
-/// Time that must have been watched before a mean per hour is a rate (s): less would extrapolate a moment.
+/// Observed time from which on a mean per hour is given (s), so that it never extrapolates.
 const RATE_SPAN: f64 = 3600.0;
 
-/// Longest time between two looks in which somebody watched (s): after more the program was not running.
+/// Longest interval between two observations that counts as observed (s): in a longer one the program did not run.
 const WATCHED_GAP: f64 = 60.0;
 
-/// Annunciations: each time that an alarm calls for somebody.
+/// Counts of annunciations.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Per alarm.

@@ -11,24 +11,24 @@ use crate::{
 /// An alarm of the set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Definition {
-    /// Its name for programs, by which it is found again after a restart.
+    /// The identifier for programs, which a restart uses to restore the alarm.
     pub id: &'static str,
     /// Its delays.
     pub delays: Delays,
-    /// False takes it out of service.
+    /// False for an alarm out of service.
     pub in_service: bool,
 }
 
-/// One alarm as it stands.
+/// The present state of an alarm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Alarm {
     /// Its state.
     pub standing: Standing,
-    /// When its present state began.
+    /// The begin of the present state.
     pub since: Time,
 }
 
-/// Alarms with their journal's numbers, requests and figures. Every method appends the events that it causes.
+/// A fixed set of alarms. Every method appends the events that it causes to the journal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlarmSystem {
     definitions: Vec<Definition>,
@@ -51,11 +51,11 @@ impl AlarmSystem {
         }
     }
 
-    /// Takes a saved state up where the ids are the same; alarms that it does not have begin anew. To be called before
-    /// anything else.
+    /// Restores a saved state for the ids that it contains; all other alarms begin as normal. Call it before anything
+    /// else.
     ///
     /// # Errors
-    /// When another version saved it.
+    /// When another version saved the state.
     pub fn restore(&mut self, saved: &Saved) -> Result<(), SavedError> {
         if saved.format != FORMAT {
             return Err(SavedError::Format { found: saved.format });
@@ -74,7 +74,7 @@ impl AlarmSystem {
         Ok(())
     }
 
-    /// The state to be kept.
+    /// The state to save.
     pub fn save(&self) -> Saved {
         let alarms = self.definitions.iter().zip(&self.alarms);
         Saved {
@@ -90,22 +90,22 @@ impl AlarmSystem {
         }
     }
 
-    /// The definitions, in the order that alarms are counted in.
+    /// The definitions in the order of the alarms' indices.
     pub fn definitions(&self) -> &[Definition] {
         &self.definitions
     }
 
-    /// An alarm as it stands; normal for a number that is none.
+    /// The present state of an alarm; normal for an index that does not exist.
     pub fn alarm(&self, index: usize) -> Alarm {
         self.alarms
             .get(index)
             .map_or_else(|| Alarm::of(&Timed::default()), Alarm::of)
     }
 
-    /// The number of an alarm.
+    /// The index of an alarm.
     ///
     /// # Errors
-    /// When there is none of that id.
+    /// When no alarm has the id.
     pub fn find(&self, id: &str) -> Result<usize, Refusal> {
         let found = self.definitions.iter().position(|definition| definition.id == id);
         found.ok_or_else(|| self.unknown(id))
@@ -118,17 +118,17 @@ impl AlarmSystem {
         }
     }
 
-    /// Events so far.
+    /// The number of events so far.
     pub fn sequence(&self) -> u64 {
         self.sequence
     }
 
-    /// How many alarms there have been.
+    /// The counts and figures so far.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
     }
 
-    /// Puts alarms out of service and back as their definitions say, after a start or a change of configuration.
+    /// Takes alarms out of service or puts them back, as their definitions say after a start or a change.
     pub fn follow_definitions(&mut self, time: Time, events: &mut Vec<Event>) {
         for index in 0..self.alarms.len() {
             let out = !self.definitions[index].in_service;
@@ -140,32 +140,32 @@ impl AlarmSystem {
         }
     }
 
-    /// Takes the condition of an alarm.
+    /// Observes the condition of an alarm.
     pub fn observe(&mut self, index: usize, time: Time, observed: &Observation<'_>, events: &mut Vec<Event>) {
         let Some(delays) = self.definitions.get(index).map(|definition| definition.delays) else {
             return;
         };
-        // Each change brings the alarm nearer to what is observed; the longest way, suppressed under a shelf that has
-        // ended, is shorter than this.
+        // Each change brings the state closer to the observation. The longest chain, for a suppressed alarm whose shelving
+        // has ended, is shorter than this bound.
         for _ in 0..8 {
             let Some(change) = self.alarms[index].next(time, observed, delays) else {
                 break;
             };
-            let nobody = Operator { name: "", reason: "" };
+            let no_operator = Operator { name: "", reason: "" };
             let before = self.alarms[index].standing;
-            self.change(index, time, change, &nobody, observed.evidence, events);
+            self.change(index, time, change, &no_operator, observed.evidence, events);
             let after = self.alarms[index].standing;
             let gone = before.active().is_some() && after.active().is_none();
             if gone && after.shelf().is_some_and(|shelf| shelf.one_shot) {
                 let change = Change::Unshelved(Unshelving::Returned);
-                self.change(index, time, change, &nobody, observed.evidence, events);
+                self.change(index, time, change, &no_operator, observed.evidence, events);
             }
         }
     }
 
-    /// Lets time pass on the clock of requests, for shelves and figures. To be called before what happens then is
-    /// observed, which may carry the time of another clock. When the clock goes back, shelves end: nobody could say how
-    /// long they would last.
+    /// Advances the clock of requests, for shelvings and figures. Call it before the observations of that time, which may
+    /// carry the time of another clock. When the clock steps back, shelvings end, because their remaining time would be
+    /// unknown.
     pub fn advance(&mut self, time: Time, events: &mut Vec<Event>) {
         let went_back = self.statistics.last().is_some_and(|last| time < last);
         self.statistics.advance(time);
@@ -182,10 +182,10 @@ impl AlarmSystem {
         }
     }
 
-    /// An operator says that he knows.
+    /// Acknowledges an alarm.
     ///
     /// # Errors
-    /// When nobody says so, or there is nothing to acknowledge.
+    /// When the request has no operator, or there is nothing to acknowledge.
     pub fn acknowledge(
         &mut self,
         index: usize,
@@ -202,10 +202,10 @@ impl AlarmSystem {
         Ok(())
     }
 
-    /// An operator says that he knows all that is to be known; how many alarms that were.
+    /// Acknowledges all alarms. Returns how many there were.
     ///
     /// # Errors
-    /// When nobody says so.
+    /// When the request has no operator.
     pub fn acknowledge_all(
         &mut self,
         time: Time,
@@ -222,10 +222,10 @@ impl AlarmSystem {
         Ok(count)
     }
 
-    /// An operator puts an alarm aside. One that is shelved already is shelved anew. Until when.
+    /// Shelves an alarm, also one that is shelved already. Returns the end of the shelving.
     ///
     /// # Errors
-    /// When nobody asks or gives no reason, the alarm is out of service, or the time is too long or none.
+    /// When operator or reason is missing, the alarm is out of service, or the duration is outside its bounds.
     pub fn shelve(
         &mut self,
         index: usize,
@@ -261,10 +261,10 @@ impl AlarmSystem {
         Ok(until)
     }
 
-    /// An operator wants an alarm back.
+    /// Ends a shelving.
     ///
     /// # Errors
-    /// When nobody asks, or it is not shelved.
+    /// When the request has no operator, or the alarm is not shelved.
     pub fn unshelve(
         &mut self,
         index: usize,

@@ -42,7 +42,7 @@
 //! # Layout
 //! - [`tool`]: what is modelled, as plain structs, and its checks.
 //! - [`twin`]: simulation, settings, snapshots, checkpoints, the schedule of outputs.
-//! - [`motion`]: from motion to whirl, stick-slip, shock, their levels and a table of incidents. Usable alone, on
+//! - [`motion`]: from motion to whirl, stick-slip, shock, their levels and a table of episodes. Usable alone, on
 //!   measured orbits.
 //! - [`inputs`]: from samples of a rig to inputs of a step: limits, ages, safe values.
 //! - [`dynamics`]: residual, time scheme, Newton, steps; `elements`, `model`, `linear`, `simd` below it.

@@ -38,7 +38,9 @@ async function check(outputs) {
     if (there !== text) old.push(name);
   }
   if (old.length > 0) {
-    console.error(`dist/ is old (${old.join(", ")}): run \`npm ci && npm run build\` in crates/flexdrill-dashboard/web`);
+    console.error(
+      `dist/ is old (${old.join(", ")}): run \`npm ci && npm run build\` in crates/flexdrill-dashboard/web`,
+    );
     process.exit(1);
   }
   console.log(`dist/ is what the sources give: ${[...outputs.keys()].join(", ")}`);

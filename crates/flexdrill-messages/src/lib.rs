@@ -3,6 +3,7 @@
 
 mod cdr;
 pub mod fill;
+mod journal;
 pub mod large_array;
 mod message;
 pub mod outputs;

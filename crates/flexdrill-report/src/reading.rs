@@ -205,14 +205,14 @@ impl Reader {
                 let list: AlarmList = message.decode()?;
                 let _ = self.stamp(&list.header);
                 let origin = self.origin.unwrap_or_default();
-                self.summary.incidents.alarms(list, |alarm| {
-                    alarm.since.to_nanoseconds().saturating_sub(origin) as f64 * 1e-9
-                });
+                self.summary
+                    .incidents
+                    .alarms(list, |alarm| alarm.since.to_nanoseconds().saturating_sub(origin));
             }
             AlarmEvent::ROS_TYPE => {
                 let event: AlarmEvent = message.decode()?;
                 let time = self.stamp(&event.header);
-                self.summary.incidents.event(time, &event);
+                self.summary.incidents.event((1e9 * time).round() as i64, &event);
             }
             TwinStatus::ROS_TYPE => {
                 let status: TwinStatus = message.decode()?;
@@ -250,8 +250,7 @@ impl Reader {
         summary.start = self.origin.unwrap_or_default();
         summary.end = summary.end.max(summary.start);
         summary.locations.finish();
-        let end = (summary.end.saturating_sub(summary.start)) as f64 * 1e-9;
-        summary.incidents.finish(end);
+        summary.incidents.finish(summary.end.saturating_sub(summary.start));
         if let Some(session) = &summary.session {
             match Config::from_text("the recorded configuration", &session.configuration) {
                 Ok(config) => summary.config = Some(config),

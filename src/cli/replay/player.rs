@@ -195,7 +195,7 @@ impl Player {
 
     /// Ends the bag.
     pub(super) fn finish(mut self) -> anyhow::Result<(Recording, Tally)> {
-        self.tally.alarms.figures = self.alarms.figures();
+        self.tally.alarms.finish(self.alarms.figures());
         self.tally.phases(self.run.simulation().phase_times());
         let recording = self.recorder.finish().context("the bag could not be finished")?;
         Ok((recording, self.tally))

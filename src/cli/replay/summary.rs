@@ -6,7 +6,7 @@ use super::alarms::AlarmTally;
 use crate::cli::output::say;
 use crate::messages::words;
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
-use flexdrill_core::motion::{Ageing, Incident, IncidentLocation, IncidentLog, Observation};
+use flexdrill_core::motion::{Ageing, Episode, EpisodeLog, Observation, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
@@ -51,7 +51,7 @@ pub(super) struct Tally {
     last: Option<Last>,
     wear: WearTally,
     quality: QualityTally,
-    incidents: IncidentLog,
+    episodes: EpisodeLog,
     phases: PhaseTimes,
     /// Encoding and writing messages (ns).
     publish: u64,
@@ -205,7 +205,7 @@ impl Tally {
             .filter(|(angle, limit)| angle >= limit)
             .count();
         self.joints_at_limit = self.joints_at_limit.max(at_limit);
-        self.incidents.push(&Observation {
+        self.episodes.push(&Observation {
             time,
             whirl: &snapshot.whirl,
             stick_slip: (snapshot.bit.stick_slip, snapshot.bit.stick_slip_index),
@@ -223,9 +223,9 @@ impl Tally {
         });
     }
 
-    /// The incidents, in the order of their begin.
-    pub(super) fn incidents(&mut self) -> Vec<Incident> {
-        std::mem::take(&mut self.incidents).finish()
+    /// The episodes of the motion, in the order of their begin.
+    pub(super) fn episodes(&mut self) -> Vec<Episode> {
+        std::mem::take(&mut self.episodes).finish()
     }
 
     /// Prints the summary. `wall` is the wall time of the replay (s), `time_step` the model's step (s).
@@ -324,7 +324,7 @@ impl Tally {
 }
 
 /// The location of the bit: the last station.
-fn bit_location(snapshot: &Snapshot) -> IncidentLocation {
+fn bit_location(snapshot: &Snapshot) -> ToolLocation {
     location(
         snapshot,
         snapshot.contacts.measured_depth.len().saturating_sub(1),
@@ -333,7 +333,7 @@ fn bit_location(snapshot: &Snapshot) -> IncidentLocation {
 }
 
 /// The location of the shock.
-fn shock_location(snapshot: &Snapshot) -> IncidentLocation {
+fn shock_location(snapshot: &Snapshot) -> ToolLocation {
     let body = if snapshot.shock.layer == 0 {
         Body::Pipe
     } else {
@@ -342,9 +342,9 @@ fn shock_location(snapshot: &Snapshot) -> IncidentLocation {
     location(snapshot, snapshot.shock.station, body)
 }
 
-fn location(snapshot: &Snapshot, station: usize, body: Body) -> IncidentLocation {
+fn location(snapshot: &Snapshot, station: usize, body: Body) -> ToolLocation {
     let at = |values: &[f64]| values.get(station).copied().unwrap_or_default();
-    IncidentLocation {
+    ToolLocation {
         station,
         body,
         measured_depth: at(&snapshot.contacts.measured_depth),

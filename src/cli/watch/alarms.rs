@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use crate::messages::{Alarm, AlarmList, words};
 use flexdrill_core::units::rad_to_deg;
 
-/// The alarms that call for an operator, the worst first as in the list; those of the computer follow the driller's.
-pub(super) fn shown(list: &AlarmList) -> impl Iterator<Item = &Alarm> {
+/// The alarms that require a response, the worst first as in the list; those of the computer follow the driller's.
+pub(super) fn standing(list: &AlarmList) -> impl Iterator<Item = &Alarm> {
     let of = |category: u8| {
         list.alarms.iter().filter(move |alarm| {
             alarm.category == category
@@ -21,7 +21,7 @@ pub(super) fn shown(list: &AlarmList) -> impl Iterator<Item = &Alarm> {
     of(Alarm::DRILLING).chain(of(Alarm::SYSTEM))
 }
 
-/// How many of which state there are.
+/// The number of alarms in each state.
 pub(super) fn summary(list: &AlarmList) -> String {
     let count = |state: u8| list.alarms.iter().filter(|alarm| alarm.state == state).count();
     let counts = [
@@ -31,15 +31,15 @@ pub(super) fn summary(list: &AlarmList) -> String {
         (count(Alarm::SUPPRESSED_BY_DESIGN), "suppressed by design"),
         (count(Alarm::OUT_OF_SERVICE), "out of service"),
     ];
-    let said: Vec<String> = counts
+    let texts: Vec<String> = counts
         .into_iter()
         .filter(|(count, _)| *count > 0)
         .map(|(count, what)| format!("{count} {what}"))
         .collect();
-    let mut text = if said.is_empty() {
+    let mut text = if texts.is_empty() {
         "none".to_owned()
     } else {
-        said.join(", ")
+        texts.join(", ")
     };
     if list.flood {
         let _ = write!(text, "; FLOOD: {} in 10 min", list.annunciations_last_ten_minutes);
@@ -47,10 +47,11 @@ pub(super) fn summary(list: &AlarmList) -> String {
     text
 }
 
-/// Priority, name, state and place.
+/// Priority, name, state and location.
 pub(super) fn headline(alarm: &Alarm) -> String {
-    let place = match alarm.body {
+    let location = match alarm.body {
         Alarm::NOWHERE => String::new(),
+        _ if !alarm.measured_depth.is_finite() || !alarm.inclination.is_finite() => String::new(),
         body => format!(
             ", {} at {:.2} m ({:.0} deg)",
             if body == Alarm::GUIDE { "guide" } else { "pipe" },
@@ -63,7 +64,7 @@ pub(super) fn headline(alarm: &Alarm) -> String {
     } else {
         String::new()
     };
-    let whom = if alarm.category == Alarm::SYSTEM {
+    let addressee = if alarm.category == Alarm::SYSTEM {
         "computer: "
     } else {
         ""
@@ -74,14 +75,14 @@ pub(super) fn headline(alarm: &Alarm) -> String {
         ""
     };
     format!(
-        "{whom}{} {}, {}{place}{chatters}{earlier}",
+        "{addressee}{} {}, {}{location}{chatters}{earlier}",
         words::alarm_priority(alarm.priority).to_uppercase(),
         alarm.name,
         words::alarm_state(alarm.state)
     )
 }
 
-/// What is seen, why it matters, what the driller can do and what the engineer can do.
+/// What happens, why it matters, what the driller can do and what the engineer can do.
 pub(super) fn sentences(alarm: &Alarm) -> String {
     let mut text = [&alarm.evidence, &alarm.consequence, &alarm.what_to_do]
         .into_iter()
@@ -131,7 +132,7 @@ mod tests {
             ],
             ..AlarmList::default()
         };
-        let lines: Vec<String> = shown(&list).map(headline).collect();
+        let lines: Vec<String> = standing(&list).map(headline).collect();
         assert_eq!(
             lines,
             [

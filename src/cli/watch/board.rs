@@ -1,4 +1,4 @@
-//! What the dashboard knows: the newest message of each topic, a short history of the bit, and held force peaks.
+//! The state of the dashboard: the newest message of each topic, a short history of the bit, and held force peaks.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -9,7 +9,7 @@ use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, Twin
 use flexdrill_core::units::rad_per_s_to_rpm;
 use flexdrill_text::printable;
 
-/// A heart that has not beaten for this long is lost: ten beats at the default 5 Hz.
+/// A heartbeat is lost after this time: ten beats at the default 5 Hz.
 const HEARTBEAT_LOST: Duration = Duration::from_secs(2);
 /// Length of the bit's history in model time (s).
 pub(super) const HISTORY: f64 = 30.0;
@@ -43,10 +43,10 @@ pub(super) struct Board {
 /// Whether the twin's heart beats.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Heartbeat {
-    /// Nothing heard since this long.
+    /// No message has been received for this time.
     Waiting(Duration),
     Beating,
-    /// Last heard this long ago.
+    /// The last message is this old.
     Lost(Duration),
 }
 
@@ -79,7 +79,7 @@ impl Board {
             &mut status.dds_stalled_reader,
             &mut status.recording_drops_cause,
         ] {
-            show(text);
+            escape(text);
         }
         let lists = [
             &mut status.input_name,
@@ -90,8 +90,8 @@ impl Board {
             &mut status.phase_name,
             &mut status.namesake,
         ];
-        lists.into_iter().flatten().for_each(show);
-        // A heartbeat that counts anew is another run: what is known of the last one no longer holds.
+        lists.into_iter().flatten().for_each(escape);
+        // A heartbeat that counts from the start again belongs to another run, so that the state of the last one is void.
         if self
             .status
             .as_ref()
@@ -140,9 +140,9 @@ impl Board {
         self.whirl = Some(whirl);
     }
 
-    /// A latched topic may bring old samples too: the one with the highest sequence holds.
+    /// A latched topic may deliver old samples too: the highest sequence counts.
     pub(super) fn update_warning(&mut self, mut warning: WhirlWarning) {
-        show(&mut warning.message);
+        escape(&mut warning.message);
         if self
             .warning
             .as_ref()
@@ -152,7 +152,7 @@ impl Board {
         }
     }
 
-    /// As with warnings; of lists with the same sequence the newest holds.
+    /// As with warnings; of lists with the same sequence the newest counts.
     pub(super) fn update_alarms(&mut self, mut alarms: AlarmList) {
         for alarm in &mut alarms.alarms {
             for text in [
@@ -165,7 +165,7 @@ impl Board {
                 &mut alarm.what_to_do,
                 &mut alarm.what_the_engineer_can_do,
             ] {
-                show(text);
+                escape(text);
             }
         }
         let newer = |last: &AlarmList| {
@@ -226,12 +226,12 @@ impl Board {
         [&self.pipe_guide, &self.guide_wall]
     }
 
-    /// Samples that did not fit their type: the twin and the dashboard are of different versions.
+    /// Samples that could not be decoded, because the versions of twin and dashboard differ.
     pub(super) fn unreadable(&self) -> u64 {
         self.unreadable
     }
 
-    /// Everything that a twin always sends has been heard.
+    /// Whether every periodic topic of a twin has been received.
     pub(super) fn is_complete(&self) -> bool {
         self.missing().is_empty()
     }
@@ -246,15 +246,15 @@ impl Board {
             (self.whirl.is_some(), topics::WHIRL),
         ]
         .into_iter()
-        .filter_map(|(heard, topic)| (!heard).then_some(topic.name))
+        .filter_map(|(received, topic)| (!received).then_some(topic.name))
         .collect()
     }
 }
 
-/// Whoever publishes on the topic may have written the text: it must not act on the terminal.
-fn show(text: &mut String) {
-    if let Cow::Owned(shown) = printable(text) {
-        *text = shown;
+/// Escapes control characters: any publisher may have written the text, and it must not control the terminal.
+fn escape(text: &mut String) {
+    if let Cow::Owned(escaped) = printable(text) {
+        *text = escaped;
     }
 }
 
@@ -327,7 +327,7 @@ mod tests {
         serde_json::from_value(message).unwrap()
     }
 
-    fn is_shown(message: &impl serde::Serialize) {
+    fn is_escaped(message: &impl serde::Serialize) {
         // JSON writes control characters as its own escapes, and each backslash of ours as two.
         let text = serde_json::to_string(message).unwrap();
         assert!(text.contains("\\\\u{1b}[2J"), "{text}");
@@ -348,10 +348,10 @@ mod tests {
             ..AlarmList::default()
         };
         board.update_alarms(list);
-        is_shown(board.status().unwrap());
-        // The frame's name stands in no picture.
-        is_shown(&board.warning().unwrap().message);
-        is_shown(&board.alarms().unwrap().alarms[0]);
+        is_escaped(board.status().unwrap());
+        // The frame's name is in no picture.
+        is_escaped(&board.warning().unwrap().message);
+        is_escaped(&board.alarms().unwrap().alarms[0]);
     }
 
     #[test]

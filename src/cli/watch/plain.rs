@@ -77,7 +77,7 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
     writeln!(text, "warning    {}", texts::warning(board.warning()))?;
     if let Some(list) = board.alarms() {
         writeln!(text, "alarms     {}", alarms::summary(list))?;
-        for alarm in alarms::shown(list) {
+        for alarm in alarms::standing(list) {
             writeln!(text, "alarm      {}", alarms::headline(alarm))?;
             writeln!(text, "           {}", alarms::sentences(alarm))?;
         }
@@ -85,7 +85,7 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
     if board.unreadable() > 0 {
         writeln!(
             text,
-            "note       {} messages could not be read: twin and dashboard are of different versions",
+            "note       {} messages could not be read: the versions of twin and dashboard differ",
             board.unreadable()
         )?;
     }
@@ -98,10 +98,10 @@ mod tests {
     use crate::messages::{BitState, ContactForces, TwinStatus};
 
     #[test]
-    fn an_empty_board_says_that_it_waits() {
+    fn an_empty_board_waits_for_a_twin() {
         let now = Instant::now();
         let text = block(&Board::new(now), now);
-        assert!(text.starts_with("waiting for a twin since 0 s\n"), "{text}");
+        assert!(text.starts_with("waiting for a twin for 0 s\n"), "{text}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The dashboard as a full screen. Made for 80 x 24; what is larger gets more chart, what is smaller loses the lower
+//! The dashboard as a full screen, designed for 80 x 24. A larger screen has larger charts; a smaller one loses the lower
 //! blocks first.
 
 mod charts;
@@ -19,8 +19,8 @@ const GOOD: Color = Color::Green;
 const DOUBTFUL: Color = Color::Yellow;
 const BAD: Color = Color::Red;
 
-/// Waits up to `patience` for a key and says whether it means to quit. A resize is an event too: the next picture has
-/// the new size by itself.
+/// Waits up to `patience` for a key; whether it is one that quits. A resize ends the wait too, and the next picture has
+/// the new size.
 pub(super) fn quit_pressed(patience: Duration) -> std::io::Result<bool> {
     if !event::poll(patience)? {
         return Ok(false);
@@ -35,7 +35,7 @@ pub(super) fn quit_pressed(patience: Duration) -> std::io::Result<bool> {
 
 /// Draws the board as it is at `now`.
 pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
-    // What is left over 24 lines goes to the alarms by a third, as far as they can use it.
+    // A third of the lines beyond 24 goes to the alarms, at most ten lines.
     let spare = frame.area().height.saturating_sub(24) / 3;
     let [title, warning, levels, top, middle, bottom] = Layout::vertical([
         Constraint::Length(1),
@@ -221,7 +221,7 @@ mod tests {
         assert!(
             text.lines()
                 .next()
-                .is_some_and(|line| line.contains("HEARTBEAT LOST: last heard 9 s ago")),
+                .is_some_and(|line| line.contains("HEARTBEAT LOST: last message 9 s ago")),
             "{text}"
         );
     }

@@ -16,7 +16,7 @@ pub(super) fn state(code: u8) -> &'static str {
     }
 }
 
-/// How fast the model goes against the clock.
+/// The real-time factor of the model.
 pub(super) fn pace(status: &TwinStatus) -> String {
     if status.real_time_factor.is_finite() {
         format!("x{:.3} real time", status.real_time_factor)
@@ -42,28 +42,31 @@ pub(super) fn severity(code: u8) -> String {
     words::severity(code).to_uppercase()
 }
 
-/// How far the motion can be trusted, in a word.
+/// The quality of the model in a word.
 pub(super) fn quality(status: &TwinStatus) -> String {
     words::model_quality(status.model_quality).to_uppercase()
 }
 
 /// The same with share and cause.
 pub(super) fn quality_with_cause(status: &TwinStatus) -> String {
-    let share = 100.0 * status.energy_error_share;
-    let text = format!("{}, energy error {share:.0} %", quality(status));
+    let share = match status.energy_error_share {
+        share if share.is_finite() => format!(", energy error {:.0} %", 100.0 * share),
+        _ => String::new(),
+    };
+    let text = format!("{}{share}", quality(status));
     if status.model_quality_cause.is_empty() {
         return text;
     }
     format!("{text}: {}", status.model_quality_cause)
 }
 
-/// Says that the twin is silent, when it is.
+/// The line on a silent twin; none while its heart beats.
 pub(super) fn heartbeat(board: &Board, now: Instant) -> Option<String> {
     match board.heartbeat(now) {
         Heartbeat::Beating => None,
-        Heartbeat::Waiting(time) => Some(format!("waiting for a twin since {}", lapse(time))),
+        Heartbeat::Waiting(time) => Some(format!("waiting for a twin for {}", lapse(time))),
         Heartbeat::Lost(time) => Some(format!(
-            "HEARTBEAT LOST: last heard {} ago; the values below are old",
+            "HEARTBEAT LOST: last message {} ago; the values below are old",
             lapse(time)
         )),
     }
@@ -94,7 +97,7 @@ pub(super) fn force(newton: f64) -> String {
     }
 }
 
-/// One line per input: name, value that acts, value as received, state, age, refused samples.
+/// One line per input: name, applied value, received value, state, age, refused samples.
 pub(super) fn inputs(status: &TwinStatus) -> Vec<(String, u8)> {
     status
         .input_name
@@ -141,23 +144,23 @@ fn number(value: f64) -> String {
 }
 
 /// Inclination and depth of a station.
-pub(super) fn place(contacts: &ContactForces, station: usize) -> String {
+pub(super) fn location(contacts: &ContactForces, station: usize) -> String {
     match (contacts.inclination.get(station), contacts.measured_depth.get(station)) {
         (Some(inclination), Some(depth)) => format!("{:.0} deg, {depth:.2} m", rad_to_deg(*inclination)),
         _ => "?".to_owned(),
     }
 }
 
-/// Held largest force of a layer and where.
+/// The largest held force of a layer and its location.
 pub(super) fn largest(board: &Board, layer: usize) -> String {
     let held = board.peaks()[layer].largest();
     match (held, board.contacts()) {
-        (Some((station, newton)), Some(contacts)) => format!("{} at {}", force(newton), place(contacts, station)),
+        (Some((station, newton)), Some(contacts)) => format!("{} at {}", force(newton), location(contacts, station)),
         _ => "no contact".to_owned(),
     }
 }
 
-/// Joints: how far the most bent one is, where, and how many are at their limit.
+/// The number of joints at their limit, and the bend of the most bent joint.
 pub(super) fn joints(board: &Board) -> String {
     let Some(joints) = board.joints() else {
         return "-".to_owned();
@@ -173,7 +176,7 @@ pub(super) fn joints(board: &Board) -> String {
     )
 }
 
-/// Number of watched places per kind.
+/// The number of watched stations per kind.
 pub(super) fn whirl_counts(whirl: &WhirlState) -> String {
     let count = |kind: u8| whirl.kind.iter().filter(|&&at| at == kind).count();
     format!(
@@ -185,13 +188,13 @@ pub(super) fn whirl_counts(whirl: &WhirlState) -> String {
     )
 }
 
-/// Difference to the rate of rolling without slip up to which backward whirl is shown as rolling, as by default in the
-/// twin.
-const ROLLS: f64 = 0.15;
+/// Largest difference of the whirl rate from that of rolling without slip, over the latter, for whirl that is called
+/// rolling: the default of the twin.
+const ROLLING_TOLERANCE: f64 = 0.15;
 
 /// One row of the whirl table.
 pub(super) struct WhirlRow {
-    pub(super) place: String,
+    pub(super) location: String,
     pub(super) kind: u8,
     /// The kind in a word; backward whirl that rolls says so.
     pub(super) word: &'static str,
@@ -201,7 +204,7 @@ pub(super) struct WhirlRow {
     pub(super) confidence: f64,
 }
 
-/// Places that whirl, the widest orbit first.
+/// The stations that whirl, the widest orbit first.
 pub(super) fn whirl_rows(whirl: &WhirlState) -> Vec<WhirlRow> {
     let at = |values: &[f64], index: usize| values.get(index).copied().unwrap_or(f64::NAN);
     let mut order: Vec<usize> = (0..whirl.kind.len())
@@ -211,14 +214,14 @@ pub(super) fn whirl_rows(whirl: &WhirlState) -> Vec<WhirlRow> {
     order
         .into_iter()
         .map(|index| WhirlRow {
-            place: format!(
+            location: format!(
                 "{:>3.0} {}",
                 rad_to_deg(at(&whirl.inclination, index)),
                 body(whirl.body.get(index).copied().unwrap_or_default())
             ),
             kind: whirl.kind[index],
             word: match (whirl.kind[index], at(&whirl.rolling_share, index)) {
-                (WhirlState::BACKWARD, share) if (share - 1.0).abs() <= ROLLS => "rolling",
+                (WhirlState::BACKWARD, share) if (share - 1.0).abs() <= ROLLING_TOLERANCE => "rolling",
                 (kind, _) => words::whirl_kind(kind),
             },
             ratio: at(&whirl.whirl_ratio, index),
@@ -229,19 +232,19 @@ pub(super) fn whirl_rows(whirl: &WhirlState) -> Vec<WhirlRow> {
         .collect()
 }
 
-/// Level of stick-slip with the index that led to it; the severity's code.
+/// The level of stick-slip with its index, and the code of the level.
 pub(super) fn stick_slip(bit: &BitState) -> (String, u8) {
     let text = format!("{} {:.2}", severity(bit.stick_slip_severity), bit.stick_slip_index);
     (text, bit.stick_slip_severity)
 }
 
-/// Level of lateral shock with the impulse; where, unless all is well. The severity's code, which is that of warnings.
+/// The level of lateral shock with its impulse and, above OK, its location, and the code of the level.
 pub(super) fn shock(contacts: &ContactForces) -> (String, u8) {
     let level = contacts.shock_severity;
     let mut text = format!("{} {:.1} N s", severity(level), contacts.shock_impulse);
     if level != ContactForces::SHOCK_OK {
         let layer = words::layer(usize::from(contacts.shock_layer == ContactForces::OUTER));
-        text += &format!(" {layer} at {}", place(contacts, contacts.shock_station as usize));
+        text += &format!(" {layer} at {}", location(contacts, contacts.shock_station as usize));
     }
     (text, level)
 }

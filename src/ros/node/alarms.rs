@@ -162,6 +162,7 @@ pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure
     let state = NodeState {
         conditioner: &conditioner,
         dds: parts.dds.health(),
+        namesakes: parts.dds.namesakes().iter().map(ToString::to_string).collect(),
         now,
         drivers,
         run_state: parts.gauges.run_state(),

@@ -11,12 +11,12 @@ use super::control::Change;
 use super::publishers::Publishers;
 use super::rig::{Now, Received, RigTime, ToRecord};
 use super::thinned::{Share, Thinned};
+use crate::alarms::{another_of_this_name, not_in_real_time};
 use crate::bag::RecordingThread;
 use crate::dds::port::Monitor;
-use crate::health::diagnostics::{Diagnostics, Evidence};
+use crate::health::diagnostics;
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
-use crate::health::{another_of_this_name, not_in_real_time};
 use crate::live::LiveServer;
 use crate::messages::diagnostic_msgs::DiagnosticArray;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange};
@@ -25,6 +25,7 @@ use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, Message, TwinStatus, to_cdr};
 use crate::rig_inputs::Intake;
 use flexdrill_config::Config;
+use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::Conditioner;
 use flexdrill_core::twin::{Output, RunInputs};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
@@ -86,8 +87,9 @@ pub struct Publisher {
     outputs: Option<Outputs>,
     thinned: Thinned,
     status: StatusKeeper,
-    diagnostics: Diagnostics,
-    evidence: Evidence,
+    motion: MotionEvidence,
+    /// The failed step, while the model is stopped by it.
+    failure: Option<StepFailure>,
     pending: Vec<Change>,
     next_status: u64,
     next_diagnostics: u64,
@@ -114,8 +116,8 @@ impl Publisher {
             parts,
             outputs: None,
             status,
-            diagnostics: Diagnostics::default(),
-            evidence: Evidence::default(),
+            motion: MotionEvidence::default(),
+            failure: None,
             pending: Vec::new(),
             next_status: now,
             next_diagnostics: now,
@@ -191,7 +193,7 @@ impl Publisher {
         }
         if due(&mut self.next_alarms, now, NODE_ALARM_RATE) {
             let pace = self.status.pace();
-            alarms::judge_node(&mut self.parts, self.evidence.failure, pace);
+            alarms::judge_node(&mut self.parts, self.failure, pace);
         }
         let parts = &mut self.parts;
         parts.alarms.answer(|| (parts.rig_time)());
@@ -219,7 +221,7 @@ impl Publisher {
         match event {
             LoopEvent::Frame(frame) => {
                 self.status.observe(&frame.snapshot);
-                self.evidence.motion = MotionEvidence::of(&frame.snapshot);
+                self.motion = MotionEvidence::of(&frame.snapshot);
                 let (parts, thinned) = (&self.parts, &mut self.thinned);
                 let began = monotonic::now();
                 let sent = self.outputs.as_mut().map_or(Ok(()), |outputs| {
@@ -251,14 +253,14 @@ impl Publisher {
             } => self.applied(&inputs, ticks, commands),
             LoopEvent::Failed(failure, _) => {
                 self.status.fail(failure);
-                self.evidence.failure = Some(failure);
+                self.failure = Some(failure);
                 // Inputs that change all the time try the step again all the time.
                 let clock = monotonic::now() as f64 * 1e-9;
                 let more = self.failure_lines.ending(failure.cause.name(), clock);
                 self.failure_told |= more.is_some();
                 if let Some(more) = more {
                     tracing::error!(
-                        "a step failed at model time {:.4} s: {failure}; the outputs stand still until the inputs change or \
+                        "a step failed at model time {:.4} s: {failure}; the outputs are frozen until the inputs change or \
                          ~/reset is called{more}",
                         failure.time
                     );
@@ -269,9 +271,9 @@ impl Publisher {
             }
             LoopEvent::Recovered => {
                 if std::mem::take(&mut self.failure_told) {
-                    tracing::info!("the model moves again");
+                    tracing::info!("the model runs again");
                 }
-                self.evidence.failure = None;
+                self.failure = None;
                 Ok(())
             }
         }
@@ -279,7 +281,7 @@ impl Publisher {
 
     fn applied(&mut self, inputs: &RunInputs, ticks: u64, commands: u64) -> Result<(), CdrError> {
         if inputs.reset {
-            self.evidence.failure = None;
+            self.failure = None;
         }
         self.pending.extend(self.parts.changes.try_iter());
         let (acting, waiting): (Vec<Change>, Vec<Change>) = std::mem::take(&mut self.pending)
@@ -344,7 +346,8 @@ impl Publisher {
         match status.pace {
             TwinStatus::PACE_FAR_BEHIND if !self.late => {
                 tracing::warn!(
-                    "{}; end other programs on this computer or run the twin on a faster core",
+                    "not in real time: {}; close other programs and viewers, set solver.step: fixed for the next run, or \
+                     use a computer with faster cores",
                     not_in_real_time(status.pace_factor)
                 );
                 self.late = true;
@@ -368,17 +371,18 @@ impl Publisher {
         }
         self.namesake = true;
         if let Some(more) = self.namesake_lines.ending(monotonic::now() as f64 * 1e-9) {
-            tracing::warn!("{}{more}", another_of_this_name(&status.namesake));
+            tracing::warn!(
+                "{}; start one of them with another --namespace{more}",
+                another_of_this_name(&status.namesake)
+            );
         }
     }
 
     fn send_diagnostics(&mut self) {
-        self.evidence.alarms = self.parts.alarms.list(self.header());
+        let alarms = self.parts.alarms.list(self.header());
         let message = DiagnosticArray {
             header: self.header(),
-            status: self
-                .diagnostics
-                .judge(&self.parts.node_name, &self.newest_status, &self.evidence),
+            status: diagnostics::items(&self.parts.node_name, &self.newest_status, &self.motion, &alarms),
         };
         self.parts.send_message(&topics::DIAGNOSTICS, &message, self.instant());
     }

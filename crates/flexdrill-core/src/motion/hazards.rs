@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Severity;
 use super::drive::DriveState;
-use super::incidents::IncidentLocation;
+use super::episodes::ToolLocation;
 
 /// A danger that an operator can do something about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,7 +59,7 @@ pub struct Hazard {
     /// Its level, with duration, hysteresis and hold-off in it.
     pub severity: Severity,
     /// Where it is worst; none for the bit, and for whirl while there is none.
-    pub place: Option<IncidentLocation>,
+    pub place: Option<ToolLocation>,
     /// What it is judged by: bending cycles per turn of the tool, friction power (W/m), impulse (N s), stick-slip
     /// index, stop moment over its rating, collision power of the chaotic part (W/m).
     pub value: f64,

@@ -11,7 +11,7 @@
 //!   while the tool is run up none does.
 //! - [`Hazards`]: all of these side by side, what alarms are made from.
 //! - [`AgeingWatch`]: what ages fastest, by cycles counted in `rainflow` and the work of the friction.
-//! - [`IncidentLog`] makes a table of all this over a run.
+//! - [`EpisodeLog`] makes a table of all this over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] sum up what happens between two outputs.
 //! - [`settings`]: every threshold, with its reason.
 
@@ -20,10 +20,10 @@ mod chaotic_whirl;
 mod classify;
 mod contact_statistics;
 mod drive;
+mod episodes;
 mod full_spectrum;
 mod hazards;
 mod hysteresis;
-mod incidents;
 mod joint_load;
 mod orbit;
 mod orbit_window;
@@ -41,10 +41,10 @@ pub use ageing::{Ageing, AgeingSettings, AgeingWatch};
 pub use chaotic_whirl::{ChaoticWhirlLevel, ChaoticWhirlSettings, ChaoticWhirlWatch};
 pub use contact_statistics::{ContactStatistics, RootMeanSquare};
 pub use drive::DriveState;
+pub use episodes::{Episode, EpisodeKind, EpisodeLog, Observation, ToolLocation};
 pub(crate) use hazards::ended;
 pub use hazards::{ENDED_AFTER, Hazard, HazardKind, Hazards};
 pub use hysteresis::{Alarm, AlarmThresholds};
-pub use incidents::{Incident, IncidentKind, IncidentLocation, IncidentLog, Observation};
 pub use joint_load::{JointLoadLevel, JointLoadSettings, JointLoadWatch};
 pub use report::{Severity, ShockLevel, WhirlKind, WhirlReport, WhirlWarningLevel};
 pub use settings::{InputTrust, WhirlSettings};

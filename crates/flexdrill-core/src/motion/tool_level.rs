@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::episodes::ToolLocation;
 use super::hazards::{Hazard, HazardKind, ended};
-use super::incidents::IncidentLocation;
 use super::settings::WhirlSettings;
 use super::watched_station::StationWatch;
 use super::{Severity, WhirlKind, WhirlWarningLevel};
@@ -79,7 +79,7 @@ impl Lead {
         let met = standing.map(|watch| watch.met(whirl)).fold(f64::NEG_INFINITY, f64::max);
         Hazard {
             severity: self.severity,
-            place: Some(IncidentLocation {
+            place: Some(ToolLocation {
                 station: station.station,
                 body: station.body,
                 measured_depth: station.measured_depth,

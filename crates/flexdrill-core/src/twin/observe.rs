@@ -12,8 +12,8 @@ use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::{Layer, gap};
 use crate::model::{HeldNode, Model};
 use crate::motion::{
-    AgeingWatch, ChaoticWhirlWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, IncidentLocation,
-    JointLoadWatch, RootMeanSquare, ShockWatch, StationSample, StickSlip, WatchedStation, WhirlAnalysis, WhirlSettings,
+    AgeingWatch, ChaoticWhirlWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, JointLoadWatch,
+    RootMeanSquare, ShockWatch, StationSample, StickSlip, ToolLocation, WatchedStation, WhirlAnalysis, WhirlSettings,
     ended,
 };
 use crate::tool::description::{Body, Direction, JointKind};
@@ -316,7 +316,7 @@ impl Observer {
     /// How every danger stands at model time `time` (s), each with its worst place.
     fn hazards(&self, model: &Model, time: f64) -> Hazards {
         let place = |station: usize, body: Body| {
-            model.stations.get(station).map(|at| IncidentLocation {
+            model.stations.get(station).map(|at| ToolLocation {
                 station,
                 body,
                 measured_depth: at.depth,

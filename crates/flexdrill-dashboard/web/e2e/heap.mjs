@@ -1,4 +1,4 @@
-// Whether the page's memory stays what it is: hours beside a rig, a place open, the twin at its full rates.
+// Whether the page's memory stays what it is: hours beside a rig, a location open, the twin at its full rates.
 //
 // `node e2e/heap.mjs --flexdrill FILE [--minutes N] [--dist FOLDER]`, in a network of its own (launch_scripts/page_test.sh --heap makes
 // one). With --dist the page comes from that folder instead of out of the program. A small window: what the page keeps

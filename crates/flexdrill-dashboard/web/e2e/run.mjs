@@ -123,14 +123,18 @@ try {
     await look("calm");
   });
 
-  await step("a place is chosen by a click on the tool", async () => {
+  await step("a location is chosen by a click on the tool", async () => {
     const box = await page.locator("#scene").boundingBox();
     // Along the diagonal the click meets the tool somewhere.
-    for (let share = 0.3; share < 0.9 && !(await page.evaluate(() => window.flexdrill.context.place)); share += 0.05) {
+    for (
+      let share = 0.3;
+      share < 0.9 && !(await page.evaluate(() => window.flexdrill.context.location));
+      share += 0.05
+    ) {
       await page.mouse.click(box.x + box.width * 0.42, box.y + box.height * share);
     }
-    await until("a place", 5, async () => /^(Joint|Station) \d+/.test(await page.textContent("#place-title")));
-    await shot("place");
+    await until("a location", 5, async () => /^(Joint|Station) \d+/.test(await page.textContent("#location-title")));
+    await shot("location");
   });
 
   await step("control is refused by a server that does not allow it", async () => {
@@ -298,7 +302,7 @@ try {
       context.choose({ joint: 0, station: store.geometry.jointStation[0] });
       store.joints.clear();
     });
-    const source = () => page.textContent(".place .hint");
+    const source = () => page.textContent(".location .hint");
     await until("the server's motion", 20, async () => /three seconds of every ten are kept/.test(await source()));
     assert.ok(/2[0-9] positions per second/.test(await source()), await source());
     await shot("past_place");

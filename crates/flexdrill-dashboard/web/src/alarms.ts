@@ -1,28 +1,28 @@
-// What alarms mean to the views: whose they are, where, and the level that everything of one alarm is coloured by.
+// Alarms as the views need them: for whom, where, and the level that colours everything of one alarm.
 
 import { Alarm, type Time } from "./messages";
 import type { Store } from "./store/store";
 import { number, type System, withUnit } from "./units";
 
-/** Alarms of the twin's computer and network; recordings of older twins do not say so themselves. */
+/** Alarms of the twin's computer and network; recordings of older twins have no category. */
 const OF_THE_SYSTEM = ["real_time", "recording", "network"];
 
-/** Whether an alarm is for whoever runs the computer, not for the driller. */
+/** Whether an alarm is for the person who runs the computer, not for the driller. */
 export function isOfSystem(alarm: Alarm): boolean {
   return alarm.category === Alarm.SYSTEM || OF_THE_SYSTEM.includes(alarm.id);
 }
 
-/** What whoever looks after model and computer can do; empty where nothing is said. */
+/** What the engineer can do; empty in recordings of older twins. */
 export function engineersAction(alarm: Alarm): string {
   return alarm.what_the_engineer_can_do;
 }
 
-/** When what the alarm says was seen (s); NaN where that is not said. */
+/** The time of the alarm's worst moment (s); NaN where it is not known. */
 export function worstAt(alarm: Alarm): number {
   return seconds(alarm.worst_at);
 }
 
-/** When the condition was last met (s) of an alarm whose condition has ended; NaN of any other. */
+/** The end of the condition (s); NaN while the condition is met. */
 export function endedAt(alarm: Alarm): number {
   return alarm.ended ? seconds(alarm.ended_at) : NaN;
 }
@@ -51,8 +51,8 @@ export function levelOf(store: Store, ids: readonly string[], otherwise: number)
   return Math.max(0, ...own.map((alarm) => alarm.priority));
 }
 
-/** Where an alarm is worst, in words; empty where it has no place. */
-export function alarmPlace(alarm: Alarm, system: System): string {
+/** The worst location of an alarm as text; empty where it has none. */
+export function alarmLocation(alarm: Alarm, system: System): string {
   if (alarm.body === Alarm.NOWHERE || !Number.isFinite(alarm.measured_depth)) return "";
   const body = alarm.body === Alarm.GUIDE ? "guide" : "pipe";
   const inclination = number((alarm.inclination * 180) / Math.PI, 0);

@@ -71,7 +71,7 @@ export interface HistoryHead {
   count: number;
   stride: number;
   complete?: boolean;
-  /** Of each watched place: body and measured depth (m). */
+  /** Of each watched station: body and measured depth (m). */
   watched_body?: number[];
   watched_depth?: (number | null)[];
   columns: { name: string; unit: string; offset: number; length: number }[];

@@ -143,7 +143,7 @@ export class Binding {
     }
     const { playback } = store;
     // A player that stands sends nothing; brought to where it is, it sends what stands there.
-    if (store.isBag && playback?.told && !playback.playing && !store.hasLive && !this.refreshed) {
+    if (store.isBag && playback?.reported && !playback.playing && !store.hasLive && !this.refreshed) {
       this.refreshed = true;
       this.connection.play(false, playback.speed, playback.time);
     }

@@ -19,24 +19,24 @@ export interface Playback {
   /** Time in the bag (ns). */
   time: bigint;
   speed: number;
-  /** The player has said so itself; else it is taken from the time that goes on. */
-  told: boolean;
+  /** Whether the player has reported this; otherwise it follows from the time that advances. */
+  reported: boolean;
 }
 
 export interface Listener {
-  /** The connection is there or gone. Nothing is subscribed to before {@link Connection.admit}. */
+  /** The connection opened or closed. Nothing is subscribed to before {@link Connection.admit}. */
   onConnected(connected: boolean): void;
   /** A message of a topic (without namespace) with its schema and time (ns). */
   onMessage(topic: string, schema: string, time: bigint, data: DataView): void;
   onPlayback(playback: Playback): void;
 }
 
-/** Keeps one connection up for as long as the page lives. */
+/** Keeps one connection open for as long as the page is open. */
 export class Connection {
   private socket: WebSocket | null = null;
   private topics = new Map<number, { topic: string; schema: string }>();
   private nextId = 1;
-  private playback: Playback = { playing: false, ended: false, time: 0n, speed: 1, told: false };
+  private playback: Playback = { playing: false, ended: false, time: 0n, speed: 1, reported: false };
   private requests = 0;
   /** Channels that the server offers and that are not subscribed to yet. */
   private offered: Channel[] = [];
@@ -44,7 +44,7 @@ export class Connection {
 
   constructor(
     private readonly url: string,
-    /** Topics to hear, without namespace. */
+    /** Topics to subscribe to, without namespace. */
     private readonly wanted: readonly string[],
     private readonly listener: Listener,
   ) {
@@ -58,7 +58,7 @@ export class Connection {
     this.topics.clear();
     this.offered = [];
     this.admitted = false;
-    this.playback.told = false;
+    this.playback.reported = false;
     socket.onopen = () => this.listener.onConnected(true);
     socket.onclose = () => {
       this.listener.onConnected(false);
@@ -76,7 +76,7 @@ export class Connection {
     if (this.admitted) this.subscribe();
   }
 
-  /** The server is the one that the page is bound to: its data may come. */
+  /** Accepts the server as the one that the page is bound to, and subscribes to its topics. */
   admit(): void {
     this.admitted = true;
     this.subscribe();
@@ -105,9 +105,9 @@ export class Connection {
       }
       case 0x02: {
         const time = view.getBigUint64(1, true);
-        // The player says how it does only when that changes; until then time that goes on tells.
-        const goesOn = !this.playback.told && this.playback.time !== 0n && time > this.playback.time;
-        this.playback = { ...this.playback, time, playing: this.playback.playing || goesOn };
+        // The player reports changes only; until the first, a time that advances means that it plays.
+        const advances = !this.playback.reported && this.playback.time !== 0n && time > this.playback.time;
+        this.playback = { ...this.playback, time, playing: this.playback.playing || advances };
         this.listener.onPlayback(this.playback);
         return;
       }
@@ -118,7 +118,7 @@ export class Connection {
           ended: status === 3,
           time: view.getBigUint64(2, true),
           speed: view.getFloat32(10, true),
-          told: true,
+          reported: true,
         };
         this.listener.onPlayback(this.playback);
         return;
@@ -126,7 +126,7 @@ export class Connection {
     }
   }
 
-  /** Asks the player of a bag to go on or hold, at a speed, from a time (ns) or from where it is. */
+  /** Asks the player of a bag to play or pause, at a speed, from a time (ns) or from its present time. */
   play(playing: boolean, speed: number, seek: bigint | null): void {
     if (this.socket?.readyState !== WebSocket.OPEN) return;
     const id = new TextEncoder().encode(`page-${++this.requests}`);

@@ -5,7 +5,7 @@ import { PALETTES, type Palette, type ThemeName } from "./theme";
 import type { System } from "./units";
 
 const SETTINGS = "flexdrill-settings";
-/** Part of the address that opens the view in large type. */
+/** Fragment of the address that opens the view in large type. */
 const WALL = "#wall";
 
 interface Settings {
@@ -15,12 +15,12 @@ interface Settings {
   window: number;
   /** Factor on displacements from the bore's axis. */
   exaggeration: number;
-  /** Name that goes with requests. */
+  /** Name of the operator in requests. */
   operator: string;
 }
 
-/** Place that has been chosen: a station, and the joint there is one. */
-export interface Place {
+/** The selected location: a station, and its joint where it has one. */
+export interface ToolLocation {
   station: number;
   joint: number | null;
 }
@@ -28,8 +28,8 @@ export interface Place {
 export class Context {
   settings: Settings;
   palette: Palette;
-  place: Place | null = null;
-  /** Counts changes of settings: views that keep colours or units look again. */
+  location: ToolLocation | null = null;
+  /** Counts changes of settings, so that views that keep colours or units refresh. */
   revision = 0;
   private listeners: (() => void)[] = [];
 
@@ -39,7 +39,7 @@ export class Context {
     try {
       kept = JSON.parse(localStorage.getItem(SETTINGS) ?? "{}") as Partial<Settings>;
     } catch {
-      // A damaged note is none.
+      // Damaged settings are replaced by the defaults.
     }
     this.settings = { ...defaults, ...kept };
     this.palette = PALETTES[this.theme];
@@ -55,7 +55,7 @@ export class Context {
   }
 
   showWall(shown: boolean): void {
-    // An address without a part keeps the place in the history; the page is not loaded again.
+    // Replacing the history entry does not load the page again.
     history.replaceState(null, "", location.pathname + location.search + (shown ? WALL : ""));
     this.applyWall();
   }
@@ -78,12 +78,12 @@ export class Context {
     this.changed();
   }
 
-  choose(place: Place | null): void {
-    this.place = place;
+  choose(location: ToolLocation | null): void {
+    this.location = location;
     this.changed();
   }
 
-  /** Calls `listener` after each change of settings or place. */
+  /** Calls `listener` after each change of settings or location. */
   onChange(listener: () => void): void {
     this.listeners.push(listener);
   }
@@ -116,19 +116,19 @@ export class Context {
   }
 }
 
-/** A part of the page. `draw` is called before each frame; a view does nothing when nothing has changed. */
+/** A part of the page. `draw` is called before each frame, and does nothing when nothing has changed. */
 export interface View {
   draw(now: number): void;
 }
 
-/** Lets something through at most so often. */
+/** Limits how often a view is drawn. */
 export class Pace {
   private last = -Infinity;
   private revision = -1;
 
   constructor(private readonly interval: number) {}
 
-  /** Whether it is time again (ms), or settings or place have changed. */
+  /** Whether the interval has passed (ms), or settings or location have changed. */
   due(now: number, revision: number): boolean {
     if (now - this.last < this.interval && revision === this.revision) return false;
     this.last = now;

@@ -69,11 +69,11 @@ export function word(words: Record<number, string>, code: number): string {
   return words[code] ?? "?";
 }
 
-/** Shape that stands for a priority beside its colour and word: square, triangle, circle. */
+/** Shape of a priority next to its colour and word: square, triangle, circle. */
 export const PRIORITY_SHAPE: Record<number, string> = { 0: "", 1: "●", 2: "▲", 3: "■" };
 
 /**
- * A publisher for an operator: `node @ host (id of its DDS writer)` without the id, which only tells two of one name apart.
+ * A publisher for an operator: `node @ host (id of its DDS writer)` without the id, which only distinguishes two of one name.
  */
 export function publisher(named: string): string {
   return named.replace(/ \((?:id )?[0-9a-f][0-9a-f.:]{7,}\)/gi, "");

@@ -179,7 +179,7 @@ test("a recording that is brought elsewhere shows that time, and forgets the mot
 test("what was on its way when a recording was brought elsewhere is not shown", () => {
   const store = new Store();
   store.session = { mode: "bag" } as Session;
-  store.takePlayback({ playing: false, ended: false, time: 100_000_000_000n, speed: 1, told: true });
+  store.takePlayback({ playing: false, ended: false, time: 100_000_000_000n, speed: 1, reported: true });
   // Bytes that are no message: those that are looked at are counted.
   const none = new DataView(new ArrayBuffer(3));
   for (const [time, looked] of [

@@ -7,7 +7,7 @@ import { test } from "node:test";
 import { endedAt, isOfSystem, levelOf, standing, worstAt } from "../src/alarms";
 import type { History, Pulse, Session } from "../src/api";
 import { judge } from "../src/binding";
-import { Alarm, type AlarmList, type TwinStatus } from "../src/messages";
+import { Alarm, type AlarmList, TwinStatus } from "../src/messages";
 import { Store } from "../src/store/store";
 import { stateNow } from "../src/views/state";
 import { publisher } from "../src/words";
@@ -101,6 +101,18 @@ test("an alarm whose condition has ended says so, and since when", () => {
   assert.match(sentence, /^Backward_whirl: ended at \d\d:\d\d:\d\d, being watched\. act on/);
   assert.equal(endedAt(held), time);
   assert.ok(Number.isNaN(endedAt(alarm("shock", 1))) && Number.isNaN(worstAt(alarm("shock", 1))));
+});
+
+test("no sentence for the driller names a setting of the solver", () => {
+  const cause = "energy errors come to 40 % (degraded from 30 %); a smaller solver.time_step is needed";
+  for (const state of [TwinStatus.RUNNING, TwinStatus.FAILED]) {
+    const store = live();
+    const worse = { state, model_quality: TwinStatus.QUALITY_DEGRADED, model_quality_cause: cause };
+    store.accept("twin/status", status({ ...worse, header: header(101), last_rejection_cause: "not converged" }));
+    const { word, sentence } = stateNow(store, "si");
+    assert.notEqual(word, "NORMAL");
+    assert.doesNotMatch(sentence, /solver|step|_|[Rr]eset/);
+  }
 });
 
 test("what belongs to an alarm has the alarm's level", () => {

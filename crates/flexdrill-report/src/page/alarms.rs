@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::priority_class;
 use super::text::{capital, duration, location, number, percent};
-use crate::incidents::Incident;
+use crate::incidents::{Incident, seconds};
 use crate::reading::Summary;
 use flexdrill_messages::words;
 
@@ -14,10 +14,10 @@ const ROWS: usize = 60;
 /// The section about alarms.
 pub(super) fn section(summary: &Summary) -> Markup {
     let incidents = &summary.incidents;
-    let mut groups: Vec<_> = incidents.groups.values().collect();
+    let mut groups: Vec<_> = incidents.groups().collect();
     groups.sort_by_key(|group| std::cmp::Reverse((group.priority, group.times)));
-    let listed = listed(&incidents.list);
-    let left_out = incidents.list.len() - listed.len() + incidents.more as usize;
+    let listed = listed(incidents.list());
+    let left_out = incidents.list().len() - listed.len() + incidents.more() as usize;
     html! {
         section {
             h2 { "Alarms and incidents" }
@@ -31,11 +31,11 @@ pub(super) fn section(summary: &Summary) -> Markup {
                     tbody { @for group in &groups {
                         tr {
                             td { (priority(group.priority)) }
-                            td { (capital(&group.name)) }
+                            td { (capital(&group.worst.name)) }
                             td.n { (group.times) }
-                            td.n { (duration(group.active)) }
-                            td { (group.what_to_do) }
-                            td { (group.what_the_engineer_can_do) }
+                            td.n { (duration(seconds(group.duration))) }
+                            td { (group.worst.what_to_do) }
+                            td { (group.worst.what_the_engineer_can_do) }
                         }
                     } }
                 }
@@ -68,15 +68,15 @@ fn priority(code: u8) -> Markup {
 fn row(incident: &Incident) -> Markup {
     html! {
         tr {
-            td.n { @if incident.from_before { "before" } @else { (format!("{:.1}", incident.start)) } }
+            td.n { @if incident.from_before { "before" } @else { (format!("{:.1}", seconds(incident.begin))) } }
             td.n { @match incident.end {
-                Some(end) => (duration((end - incident.start).max(0.0))),
+                Some(end) => (duration(seconds(end - incident.begin).max(0.0))),
                 None => "to the end",
             } }
             td { (priority(incident.priority)) }
-            td { (capital(&incident.name)) @if !incident.acknowledged_by.is_empty() { small { " acknowledged by " (incident.acknowledged_by) } } }
-            td { (location(incident.body, incident.measured_depth, incident.inclination)) }
-            td { (incident.evidence) }
+            td { (capital(&incident.worst.name)) @if !incident.acknowledged_by.is_empty() { small { " acknowledged by " (incident.acknowledged_by) } } }
+            td { (location(incident.worst.body, incident.worst.measured_depth, incident.worst.inclination)) }
+            td { (incident.worst.evidence) }
         }
     }
 }

@@ -10,6 +10,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use self::text::{capital, duration, number, percent, times};
 use super::ReportError;
+use super::incidents::seconds;
 use super::reading::Summary;
 use flexdrill_messages::{Alarm, TwinStatus, words};
 use flexdrill_plot::{Figure, svg};
@@ -92,7 +93,7 @@ fn tiles(summary: &Summary) -> Markup {
     let silent = summary
         .incidents
         .inputs_at_the_end()
-        .min_by(|a, b| a.start.total_cmp(&b.start));
+        .min_by_key(|incident| incident.begin);
     let drive = &summary.drive;
     let locations = &summary.locations;
     let peak = |layer: usize| {
@@ -103,8 +104,8 @@ fn tiles(summary: &Summary) -> Markup {
         div.tiles {
             @if let Some(group) = &worst {
                 div.tile.(priority_class(group.priority)) {
-                    b { (words::alarm_priority(group.priority).to_uppercase()) } (capital(&group.name))
-                    small { (times(group.times)) ", " (duration(group.active)) " in all" }
+                    b { (words::alarm_priority(group.priority).to_uppercase()) } (capital(&group.worst.name))
+                    small { (times(group.times)) ", " (duration(seconds(group.duration))) " in all" }
                 }
             } @else if !summary.has_alarms() {
                 div.tile.unknown { b { "?" } "no alarms in the bag" }
@@ -113,7 +114,7 @@ fn tiles(summary: &Summary) -> Markup {
             }
             @if let Some(incident) = silent {
                 div.tile.unknown {
-                    b { (duration((end - incident.start).max(0.0))) } "without inputs at the end"
+                    b { (duration((end - seconds(incident.begin)).max(0.0))) } "without inputs at the end"
                     small { "the log or the rig had ended; the model held its inputs, then ramped them to the safe values" }
                 }
             }
@@ -233,7 +234,7 @@ impl Summary {
 
     /// Whether the bag has messages about alarms.
     fn has_alarms(&self) -> bool {
-        self.incidents.newest.is_some() || !self.incidents.groups.is_empty()
+        self.incidents.newest.is_some() || self.incidents.groups().next().is_some()
     }
 
     /// Share of the time in which the model's quality is good, and the style for it.

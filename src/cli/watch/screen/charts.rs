@@ -101,7 +101,7 @@ pub(super) fn draw_whirl(frame: &mut Frame, board: &Board, area: Rect) {
                 _ => GOOD,
             };
             Row::new([
-                Cell::from(row.place),
+                Cell::from(row.location),
                 Cell::from(Span::styled(row.word, color)),
                 Cell::from(ratio(row.ratio)),
                 Cell::from(format!("{:4.2}", row.clearance_ratio)),
@@ -110,7 +110,7 @@ pub(super) fn draw_whirl(frame: &mut Frame, board: &Board, area: Rect) {
             ])
         });
     let widths = [9, 8, 6, 4, 4, 4].map(Constraint::Length);
-    let header = Row::new(["deg of", "whirl", " ratio", " gap", " hit", "sure"]).style(Modifier::DIM);
+    let header = Row::new(["deg body", "whirl", " ratio", " gap", "cont", "conf"]).style(Modifier::DIM);
     let table = Table::new(rows, widths)
         .column_spacing(1)
         .header(header)

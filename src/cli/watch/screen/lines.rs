@@ -46,10 +46,10 @@ pub(super) fn warning_lines(warning: Option<&WhirlWarning>) -> Paragraph<'static
         .wrap(Wrap { trim: true })
 }
 
-/// The summary, then the alarms that call for somebody, the worst first.
+/// The summary, then the alarms that require a response, the worst first.
 pub(super) fn alarm_lines(list: &AlarmList) -> Paragraph<'static> {
     let mut lines = vec![Line::raw(format!("alarms: {}", alarms::summary(list)))];
-    for alarm in alarms::shown(list) {
+    for alarm in alarms::standing(list) {
         lines.push(Line::styled(alarms::headline(alarm), alarm_style(alarm)));
         lines.push(Line::raw(alarms::sentences(alarm)));
     }
@@ -57,8 +57,8 @@ pub(super) fn alarm_lines(list: &AlarmList) -> Paragraph<'static> {
 }
 
 fn alarm_style(alarm: &Alarm) -> Style {
-    let calls = alarm.state == Alarm::ACTIVE_UNACKNOWLEDGED;
-    match (alarm.priority, calls) {
+    let unacknowledged = alarm.state == Alarm::ACTIVE_UNACKNOWLEDGED;
+    match (alarm.priority, unacknowledged) {
         (Alarm::HIGH, true) => Style::new().fg(Color::White).bg(BAD).add_modifier(Modifier::BOLD),
         (Alarm::HIGH, false) => Style::new().fg(BAD),
         (Alarm::MEDIUM, true) => Style::new().fg(Color::Black).bg(DOUBTFUL),
@@ -75,7 +75,7 @@ pub(super) fn severity_style(severity: u8) -> Style {
     }
 }
 
-/// The levels beside whirl's.
+/// The levels of stick-slip and shock.
 pub(super) fn levels_line(board: &Board) -> Line<'static> {
     let levels = [
         ("stick-slip ", board.bit().map(texts::stick_slip)),
@@ -103,7 +103,7 @@ pub(super) fn inputs(board: &Board) -> Paragraph<'static> {
     lines.push(Line::raw(texts::joints(board)));
     if board.unreadable() > 0 {
         lines.push(Line::styled(
-            format!("{} unreadable messages: other version?", board.unreadable()),
+            format!("{} unreadable messages: another version?", board.unreadable()),
             BAD,
         ));
     }

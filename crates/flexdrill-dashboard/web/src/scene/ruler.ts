@@ -1,4 +1,4 @@
-// A scale of vertical depth beside the tool: where down is, and how deep each part lies.
+// A scale of vertical depth next to the tool: the direction of gravity and the depth of each part.
 
 import { valueTicks } from "../ticks";
 import type { Vec3 } from "./matrix";

@@ -1,4 +1,4 @@
-// The motion of a place: of the last minute from what was heard; from before, three seconds of every ten from the server,
+// The motion of a location: of the last minute from what was heard; from before, three seconds of every ten from the server,
 // which is asked for what is shown.
 
 import type { Orbit } from "../api";

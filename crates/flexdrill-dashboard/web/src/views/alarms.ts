@@ -1,6 +1,6 @@
 // The alarms by priority, with cause, consequence and what to do; requests of an operator; the journal.
 
-import { alarmPlace, endedAt, engineersAction, isOfSystem, title, worstAt } from "../alarms";
+import { alarmLocation, endedAt, engineersAction, isOfSystem, title, worstAt } from "../alarms";
 import * as api from "../api";
 import { h, setText, show } from "../dom";
 import { Alarm, type AlarmList } from "../messages";
@@ -44,11 +44,11 @@ export class Alarms implements View {
   private readonly control = h("div", { class: "control" });
   private readonly locked = h("p", { class: "hint" });
   private readonly pace = new Pace(250);
-  /** Details that somebody has opened or closed, by alarm. */
+  /** Details that the operator has opened or closed, by alarm. */
   private readonly open = new Map<string, boolean>();
-  /** Texts of the time that an alarm stands, with the begin of it (s). */
+  /** Texts of how long an alarm has stood, with its begin (s). */
   private readonly ages: { element: HTMLElement; since: number }[] = [];
-  /** A button is held down: the list stays as it is, or the click would go astray. */
+  /** A button is held down: the list does not change meanwhile, so that the click reaches its button. */
   private pressed = false;
   private key = "";
   private journalKey = "";
@@ -154,7 +154,7 @@ export class Alarms implements View {
           : "",
       );
     }
-    // For how long an alarm stands is only known while it is heard of.
+    // The duration is known only for the shown time of the data.
     for (const { element, since } of this.ages) setText(element, lapse(Math.max(0, Math.floor(store.shown - since))));
     const journalKey = `${store.journalRevision} ${settings.units} ${Math.floor(store.cursor ?? 0)}`;
     if (journalKey !== this.journalKey) {
@@ -169,7 +169,7 @@ export class Alarms implements View {
     const system = (alarms ?? []).filter((alarm) => calls(alarm) && isOfSystem(alarm));
     const quiet = (alarms ?? []).filter((alarm) => !calls(alarm));
     this.ages.length = 0;
-    // The button that has the keyboard keeps it.
+    // The button that has the focus keeps it.
     const focused = (document.activeElement as HTMLElement | null)?.dataset.key;
     const unknown =
       this.context.store.cursor === null
@@ -197,9 +197,9 @@ export class Alarms implements View {
 
   private entry(alarm: Alarm, allowed: boolean): HTMLElement {
     const { settings } = this.context;
-    const place = alarmPlace(alarm, settings.units);
+    const location = alarmLocation(alarm, settings.units);
     const age = h("span", { class: "since" });
-    // Since a time of an earlier run of the node: how long it has stood is not known.
+    // The alarm began in an earlier run of the node: its duration is not known.
     if (alarm.from_earlier_run) setText(age, "from an earlier run");
     else if (alarm.since.sec > 0) this.ages.push({ element: age, since: alarm.since.sec + alarm.since.nanosec * 1e-9 });
     const unacknowledged = alarm.state === Alarm.ACTIVE_UNACKNOWLEDGED || alarm.state === Alarm.RETURNED_UNACKNOWLEDGED;
@@ -220,8 +220,8 @@ export class Alarms implements View {
       ),
       h("dl", {}, ...rows.flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)])),
     );
-    const where = place
-      ? h("button", { type: "button", class: "link", onclick: () => this.choose(alarm.measured_depth) }, place)
+    const where = location
+      ? h("button", { type: "button", class: "link", onclick: () => this.choose(alarm.measured_depth) }, location)
       : null;
     const shelved =
       alarm.state === Alarm.SHELVED
@@ -261,7 +261,7 @@ export class Alarms implements View {
     );
   }
 
-  /** Why the alarms are not those of the rig now; empty where they are. */
+  /** Why the alarms are not the present ones of the rig; empty where they are. */
   private whyNotLive(list: AlarmList | null): string {
     const { store } = this.context;
     if (store.isLive) return "";
@@ -283,7 +283,7 @@ export class Alarms implements View {
   private fillJournal(): void {
     const { store } = this.context;
     const cursor = store.cursor ?? Infinity;
-    // A drive that stands suppresses five alarms at once: asked for, that is shown too.
+    // A drive at standstill suppresses several alarms at once, which the journal shows on request only.
     const matters = (event: api.JournalEntry) =>
       this.every.checked || event.priority > 0 || event.operator_name !== "" || event.annunciates;
     const entries = store.journal.filter((event) => matters(event) && Number(BigInt(event.stamp_ns)) / 1e9 <= cursor);

@@ -156,7 +156,7 @@ export class HeatMap implements View {
     to: number,
     { width, height, ratio }: { width: number; height: number; ratio: number },
   ): void {
-    const { store, palette, place, settings } = this.context;
+    const { store, palette, location, settings } = this.context;
     const { geometry } = store;
     const pencil = this.canvas.getContext("2d");
     if (!pencil || !geometry) return;
@@ -173,8 +173,8 @@ export class HeatMap implements View {
     const [top, bottom] = [depth[0], depth[depth.length - 1]];
     pencil.strokeStyle = palette.mark;
     pencil.lineWidth = 1;
-    if (place && place.station < depth.length) {
-      const y = ((depth[place.station] - top) / (bottom - top)) * tall;
+    if (location && location.station < depth.length) {
+      const y = ((depth[location.station] - top) / (bottom - top)) * tall;
       pencil.setLineDash([6, 4]);
       pencil.beginPath();
       pencil.moveTo(LEFT, y);

@@ -309,7 +309,7 @@ export class Numbers implements View {
   }
 }
 
-/** What a tile shows at a moment. Of what is not the rig now, nothing has a level: nobody can act on it. */
+/** The reading of a tile at a moment. Only the present values of the rig, a recording or the past have a level. */
 export function readTile(tile: Tile, moment: Moment | null, store: Store): Reading {
   if (!moment) return { value: "–", note: "no data yet", level: 0 };
   const reading = tile.read(moment);

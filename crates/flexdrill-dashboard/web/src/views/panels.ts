@@ -1,15 +1,15 @@
-// The panels next to the tool: alarms, place, steering; one of them is shown.
+// The panels next to the tool: alarms, location, steering; one of them is shown.
 
 import { h, setAttribute, setText, show } from "../dom";
 import type { Context, View } from "../view";
 import { Alarms } from "./alarms";
-import { PlaceView } from "./place";
+import { LocationView } from "./location";
 import type { Steer } from "./steer";
 
 export class Panels implements View {
   readonly element: HTMLElement;
   private readonly tabs: { name: string; tab: HTMLButtonElement; panel: HTMLElement; view: View }[] = [];
-  private place: unknown = null;
+  private location: unknown = null;
 
   constructor(
     private readonly context: Context,
@@ -19,7 +19,7 @@ export class Panels implements View {
     const holder = h("div", { class: "panels" });
     for (const [name, view] of [
       ["Alarms", new Alarms(context)],
-      ["Place", new PlaceView(context)],
+      ["Location", new LocationView(context)],
       ["Steer", steer],
     ] as const) {
       const id = name.toLowerCase();
@@ -54,8 +54,8 @@ export class Panels implements View {
     this.element = h("aside", { class: "side" }, bar, holder);
     this.open("Alarms");
     context.onChange(() => {
-      if (context.place !== null && context.place !== this.place) this.open("Place");
-      this.place = context.place;
+      if (context.location !== null && context.location !== this.location) this.open("Location");
+      this.location = context.location;
     });
   }
 
@@ -70,7 +70,7 @@ export class Panels implements View {
 
   draw(now: number): void {
     const { store } = this.context;
-    // Alarms of a recording or of a twin that has ended wait for nobody.
+    // Alarms of a recording or of a twin that has ended need no response.
     const count = store.isBag || store.silent ? 0 : (store.alarms?.unacknowledged ?? 0);
     setText(this.tabs[0].tab, count > 0 ? `Alarms (${count})` : "Alarms");
     const driving = this.steer.driving;

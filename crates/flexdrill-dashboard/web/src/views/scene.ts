@@ -180,7 +180,7 @@ export class Scene implements View {
     const { geometry } = this.context.store;
     if (!geometry) return;
     const count = geometry.jointDepth.length;
-    const joint = ((this.context.place?.joint ?? (by > 0 ? -1 : count)) + by + count) % count;
+    const joint = ((this.context.location?.joint ?? (by > 0 ? -1 : count)) + by + count) % count;
     this.context.choose({ joint, station: geometry.jointStation[joint] });
   }
 
@@ -207,7 +207,7 @@ export class Scene implements View {
 
   draw(now: number): void {
     const { context, canvas, renderer } = this;
-    const { store, settings, place } = context;
+    const { store, settings, location } = context;
     const moment = store.moment();
     const geometry = store.geometry;
     show(this.past, store.cursor !== null);
@@ -233,7 +233,13 @@ export class Scene implements View {
       this.frame();
     }
     if (key !== this.drawnKey) {
-      this.meshes.build(moment, geometry, store.session?.tool ?? null, settings.exaggeration, place?.station ?? null);
+      this.meshes.build(
+        moment,
+        geometry,
+        store.session?.tool ?? null,
+        settings.exaggeration,
+        location?.station ?? null,
+      );
       for (const mesh of this.meshes.all()) renderer.upload(mesh);
     }
     this.drawnKey = key;
@@ -269,7 +275,7 @@ export class Scene implements View {
     renderer.draw(meshes.bore, bore, 0.04, "front", 0.25);
   }
 
-  /** The scale of vertical depth beside the tool, with the direction of gravity. */
+  /** The scale of vertical depth next to the tool, with the direction of gravity. */
   private measure(width: number, height: number): void {
     if (!this.ruler) return;
     const { settings } = this.context;
@@ -294,15 +300,15 @@ export class Scene implements View {
       const anchor = isTick ? "end" : "middle";
       // The title of the scale is longer than a narrow picture has room for to its left.
       const x = isTick ? left + shift[0] : Math.max(left, 56);
-      const place = `x="${Math.round(x)}" y="${Math.round(top + shift[1])}" text-anchor="${anchor}"`;
-      return `<text ${place}>${entry.text}</text>`;
+      const location = `x="${Math.round(x)}" y="${Math.round(top + shift[1])}" text-anchor="${anchor}"`;
+      return `<text ${location}>${entry.text}</text>`;
     };
     this.lines.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.lines.innerHTML = `<path d="${path}"/><path d="${arrow}"/>${texts.map(label).join("")}`;
   }
 
   private annotate(width: number, height: number): void {
-    const { store, settings, place } = this.context;
+    const { store, settings, location } = this.context;
     const geometry = store.geometry;
     if (!geometry) return;
     const labels: { at: Vec3; text: string; level: number }[] = [...this.meshes.labels];
@@ -316,9 +322,9 @@ export class Scene implements View {
       `${word}, ${withUnit(geometry.stationDepth[index], "depth", settings.units)}`;
     labels.push({ at: station(0), text: name(0, "kick-off"), level: 0 });
     labels.push({ at: station(last), text: name(last, "bit"), level: 0 });
-    if (place && place.station <= last) {
-      const word = place.joint === null ? "station" : `joint ${place.joint + 1}`;
-      labels.push({ at: station(place.station), text: name(place.station, word), level: -1 });
+    if (location && location.station <= last) {
+      const word = location.joint === null ? "station" : `joint ${location.joint + 1}`;
+      labels.push({ at: station(location.station), text: name(location.station, word), level: -1 });
     }
     while (this.overlay.children.length < labels.length) this.overlay.append(h("span", { class: "label" }));
     [...this.overlay.children].forEach((child, index) => {

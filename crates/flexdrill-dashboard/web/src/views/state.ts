@@ -1,6 +1,6 @@
-// The state of the tool in one word and one line, on top of everything.
+// The state of the tool in one word and one line, at the top of the page.
 
-import { alarmPlace, endedAt, engineersAction, standing, title } from "../alarms";
+import { alarmLocation, endedAt, engineersAction, standing, title } from "../alarms";
 import { h, setAttribute, setText } from "../dom";
 import { type Alarm, TwinStatus } from "../messages";
 import { SILENT, type Store } from "../store/store";
@@ -9,7 +9,7 @@ import { type Context, Pace, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, QUALITY, word } from "../words";
 
 export interface State {
-  /** 0 nothing to do, 1 to 3 as priorities, 4 not known, 5 of a recording. */
+  /** 0 for no action, 1 to 3 as priorities, 4 for an unknown state, 5 for a recording. */
   level: number;
   word: string;
   sentence: string;
@@ -18,12 +18,12 @@ export interface State {
 const CALLS: Record<number, string> = { 1: "WATCH", 2: "ACT SOON", 3: "ACT NOW" };
 const SHAPES: Record<number, string> = { 0: "✓", 4: "✕", 5: "▷" };
 
-/** The state now: what keeps the page from knowing first, then the twin, then alarms, then how far to trust it. */
+/** The present state: a lack of data comes first, then the twin, then alarms, then the quality of the model. */
 export function stateNow(store: Store, system: System): State {
   return unknown(store) ?? recorded(store, system) ?? ofTwin(store, system);
 }
 
-/** What keeps the page from knowing how the rig is; null where nothing does. */
+/** Why the state of the rig is not known; null where it is. */
 function unknown(store: Store): State | null {
   const say = (word: string, sentence: string): State => ({ level: 4, word, sentence });
   if (!store.connected) {
@@ -49,11 +49,11 @@ function unknown(store: Store): State | null {
         "pages and programs, or use another computer.",
     );
   }
-  if (!store.status) return say("NO DATA", "The twin is running; its first values are on their way.");
+  if (!store.status) return say("NO DATA", "The twin is running; its first values have not arrived yet.");
   return null;
 }
 
-/** The state at the shown time of a recording: never like that of the rig. */
+/** The state at the shown time of a recording, which never looks like that of the rig. */
 function recorded(store: Store, system: System): State | null {
   if (!store.isBag) return null;
   const name = store.session?.bag?.name ?? "";
@@ -69,16 +69,17 @@ function recorded(store: Store, system: System): State | null {
 }
 
 function named(alarm: Parameters<typeof title>[0], system: System): string {
-  const place = alarmPlace(alarm, system);
-  return `${title(alarm)}${place ? `, ${place}` : ""}`;
+  const location = alarmLocation(alarm, system);
+  return `${title(alarm)}${location ? `, ${location}` : ""}`;
 }
 
 function ofTwin(store: Store, system: System): State {
   const { status } = store;
   if (!status) return { level: 4, word: "NO DATA", sentence: "" };
   if (status.state === TwinStatus.FAILED) {
-    const cause = status.last_rejection_cause;
-    return { level: 3, word: "MODEL FAILED", sentence: `The model has stopped${cause ? `: ${cause}` : ""}. Reset it.` };
+    const sentence =
+      "The model has stopped and its values are frozen. Rely on the rig's own instruments and call the engineer.";
+    return { level: 3, word: "MODEL FAILED", sentence };
   }
   if (status.state === TwinStatus.STARTING) {
     const sentence = "The model is computing the tool at rest under gravity and weight on bit.";
@@ -101,7 +102,9 @@ function ofTwin(store: Store, system: System): State {
   }
   if (status.model_quality !== TwinStatus.QUALITY_GOOD) {
     const quality = word(QUALITY, status.model_quality).toLowerCase();
-    return { level: 1, word: "DOUBTFUL", sentence: `Model quality is ${quality}: ${status.model_quality_cause}` };
+    // The cause names settings of the solver: it is for the engineer, next to the quality.
+    const sentence = `Model quality is ${quality}: treat vibration levels and forces as approximate.`;
+    return { level: 1, word: "DOUBTFUL", sentence };
   }
   return { level: 0, word: "NORMAL", sentence: doing(store, status, system) };
 }
@@ -185,10 +188,11 @@ export class StateLine implements View {
     setText(this.clock, clock(store.now));
     setText(this.age, store.isBag ? "recorded" : lapse(store.age("twin/status") / 1e3));
     setText(this.quality, store.status ? word(QUALITY, store.status.model_quality) : "–");
+    setAttribute(this.quality, "title", store.status?.model_quality_cause ?? "");
     setText(this.system, systemLine(store));
     setAttribute(this.system, "title", this.system.textContent ?? "");
     const { classList } = document.body;
-    // Whatever is not the rig now is not coloured as if somebody had to act on it.
+    // Colours that call for action are for the present state of the rig only.
     classList.toggle("silent", state.level === 4 && state.word !== "STARTING" && store.cursor === null);
     classList.toggle("recording", store.isBag);
     classList.toggle("past", store.cursor !== null);
@@ -196,7 +200,7 @@ export class StateLine implements View {
   }
 }
 
-/** What whoever runs the computer reads. It is always there, so that nothing moves when an alarm comes. */
+/** The line for the person who runs the computer. It is always present, so that an alarm does not move the page. */
 function systemLine(store: Store): string {
   if (store.silent || store.lag > 0 || store.unconfirmed > 0) return "System: not known";
   const { system } = standing(store.alarms?.alarms ?? []);

@@ -227,7 +227,7 @@ export class TimeLine implements View {
     const [left, right] = this.context.range;
     pencil.fillStyle = palette.panel;
     pencil.fillRect(x(Math.max(left, from)), 0, x(Math.min(right, to)) - x(Math.max(left, from)), height - 14);
-    // Rotary speed in outline: connections and drilling are told apart at a glance.
+    // The outline of the rotary speed distinguishes connections from drilling.
     const speed = layout.offset("rotary_speed_applied");
     let most = 1;
     for (let index = 0; index < hour.length; index++) most = Math.max(most, hour.value(index, speed) || 0);

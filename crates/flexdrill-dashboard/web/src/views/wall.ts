@@ -1,6 +1,6 @@
 // State, five numbers and the alarms in type that is read from two metres, for a screen on a wall or a phone on a stand.
 
-import { alarmPlace, standing, title } from "../alarms";
+import { alarmLocation, standing, title } from "../alarms";
 import { h, setAttribute, setText } from "../dom";
 import { type Context, Pace, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, word } from "../words";
@@ -63,12 +63,12 @@ export class Wall implements View {
     this.alarms.classList.toggle("old", !isLive);
     this.alarms.replaceChildren(
       ...drilling.slice(0, MOST).map((alarm) => {
-        const place = alarmPlace(alarm, settings.units);
+        const location = alarmLocation(alarm, settings.units);
         return h(
           "li",
           { class: "wall-alarm", "data-level": String(alarm.priority) },
           h("strong", {}, `${PRIORITY_SHAPE[alarm.priority]} ${title(alarm)}`),
-          h("span", {}, `${word(PRIORITY, alarm.priority)}${place ? `, ${place}` : ""}`),
+          h("span", {}, `${word(PRIORITY, alarm.priority)}${location ? `, ${location}` : ""}`),
           h("p", {}, alarm.what_to_do),
         );
       }),

@@ -1,14 +1,14 @@
-//! Incidents of a run: what reached a level, where, of which kind, how bad and for how long.
+//! Episodes of a run: a motion that reached a level, with its kind, location, severity and duration.
 
 use serde::Serialize;
 
 use super::{Severity, ShockLevel, WhirlKind, WhirlReport};
 use crate::tool::description::Body;
 
-/// What happened.
+/// The kind of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum IncidentKind {
+pub enum EpisodeKind {
     /// Whirl in the sense of the rotation.
     ForwardWhirl,
     /// Whirl against it, sliding.
@@ -23,9 +23,9 @@ pub enum IncidentKind {
     Shock,
 }
 
-/// Where it happened.
+/// A location on the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct IncidentLocation {
+pub struct ToolLocation {
     /// Station index from the top.
     pub station: usize,
     /// Which pipe moved.
@@ -36,11 +36,11 @@ pub struct IncidentLocation {
     pub inclination: f64,
 }
 
-/// One row of the table. Neighbouring places that do the same at the same time are one incident.
+/// One row of the table. Neighbouring stations with the same motion at the same time are one episode.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Incident {
+pub struct Episode {
     /// Kind at the worst moment.
-    pub kind: IncidentKind,
+    pub kind: EpisodeKind,
     /// Highest level reached.
     pub severity: Severity,
     /// Model time of the first level above OK (s).
@@ -50,7 +50,7 @@ pub struct Incident {
     /// Whether it stood when the run ended.
     pub lasting: bool,
     /// Where it was worst.
-    pub place: IncidentLocation,
+    pub place: ToolLocation,
     /// First and last station from the top that took part.
     pub stations: [usize; 2],
     /// Whirl rate over rotary speed at the worst moment; NaN where whirl had no one rate then, 0 for other kinds.
@@ -69,7 +69,7 @@ pub struct Incident {
     pub confidence: f64,
 }
 
-/// What a run shows at one instant.
+/// The state of a run at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Observation<'a> {
     /// Model time (s).
@@ -79,26 +79,26 @@ pub struct Observation<'a> {
     /// Level and index of the bit's stick-slip.
     pub stick_slip: (Severity, f64),
     /// The bit's place.
-    pub bit: IncidentLocation,
+    pub bit: ToolLocation,
     /// Level of the shock watch.
     pub shock: ShockLevel,
     /// Where that shock was.
-    pub shock_place: IncidentLocation,
+    pub shock_place: ToolLocation,
 }
 
-/// Makes the table. Allocates, so it is not for the solver's step.
+/// Collects the table. It allocates, so that the solver's step cannot use it.
 #[derive(Debug, Clone, Default)]
-pub struct IncidentLog {
+pub struct EpisodeLog {
     /// Per watched place, then stick-slip, then shock.
-    open: Vec<Option<Incident>>,
-    closed: Vec<Incident>,
+    open: Vec<Option<Episode>>,
+    closed: Vec<Episode>,
     /// Watched places in order, to know neighbours.
     watched: Vec<(Body, usize)>,
     time: f64,
 }
 
-impl IncidentLog {
-    /// Takes the next instant; when time goes back (a reset), what stands has ended.
+impl EpisodeLog {
+    /// Adds the next instant. A time that steps back (a reset) ends all open episodes.
     pub fn push(&mut self, at: &Observation<'_>) {
         let places = at.whirl.kind.len();
         if self.open.len() != places + 2 || at.time < self.time {
@@ -115,39 +115,40 @@ impl IncidentLog {
         self.time = at.time;
         for index in 0..places {
             let severity = at.whirl.severity[index];
-            self.update(index, severity, at.time, || whirl_incident(at, index));
+            self.update(index, severity, at.time, || whirl_episode(at, index));
         }
         let (severity, index) = at.stick_slip;
-        self.update(places, severity, at.time, || Incident {
+        self.update(places, severity, at.time, || Episode {
             strength: index,
-            ..incident(IncidentKind::StickSlip, at.time, at.bit)
+            ..episode(EpisodeKind::StickSlip, at.time, at.bit)
         });
-        self.update(places + 1, at.shock.severity, at.time, || Incident {
+        self.update(places + 1, at.shock.severity, at.time, || Episode {
             strength: at.shock.impulse,
-            ..incident(IncidentKind::Shock, at.time, at.shock_place)
+            ..episode(EpisodeKind::Shock, at.time, at.shock_place)
         });
     }
 
-    /// Ends the run: what stands lasts. The incidents in the order of their start, neighbours put together.
-    pub fn finish(mut self) -> Vec<Incident> {
+    /// Ends the run, which leaves open episodes lasting. Returns the episodes in the order of their start, with neighbours
+    /// merged.
+    pub fn finish(mut self) -> Vec<Episode> {
         self.close_all(true);
-        let mut merged: Vec<Incident> = Vec::new();
+        let mut merged: Vec<Episode> = Vec::new();
         let mut rest = std::mem::take(&mut self.closed);
         rest.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.place.station.cmp(&b.place.station)));
-        for incident in rest {
-            match merged.iter_mut().find(|other| self.belong_together(other, &incident)) {
-                Some(other) => join(other, incident),
-                None => merged.push(incident),
+        for episode in rest {
+            match merged.iter_mut().find(|other| self.belong_together(other, &episode)) {
+                Some(other) => join(other, episode),
+                None => merged.push(episode),
             }
         }
-        // Places between two groups bring them together.
+        // A station between two groups joins them.
         let mut index = 0;
         while index < merged.len() {
             let found = (index + 1..merged.len()).find(|other| self.belong_together(&merged[index], &merged[*other]));
             match found {
                 Some(other) => {
-                    let incident = merged.remove(other);
-                    join(&mut merged[index], incident);
+                    let episode = merged.remove(other);
+                    join(&mut merged[index], episode);
                 }
                 None => index += 1,
             }
@@ -156,37 +157,37 @@ impl IncidentLog {
         merged
     }
 
-    fn update(&mut self, index: usize, severity: Severity, time: f64, now: impl FnOnce() -> Incident) {
+    fn update(&mut self, index: usize, severity: Severity, time: f64, now: impl FnOnce() -> Episode) {
         let open = &mut self.open[index];
         if severity == Severity::Ok {
-            if let Some(mut incident) = open.take() {
-                incident.duration = time - incident.start;
-                self.closed.push(incident);
+            if let Some(mut episode) = open.take() {
+                episode.duration = time - episode.start;
+                self.closed.push(episode);
             }
             return;
         }
-        let now = Incident { severity, ..now() };
+        let now = Episode { severity, ..now() };
         match open {
             None => *open = Some(now),
-            Some(incident) => {
-                // Held levels are no news: the kind is that of the worst moment.
-                if severity > incident.severity || (severity == incident.severity && worse(&now, incident)) {
+            Some(episode) => {
+                // A held level brings no new kind: the kind is that of the worst moment.
+                if severity > episode.severity || (severity == episode.severity && worse(&now, episode)) {
                     let lead = [
-                        incident.clearance_ratio,
-                        incident.contact_duty,
-                        incident.peak_force,
-                        incident.strength,
+                        episode.clearance_ratio,
+                        episode.contact_duty,
+                        episode.peak_force,
+                        episode.strength,
                     ];
-                    let (start, confidence) = (incident.start, incident.confidence);
-                    *incident = Incident {
+                    let (start, confidence) = (episode.start, episode.confidence);
+                    *episode = Episode {
                         start,
                         confidence: confidence.min(now.confidence),
                         ..now
                     };
-                    widen(incident, lead);
+                    widen(episode, lead);
                 } else {
                     let lead = [now.clearance_ratio, now.contact_duty, now.peak_force, now.strength];
-                    widen(incident, lead);
+                    widen(episode, lead);
                 }
             }
         }
@@ -194,17 +195,17 @@ impl IncidentLog {
 
     fn close_all(&mut self, lasting: bool) {
         for open in &mut self.open {
-            if let Some(mut incident) = open.take() {
-                incident.duration = self.time - incident.start;
-                incident.lasting = lasting;
-                self.closed.push(incident);
+            if let Some(mut episode) = open.take() {
+                episode.duration = self.time - episode.start;
+                episode.lasting = lasting;
+                self.closed.push(episode);
             }
         }
     }
 
-    fn belong_together(&self, a: &Incident, b: &Incident) -> bool {
+    fn belong_together(&self, a: &Episode, b: &Episode) -> bool {
         let (end_a, end_b) = (a.start + a.duration, b.start + b.duration);
-        let whirl = !matches!(a.kind, IncidentKind::StickSlip | IncidentKind::Shock);
+        let whirl = !matches!(a.kind, EpisodeKind::StickSlip | EpisodeKind::Shock);
         whirl
             && a.kind == b.kind
             && a.place.body == b.place.body
@@ -214,8 +215,8 @@ impl IncidentLog {
             && self.are_neighbours(a, b)
     }
 
-    /// Whether no watched place of the same pipe lies between them.
-    fn are_neighbours(&self, a: &Incident, b: &Incident) -> bool {
+    /// Whether no watched station of the same pipe lies between them.
+    fn are_neighbours(&self, a: &Episode, b: &Episode) -> bool {
         let (low, high) = if a.stations[0] <= b.stations[0] { (a, b) } else { (b, a) };
         let (from, to) = (low.stations[1], high.stations[0]);
         !self
@@ -225,19 +226,19 @@ impl IncidentLog {
     }
 }
 
-/// Whether `now` tells more of an incident than its worst moment so far: the kind is known and the force larger.
-fn worse(now: &Incident, before: &Incident) -> bool {
+/// Whether `now` is a worse moment of an episode: of the same kind, with a larger force.
+fn worse(now: &Episode, before: &Episode) -> bool {
     now.kind == before.kind && now.peak_force.max(now.strength) > before.peak_force.max(before.strength)
 }
 
-fn widen(incident: &mut Incident, [clearance_ratio, contact_duty, peak_force, strength]: [f64; 4]) {
-    incident.clearance_ratio = incident.clearance_ratio.max(clearance_ratio);
-    incident.contact_duty = incident.contact_duty.max(contact_duty);
-    incident.peak_force = incident.peak_force.max(peak_force);
-    incident.strength = incident.strength.max(strength);
+fn widen(episode: &mut Episode, [clearance_ratio, contact_duty, peak_force, strength]: [f64; 4]) {
+    episode.clearance_ratio = episode.clearance_ratio.max(clearance_ratio);
+    episode.contact_duty = episode.contact_duty.max(contact_duty);
+    episode.peak_force = episode.peak_force.max(peak_force);
+    episode.strength = episode.strength.max(strength);
 }
 
-fn join(one: &mut Incident, other: Incident) {
+fn join(one: &mut Episode, other: Episode) {
     let start = one.start.min(other.start);
     let end = (one.start + one.duration).max(other.start + other.duration);
     let stations = [
@@ -255,7 +256,7 @@ fn join(one: &mut Incident, other: Incident) {
         &mut lead,
         [less.clearance_ratio, less.contact_duty, less.peak_force, less.strength],
     );
-    *one = Incident {
+    *one = Episode {
         start,
         duration: end - start,
         lasting,
@@ -265,8 +266,8 @@ fn join(one: &mut Incident, other: Incident) {
     };
 }
 
-fn incident(kind: IncidentKind, time: f64, place: IncidentLocation) -> Incident {
-    Incident {
+fn episode(kind: EpisodeKind, time: f64, place: ToolLocation) -> Episode {
+    Episode {
         kind,
         severity: Severity::Ok,
         start: time,
@@ -284,29 +285,29 @@ fn incident(kind: IncidentKind, time: f64, place: IncidentLocation) -> Incident 
     }
 }
 
-fn whirl_incident(at: &Observation<'_>, index: usize) -> Incident {
+fn whirl_episode(at: &Observation<'_>, index: usize) -> Episode {
     let whirl = at.whirl;
     let kind = match (whirl.level_kind[index], whirl.rolling[index]) {
-        (WhirlKind::Forward, _) => IncidentKind::ForwardWhirl,
-        (WhirlKind::Backward, true) => IncidentKind::RollingWhirl,
-        (WhirlKind::Backward, false) => IncidentKind::BackwardWhirl,
+        (WhirlKind::Forward, _) => EpisodeKind::ForwardWhirl,
+        (WhirlKind::Backward, true) => EpisodeKind::RollingWhirl,
+        (WhirlKind::Backward, false) => EpisodeKind::BackwardWhirl,
         // A level needs a kind; none is left only between a restart of the windows and the end of the hold-off.
-        (WhirlKind::Chaotic | WhirlKind::JointVibration | WhirlKind::None, _) => IncidentKind::ChaoticWhirl,
+        (WhirlKind::Chaotic | WhirlKind::JointVibration | WhirlKind::None, _) => EpisodeKind::ChaoticWhirl,
     };
-    let place = IncidentLocation {
+    let place = ToolLocation {
         station: whirl.station[index],
         body: whirl.body[index],
         measured_depth: whirl.measured_depth[index],
         inclination: whirl.inclination[index],
     };
-    Incident {
+    Episode {
         whirl_ratio: whirl.whirl_ratio[index],
         rolling_share: whirl.rolling_share[index],
         clearance_ratio: whirl.clearance_ratio[index],
         contact_duty: whirl.contact_duty[index],
         peak_force: whirl.peak_force[index],
         confidence: whirl.confidence[index],
-        ..incident(kind, at.time, place)
+        ..episode(kind, at.time, place)
     }
 }
 
@@ -314,8 +315,8 @@ fn whirl_incident(at: &Observation<'_>, index: usize) -> Incident {
 mod tests {
     use super::*;
 
-    fn place(station: usize) -> IncidentLocation {
-        IncidentLocation {
+    fn place(station: usize) -> ToolLocation {
+        ToolLocation {
             station,
             body: Body::Pipe,
             measured_depth: station as f64,
@@ -346,7 +347,7 @@ mod tests {
         }
     }
 
-    fn observe(log: &mut IncidentLog, time: f64, whirl: &WhirlReport, shock: Severity) {
+    fn observe(log: &mut EpisodeLog, time: f64, whirl: &WhirlReport, shock: Severity) {
         log.push(&Observation {
             time,
             whirl,
@@ -362,9 +363,9 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_are_one_incident_and_a_shock_is_another() {
+    fn neighbours_are_one_episode_and_a_shock_is_another() {
         use Severity::{Ok, Watch};
-        let mut log = IncidentLog::default();
+        let mut log = EpisodeLog::default();
         let calm = report([Ok; 4], WhirlKind::None, 0.0);
         observe(&mut log, 0.0, &calm, Ok);
         observe(
@@ -386,25 +387,25 @@ mod tests {
             &report([Watch, Ok, Watch, Ok], WhirlKind::Chaotic, 50.0),
             Ok,
         );
-        let incidents = log.finish();
-        assert_eq!(incidents.len(), 4, "{incidents:?}");
-        let whirl = &incidents[0];
-        assert_eq!((whirl.kind, whirl.stations), (IncidentKind::ForwardWhirl, [10, 15]));
+        let episodes = log.finish();
+        assert_eq!(episodes.len(), 4, "{episodes:?}");
+        let whirl = &episodes[0];
+        assert_eq!((whirl.kind, whirl.stations), (EpisodeKind::ForwardWhirl, [10, 15]));
         assert_eq!((whirl.start, whirl.duration, whirl.lasting), (1.0, 2.5, false));
         assert_eq!(whirl.peak_force, 300.0);
-        assert_eq!((incidents[1].kind, incidents[1].strength), (IncidentKind::Shock, 7.0));
+        assert_eq!((episodes[1].kind, episodes[1].strength), (EpisodeKind::Shock, 7.0));
         // Not neighbours: station 10 lies between them.
         assert!(
-            incidents[2..]
+            episodes[2..]
                 .iter()
-                .all(|i| i.kind == IncidentKind::ChaoticWhirl && i.lasting)
+                .all(|i| i.kind == EpisodeKind::ChaoticWhirl && i.lasting)
         );
     }
 
     #[test]
     fn the_worst_moment_names_the_kind_and_a_reset_ends_what_stands() {
         use Severity::{Ok, Warning, Watch};
-        let mut log = IncidentLog::default();
+        let mut log = EpisodeLog::default();
         observe(
             &mut log,
             1.0,
@@ -424,10 +425,10 @@ mod tests {
             Ok,
         );
         observe(&mut log, 0.5, &report([Ok; 4], WhirlKind::None, 0.0), Ok);
-        let incidents = log.finish();
-        assert_eq!(incidents.len(), 1);
-        let only = &incidents[0];
-        assert_eq!((only.kind, only.severity), (IncidentKind::BackwardWhirl, Warning));
+        let episodes = log.finish();
+        assert_eq!(episodes.len(), 1);
+        let only = &episodes[0];
+        assert_eq!((only.kind, only.severity), (EpisodeKind::BackwardWhirl, Warning));
         assert_eq!((only.start, only.duration, only.lasting), (1.0, 2.0, false));
     }
 }

@@ -1,4 +1,5 @@
-//! The incidents of a replay as a table for a person and as JSON for a program.
+//! The episodes of the motion in a replay, as a table for a person and as JSON for a program. The command line calls them
+//! incidents.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -8,7 +9,7 @@ use serde::Serialize;
 
 use crate::cli::output::say;
 use crate::messages::words;
-use flexdrill_core::motion::{Incident, IncidentKind, Severity, WhirlKind};
+use flexdrill_core::motion::{Episode, EpisodeKind, Severity, WhirlKind};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
 
 /// Most rows that are printed; the JSON has all.
@@ -41,14 +42,14 @@ impl Joints {
     }
 }
 
-fn kind(kind: IncidentKind) -> &'static str {
+fn kind(kind: EpisodeKind) -> &'static str {
     match kind {
-        IncidentKind::ForwardWhirl => WhirlKind::Forward.name(),
-        IncidentKind::BackwardWhirl => WhirlKind::Backward.name(),
-        IncidentKind::RollingWhirl => "rolling whirl",
-        IncidentKind::ChaoticWhirl => WhirlKind::Chaotic.name(),
-        IncidentKind::StickSlip => "stick-slip",
-        IncidentKind::Shock => "shock",
+        EpisodeKind::ForwardWhirl => WhirlKind::Forward.name(),
+        EpisodeKind::BackwardWhirl => WhirlKind::Backward.name(),
+        EpisodeKind::RollingWhirl => "rolling whirl",
+        EpisodeKind::ChaoticWhirl => WhirlKind::Chaotic.name(),
+        EpisodeKind::StickSlip => "stick-slip",
+        EpisodeKind::Shock => "shock",
     }
 }
 
@@ -62,39 +63,39 @@ fn severity(severity: Severity) -> String {
     }
 }
 
-fn evidence(incident: &Incident) -> String {
-    match incident.kind {
-        IncidentKind::StickSlip => format!("index up to {:.2}", incident.strength),
-        IncidentKind::Shock => format!("up to {:.1} N s in an interval", incident.strength),
+fn evidence(episode: &Episode) -> String {
+    match episode.kind {
+        EpisodeKind::StickSlip => format!("index up to {:.2}", episode.strength),
+        EpisodeKind::Shock => format!("up to {:.1} N s in an interval", episode.strength),
         _ => {
             let mut text = String::new();
             // Chaos has no rate.
-            if incident.whirl_ratio.abs() > 0.0 {
-                let _ = write!(text, "x{:.2} of the speed, ", incident.whirl_ratio);
+            if episode.whirl_ratio.abs() > 0.0 {
+                let _ = write!(text, "x{:.2} of the speed, ", episode.whirl_ratio);
             }
             let _ = write!(
                 text,
                 "{:.0} % of the gap, contact {:.0} %, {:.2} kN",
-                100.0 * incident.clearance_ratio,
-                100.0 * incident.contact_duty,
-                n_to_kn(incident.peak_force)
+                100.0 * episode.clearance_ratio,
+                100.0 * episode.contact_duty,
+                n_to_kn(episode.peak_force)
             );
-            if incident.rolling_share > 0.0 {
-                let _ = write!(text, ", {:.0} % of rolling", 100.0 * incident.rolling_share);
+            if episode.rolling_share > 0.0 {
+                let _ = write!(text, ", {:.0} % of rolling", 100.0 * episode.rolling_share);
             }
             text
         }
     }
 }
 
-/// The table, one line per incident, in the order of their beginning.
-pub(super) fn table(incidents: &[Incident], joints: &Joints) -> String {
-    if incidents.is_empty() {
+/// The table, one line per episode, in the order of their beginning.
+pub(super) fn table(episodes: &[Episode], joints: &Joints) -> String {
+    if episodes.is_empty() {
         return "  incidents              none\n".to_owned();
     }
     let mut text = format!(
         "\nincidents: {}\n  {:>9} {:>10}  {:<9} {:<15} {:<5} {:<14} {:>6} {:>5}  evidence\n",
-        incidents.len(),
+        episodes.len(),
         "at s",
         "for s",
         "severity",
@@ -105,30 +106,30 @@ pub(super) fn table(incidents: &[Incident], joints: &Joints) -> String {
         "deg"
     );
     // The worst ones when there are too many.
-    let mut shown: Vec<usize> = (0..incidents.len()).collect();
-    shown.sort_by_key(|index| std::cmp::Reverse(incidents[*index].severity));
+    let mut shown: Vec<usize> = (0..episodes.len()).collect();
+    shown.sort_by_key(|index| std::cmp::Reverse(episodes[*index].severity));
     shown.truncate(ROWS);
     shown.sort_unstable();
-    for incident in shown.iter().map(|index| &incidents[*index]) {
-        let lasts = format!("{}{:.2}", if incident.lasting { ">" } else { "" }, incident.duration);
+    for episode in shown.iter().map(|index| &episodes[*index]) {
+        let lasts = format!("{}{:.2}", if episode.lasting { ">" } else { "" }, episode.duration);
         let _ = writeln!(
             text,
             "  {:>9.2} {lasts:>10}  {:<9} {:<15} {:<5} {:<14} {:>6.2} {:>5.0}  {}",
-            incident.start,
-            severity(incident.severity),
-            kind(incident.kind),
-            words::body(incident.place.body),
-            joints.range(incident.stations),
-            incident.place.measured_depth,
-            rad_to_deg(incident.place.inclination),
-            evidence(incident)
+            episode.start,
+            severity(episode.severity),
+            kind(episode.kind),
+            words::body(episode.place.body),
+            joints.range(episode.stations),
+            episode.place.measured_depth,
+            rad_to_deg(episode.place.inclination),
+            evidence(episode)
         );
     }
-    if incidents.len() > shown.len() {
+    if episodes.len() > shown.len() {
         let _ = writeln!(
             text,
             "  and {} more, none worse than these; --incidents FILE.json has all",
-            incidents.len() - shown.len()
+            episodes.len() - shown.len()
         );
     }
     text
@@ -137,23 +138,23 @@ pub(super) fn table(incidents: &[Incident], joints: &Joints) -> String {
 #[derive(Serialize)]
 struct Row<'a> {
     #[serde(flatten)]
-    incident: &'a Incident,
+    episode: &'a Episode,
     /// Joint at the worst place, from 1 at the top.
     joint: Option<usize>,
     inclination_deg: f64,
 }
 
-/// Writes all incidents: an array of objects, SI units.
+/// Writes all episodes: an array of objects, SI units.
 ///
 /// # Errors
 /// When the file cannot be written.
-pub(super) fn write_json(path: &Path, incidents: &[Incident], joints: &Joints) -> anyhow::Result<()> {
-    let rows: Vec<_> = incidents
+pub(super) fn write_json(path: &Path, episodes: &[Episode], joints: &Joints) -> anyhow::Result<()> {
+    let rows: Vec<_> = episodes
         .iter()
-        .map(|incident| Row {
-            incident,
-            joint: joints.number(incident.place.station),
-            inclination_deg: rad_to_deg(incident.place.inclination),
+        .map(|episode| Row {
+            episode,
+            joint: joints.number(episode.place.station),
+            inclination_deg: rad_to_deg(episode.place.inclination),
         })
         .collect();
     let text = serde_json::to_string_pretty(&rows)?;
@@ -166,17 +167,17 @@ pub(super) fn write_json(path: &Path, incidents: &[Incident], joints: &Joints) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_core::motion::IncidentLocation;
+    use flexdrill_core::motion::ToolLocation;
     use flexdrill_core::tool::Body;
 
-    fn rolling() -> Incident {
-        Incident {
-            kind: IncidentKind::RollingWhirl,
+    fn rolling() -> Episode {
+        Episode {
+            kind: EpisodeKind::RollingWhirl,
             severity: Severity::Critical,
             start: 12.5,
             duration: 3.25,
             lasting: true,
-            place: IncidentLocation {
+            place: ToolLocation {
                 station: 150,
                 body: Body::Pipe,
                 measured_depth: 4.57,
@@ -221,10 +222,10 @@ mod tests {
     fn json_holds_everything_in_si() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("incidents.json");
-        let stick = Incident {
-            kind: IncidentKind::StickSlip,
+        let stick = Episode {
+            kind: EpisodeKind::StickSlip,
             stations: [165; 2],
-            place: IncidentLocation {
+            place: ToolLocation {
                 station: 165,
                 ..rolling().place
             },

@@ -1,4 +1,4 @@
-// One place of the tool: orbit, full spectrum, forces, stop moment, what the alarms say of it.
+// One location of the tool: orbit, full spectrum, forces, stop moment and its alarms.
 
 import { title } from "../alarms";
 import * as api from "../api";
@@ -9,19 +9,19 @@ import type { Vector } from "../store/layout";
 import { heard, type Motion, PastMotion } from "../store/motion";
 import type { Ring } from "../store/ring";
 import { clock, convert, digits, number, quantity, withUnit } from "../units";
-import { type Context, Pace, type Place, type View } from "../view";
+import { type Context, Pace, type ToolLocation, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, SEVERITY, WHIRL_KIND, word } from "../words";
 import { drawOrbit, drawSpectrum } from "./orbit";
 import { Strip, withGaps } from "./strip";
 
-/** Length of the strips and of the motion that the spectrum is of (s). */
+/** Length of the strips and of the motion in the spectrum (s). */
 const SPAN = 30;
-/** An alarm is of a place that is this near to it (m): half a link. */
+/** Largest distance of an alarm that belongs to a location (m): half a link. */
 const NEAR = 0.1;
 
-export class PlaceView implements View {
+export class LocationView implements View {
   readonly element: HTMLElement;
-  private readonly title = h("h2", { id: "place-title" });
+  private readonly title = h("h2", { id: "location-title" });
   private readonly none = h(
     "p",
     { class: "none" },
@@ -36,7 +36,7 @@ export class PlaceView implements View {
   private readonly spectrum = h("canvas", { id: "spectrum", role: "img", "aria-label": "Full spectrum of the orbit" });
   private readonly source = h("p", { class: "hint" });
   private readonly facts = h("dl", { class: "facts-list" });
-  private readonly alarms = h("ul", { class: "place-alarms" });
+  private readonly alarms = h("ul", { class: "location-alarms" });
   private readonly forces: Strip;
   private readonly outer: Strip;
   private readonly moments: Strip;
@@ -83,7 +83,7 @@ export class PlaceView implements View {
       );
     this.body = h(
       "div",
-      { class: "place-body" },
+      { class: "location-body" },
       h("div", { class: "orbit-row" }, this.orbit, this.facts),
       this.source,
       h("h3", {}, "Full spectrum, in multiples of the rotary speed"),
@@ -99,7 +99,7 @@ export class PlaceView implements View {
     );
     this.element = h(
       "section",
-      { class: "place", "aria-label": "Place" },
+      { class: "location", "aria-label": "Location" },
       h("div", { class: "row" }, go(-1), this.title, go(1)),
       this.none,
       this.body,
@@ -110,47 +110,48 @@ export class PlaceView implements View {
     const { geometry } = this.context.store;
     if (!geometry) return;
     const count = geometry.jointDepth.length;
-    const joint = ((this.context.place?.joint ?? (by > 0 ? -1 : count)) + by + count) % count;
+    const joint = ((this.context.location?.joint ?? (by > 0 ? -1 : count)) + by + count) % count;
     this.context.choose({ joint, station: geometry.jointStation[joint] });
   }
 
   draw(now: number): void {
     const { context } = this;
-    const { store, place, settings } = context;
+    const { store, location, settings } = context;
     if (this.element.clientWidth === 0) return;
     const geometry = store.geometry;
-    show(this.none, place === null);
-    show(this.body, place !== null);
-    if (!place || !geometry || place.station >= geometry.stationDepth.length) {
+    show(this.none, location === null);
+    show(this.body, location !== null);
+    if (!location || !geometry || location.station >= geometry.stationDepth.length) {
       setText(this.title, "No location selected");
       return;
     }
     if (!this.fast.due(now, context.revision)) return;
-    const name = place.joint === null ? `Station ${place.station}` : `Joint ${place.joint + 1}`;
-    const inclination = number((geometry.stationInclination[place.station] * 180) / Math.PI, 0);
-    const depth = withUnit(geometry.stationDepth[place.station], "depth", settings.units);
+    const name = location.joint === null ? `Station ${location.station}` : `Joint ${location.joint + 1}`;
+    const inclination = number((geometry.stationInclination[location.station] * 180) / Math.PI, 0);
+    const depth = withUnit(geometry.stationDepth[location.station], "depth", settings.units);
     setText(this.title, `${name} · ${depth} · ${inclination}°`);
-    const recent = this.pipe(place);
-    const kept = recent.times.length === 0 && place.joint !== null ? this.past.at(place.joint, store.shown) : null;
+    const recent = this.pipe(location);
+    const kept =
+      recent.times.length === 0 && location.joint !== null ? this.past.at(location.joint, store.shown) : null;
     const pipe = kept ?? recent;
-    const guide = this.guideNow(place.station);
+    const guide = this.guideNow(location.station);
     const tool = store.session?.tool;
-    drawOrbit(this.orbit, context, pipe.times.length > 0 ? pipe : this.pipeThen(place.station), guide, {
+    drawOrbit(this.orbit, context, pipe.times.length > 0 ? pipe : this.pipeThen(location.station), guide, {
       pipe: tool?.pipe_clearance ?? 0.0085,
       guide: tool?.guide_clearance ?? 0.008,
     });
     if (!this.slow.due(now, context.revision)) return;
-    this.drawSlow(place, pipe, kept);
+    this.drawSlow(location, pipe, kept);
   }
 
   /** The pipe's axis about the bore's: of joints at their own rate, of other stations as often as the shape comes. */
-  private pipe(place: Place): Motion {
+  private pipe(location: ToolLocation): Motion {
     const { store } = this.context;
     const { layout } = store;
     if (!layout) return { times: [], y: [], z: [] };
     const { joints, stations } = layout.counts;
-    if (place.joint !== null) return heard(store.joints, place.joint, joints + place.joint, store.shown, SPAN);
-    return heard(store.shapes, place.station, stations + place.station, store.shown, SPAN);
+    if (location.joint !== null) return heard(store.joints, location.joint, joints + location.joint, store.shown, SPAN);
+    return heard(store.shapes, location.station, stations + location.station, store.shown, SPAN);
   }
 
   /** The one position that the hour has of a second. */
@@ -170,7 +171,7 @@ export class PlaceView implements View {
     return [layout.vector(row, "guide_y")[station] || 0, layout.vector(row, "guide_z")[station] || 0];
   }
 
-  private drawSlow(place: Place, pipe: Motion, kept: Motion | null | undefined): void {
+  private drawSlow(location: ToolLocation, pipe: Motion, kept: Motion | null | undefined): void {
     const { context } = this;
     const { store, settings } = context;
     const moment = store.moment();
@@ -182,35 +183,41 @@ export class PlaceView implements View {
     const turns = layout.scalar(row, "rotary_speed_applied") / (2 * Math.PI);
     const clearance = store.session?.tool?.pipe_clearance ?? 0.0085;
     drawSpectrum(this.spectrum, context, fullSpectrum(pipe.y, pipe.z, rate), turns, clearance);
-    setText(this.source, this.words(place, pipe, kept, rate));
+    setText(this.source, this.words(location, pipe, kept, rate));
     const { stations, joints } = layout.counts;
     const unit = quantity("force", settings.units).unit;
-    this.strip(this.forces, store.contacts, place.station, ["pipe_guide_normal_peak", place.station], "force");
+    this.strip(this.forces, store.contacts, location.station, ["pipe_guide_normal_peak", location.station], "force");
     this.strip(
       this.outer,
       store.contacts,
-      stations + place.station,
-      ["guide_wall_normal_peak", place.station],
+      stations + location.station,
+      ["guide_wall_normal_peak", location.station],
       "force",
     );
     setText(this.innerTitle, `Pipe on guide (${unit}), peak per interval`);
     setText(this.outerTitle, `Guide on wall (${unit}), peak per interval`);
-    show(this.momentTitle, place.joint !== null);
-    show(this.moments.element, place.joint !== null);
-    if (place.joint !== null) {
-      this.strip(this.moments, store.joints, 2 * joints + place.joint, ["joint_stop_moment", place.joint], "torque");
+    show(this.momentTitle, location.joint !== null);
+    show(this.moments.element, location.joint !== null);
+    if (location.joint !== null) {
+      this.strip(
+        this.moments,
+        store.joints,
+        2 * joints + location.joint,
+        ["joint_stop_moment", location.joint],
+        "torque",
+      );
       const rated = configured(store.sessionInfo?.configuration ?? "", "joint_load.rated_moment_nm");
       const of = Number.isFinite(rated) ? `, dashed: rated ${withUnit(rated, "torque", settings.units)}` : "";
       setText(this.momentTitle, `Stop moment (${quantity("torque", settings.units).unit})${of}`);
     }
-    this.list(place);
+    this.list(location);
   }
 
   /** What the motion is of, or why there is none. */
-  private words(place: Place, pipe: Motion, kept: Motion | null | undefined, rate: number): string {
+  private words(location: ToolLocation, pipe: Motion, kept: Motion | null | undefined, rate: number): string {
     if (pipe.times.length === 0) {
       const hour = "Dot and strips come from the hour's history, one row per second; a recording has the full motion.";
-      if (place.joint === null) {
+      if (location.joint === null) {
         return `No motion: between joints it is kept for one minute only; joints are kept for longer. ${hour}`;
       }
       return kept === undefined
@@ -225,7 +232,7 @@ export class PlaceView implements View {
       `${what}View down the hole; forward whirl is clockwise. Solid circle: limit of the pipe's axis in the bore; ` +
       `dashed circle: its limit in the guide at the guide's present position. Clearance used: largest deflection over ` +
       `the clearance. Contact time: share of the time in contact. ` +
-      `${number(rate, 0)} positions per second${place.joint === null ? "; joints have more." : "."}`
+      `${number(rate, 0)} positions per second${location.joint === null ? "; joints have more." : "."}`
     );
   }
 
@@ -258,13 +265,13 @@ export class PlaceView implements View {
     strip.set(withGaps(times, [values], most), from, to);
   }
 
-  private list(place: Place): void {
+  private list(location: ToolLocation): void {
     const { store, settings } = this.context;
     const moment = store.moment();
     const geometry = store.geometry;
     if (!moment || !geometry) return;
     const { layout, row } = moment;
-    const depth = geometry.stationDepth[place.station];
+    const depth = geometry.stationDepth[location.station];
     const facts: [string, string][] = [];
     for (const [body, pipe] of [
       [0, "Pipe"],
@@ -285,14 +292,14 @@ export class PlaceView implements View {
       facts.push([`${pipe} clearance used`, `${number(100 * layout.vector(row, "clearance_ratio")[index], 0)} %`]);
       facts.push([`${pipe} contact time`, `${number(100 * layout.vector(row, "contact_duty")[index], 0)} %`]);
     }
-    if (place.joint !== null) {
-      const bend = layout.vector(row, "joint_bend_angle")[place.joint];
+    if (location.joint !== null) {
+      const bend = layout.vector(row, "joint_bend_angle")[location.joint];
       const limit = geometry.jointLimit;
       facts.push([
         bend >= limit ? "Bend, at stop" : "Bend",
         `${digits(bend, "angle", settings.units)} / ${withUnit(limit, "angle", settings.units)}`,
       ]);
-      const stop = layout.vector(row, "joint_stop_moment")[place.joint];
+      const stop = layout.vector(row, "joint_stop_moment")[location.joint];
       const rated = configured(store.sessionInfo?.configuration ?? "", "joint_load.rated_moment_nm");
       const of = Number.isFinite(rated) ? ` / rated ${withUnit(rated, "torque", settings.units)}` : "";
       facts.push(["Stop moment", `${digits(stop, "torque", settings.units)}${of}`]);
