@@ -1,4 +1,4 @@
-//! Documents keep to their width, and the files, links and functions that they name are there.
+//! Documents keep to their width, words and figures, and the files, links and functions that they name exist.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -304,6 +304,215 @@ fn the_guide_names_every_test_binary_of_the_program() {
         .filter(|binary| !named.contains(binary.as_str()))
         .collect();
     assert!(missing.is_empty(), "CONTRIBUTING.md does not name {missing:?}");
+}
+
+/// Words that the glossary's table rules out, in small letters.
+fn words_to_leave_out() -> Vec<String> {
+    let glossary = read(&root().join("docs/glossary.md"));
+    let table = glossary.split("## Words to leave out").nth(1).unwrap();
+    let rows = table.lines().filter(|line| line.starts_with("| `"));
+    rows.filter_map(|row| row.split('|').nth(1))
+        .flat_map(|cell| cell.split('`').skip(1).step_by(2))
+        .map(str::to_lowercase)
+        .collect()
+}
+
+/// Paragraphs of a text without code, quotations and addresses, each with the number of its first line.
+fn paragraphs(lines: impl Iterator<Item = (usize, String)>) -> Vec<(usize, String)> {
+    let mut found: Vec<(usize, String)> = Vec::new();
+    let mut open = false;
+    for (number, line) in lines {
+        let text = line.trim();
+        if text.is_empty() {
+            open = false;
+            continue;
+        }
+        match found.last_mut().filter(|_| open) {
+            Some((_, paragraph)) => {
+                paragraph.push(' ');
+                paragraph.push_str(text);
+            }
+            None => found.push((number, text.to_owned())),
+        }
+        open = !text.starts_with('|');
+    }
+    for (_, paragraph) in &mut found {
+        let outside = |text: &str, mark| text.split(mark).step_by(2).collect::<Vec<_>>().join(" ");
+        *paragraph = outside(&outside(&without_links(paragraph), '`'), '"').to_lowercase();
+    }
+    found
+}
+
+/// The prose of a document: no code blocks, and nothing that a command wrote between its markers.
+fn prose(text: &str) -> Vec<(usize, String)> {
+    let (mut fenced, mut written) = (false, false);
+    let lines = text.lines().enumerate().map(|(number, line)| {
+        if line.starts_with(WRITTEN) {
+            written = !line.contains(": end");
+        }
+        let fence = line.trim_start().starts_with("```");
+        fenced ^= fence;
+        let code = fenced || fence || written || line.starts_with("    ");
+        (number + 1, if code { String::new() } else { line.to_owned() })
+    });
+    paragraphs(lines)
+}
+
+/// The comments of a configuration or of a message definition.
+fn comments(text: &str) -> Vec<(usize, String)> {
+    let lines = text.lines().enumerate().map(|(number, line)| {
+        let comment = line.split_once('#').map_or("", |(_, comment)| comment);
+        (number + 1, comment.to_owned())
+    });
+    paragraphs(lines)
+}
+
+/// The words of `banned` that stand in `paragraph` as words of their own; to stand still is none.
+fn found_words<'a>(paragraph: &str, banned: &'a [String]) -> Vec<&'a str> {
+    let words: Vec<&str> = paragraph
+        .split(|c: char| !c.is_alphanumeric() && c != '-' && c != '\'')
+        .filter(|word| !word.is_empty())
+        .collect();
+    let stands = |at: usize| at > 0 && (words[at - 1].starts_with("stand") || words[at - 1] == "stood");
+    let at = |term: &str, from: usize| {
+        let term: Vec<&str> = term.split(' ').collect();
+        words.get(from..from + term.len()) == Some(&term[..])
+    };
+    let hit = |term: &&String| (0..words.len()).any(|from| at(term, from) && !(*term == "still" && stands(from)));
+    banned.iter().filter(hit).map(String::as_str).collect()
+}
+
+#[test]
+fn words_to_leave_out_are_left_out() {
+    let banned = words_to_leave_out();
+    assert!(banned.len() > 20, "{banned:?}");
+    let mut found = Vec::new();
+    let mut look = |file: &Path, paragraphs: Vec<(usize, String)>| {
+        for (line, paragraph) in paragraphs {
+            for word in found_words(&paragraph, &banned) {
+                found.push(format!("{}:{line}: {word}", name(file)));
+            }
+        }
+    };
+    for file in files(&[".md"]) {
+        look(&file, prose(&read(&file)));
+    }
+    for file in files(&[".yaml", ".msg", ".srv"]) {
+        // Definitions of other packages have their own words.
+        let own = ["config/", "docs/", "msg/"];
+        if own.iter().any(|folder| name(&file).starts_with(folder)) {
+            look(&file, comments(&read(&file)));
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "words that docs/glossary.md leaves out, by paragraph:\n{}",
+        found.join("\n")
+    );
+}
+
+/// The search finds a word in prose and over the end of a line, and neither in code nor in quotations.
+#[test]
+fn words_are_found_in_prose_alone() {
+    let banned = ["still".to_owned(), "so much".to_owned(), "he".to_owned()];
+    let all = |text: &str| {
+        let found = prose(text);
+        let words = found.iter().flat_map(|(_, paragraph)| found_words(paragraph, &banned));
+        words.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(all("It is still here, and So\nmuch more."), ["still", "so much"]);
+    assert_eq!(all("| he | says |"), ["he"]);
+    let exempt = "The model stands still. `still` and \"so much\".\n\n    he codes\n\n```\nstill\n```\nThe theory.";
+    assert_eq!(all(exempt), [""; 0]);
+    assert_eq!(found_words(&comments("key: 1  # he is\nhe: 2")[0].1, &banned), ["he"]);
+}
+
+/// The number before `after` in a text.
+fn number_before(text: &str, after: &str) -> f64 {
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let before = text.split(after).next().filter(|before| before.len() < text.len());
+    let word = before
+        .and_then(|before| before.split(' ').next_back())
+        .unwrap_or_default();
+    word.parse()
+        .unwrap_or_else(|_| panic!("no number before {after:?}: {word:?}"))
+}
+
+/// The cells of the first row of a table that begins so, behind a heading.
+fn row<'a>(text: &'a str, heading: &str, begin: &str) -> Vec<&'a str> {
+    let (_, section) = text.split_once(heading).unwrap_or_else(|| panic!("no {heading:?}"));
+    let row = section.lines().find(|line| line.starts_with(begin));
+    let row = row.unwrap_or_else(|| panic!("no row {begin:?} behind {heading:?}"));
+    row.split('|').map(str::trim).collect()
+}
+
+/// Figures that stand in two documents are the same figure, as rounded as the text has it.
+#[test]
+fn figures_that_stand_in_two_documents_agree() {
+    let measured = read(&root().join("docs/measurements.md"));
+    let parse = |cell: &str| cell.parse::<f64>().unwrap_or_else(|_| panic!("{cell:?} is no number"));
+    let agree = |place: &str, shown: f64, figure: f64, unit: f64| {
+        assert!(
+            (shown - figure).abs() <= 0.5 * unit + 1e-9,
+            "{place} says {shown}, docs/measurements.md {figure}"
+        );
+    };
+    let readme = read(&root().join("README.md"));
+    let real_time = row(&measured, "<!-- flexdrill bench real-time", "| as it is, 10 kN |");
+    let whole = parse(real_time[2]);
+    agree(
+        "README.md",
+        number_before(&readme, " times faster than real time with whole steps"),
+        whole,
+        1.0,
+    );
+    let mechanics = read(&root().join("docs/mechanics.md"));
+    let cost = number_before(&mechanics, " times the time, not twice");
+    agree(
+        "README.md",
+        number_before(&readme, " times faster with the half steps"),
+        whole / cost,
+        1.0,
+    );
+
+    let simd = read(&root().join("docs/decisions/own_simd.md"));
+    let instructions = row(&measured, "`portable` |", "| as it is, 10 kN |");
+    for (column, after) in [(2, " with AVX-512,"), (3, " with AVX2 and"), (4, " with portable code")] {
+        agree(
+            "own_simd.md",
+            number_before(&simd, after),
+            parse(instructions[column]),
+            0.1,
+        );
+    }
+    let comparison = read(&root().join("docs/comparison.md"));
+    let ours = row(&comparison, "## The same tool", "| flexdrill |");
+    let peers = row(&measured, "## The same tool in EXUDYN", "| real-time factor");
+    agree("comparison.md", parse(ours[4]), parse(peers[3]), 0.1);
+}
+
+#[test]
+fn every_page_is_in_the_summary() {
+    let summary = read(&root().join("docs/SUMMARY.md"));
+    let pages = files(&[".md"]);
+    let missing: Vec<String> = pages
+        .iter()
+        .filter_map(|page| name(page).strip_prefix("docs/").map(str::to_owned))
+        .filter(|page| page != "SUMMARY.md" && !summary.contains(&format!("]({page})")))
+        .collect();
+    assert!(missing.is_empty(), "not in docs/SUMMARY.md: {missing:?}");
+}
+
+#[test]
+fn every_crate_has_a_row_in_the_architecture() {
+    let page = read(&root().join("docs/architecture.md"));
+    let crates = std::fs::read_dir(root().join("crates")).unwrap();
+    let names = crates.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
+    let missing: Vec<String> = names
+        .filter(|name| name.starts_with("flexdrill"))
+        .filter(|name| !page.lines().any(|line| line.starts_with(&format!("| `{name}` |"))))
+        .collect();
+    assert!(missing.is_empty(), "no row in docs/architecture.md: {missing:?}");
 }
 
 /// The checks find what they are for.

@@ -7,40 +7,40 @@ use super::checker::{Bound, Checker};
 use super::section::section;
 
 section! {
-    /// Alarms. `docs/alarms.md` says what each of them means.
+    /// Alarms; `docs/alarms.md` explains each of them.
     pub struct Alarms(this) {
         /// Longest time for which an operator can shelve an alarm (s).
         longest_shelving: f64 = 3600.0, within(1.0, 86_400.0), "s", "a shift's end must not be forgotten; a day";
-        /// Time after the start of the node for which an input that has never sent a sample raises no alarm (s). The
-        /// status shows it as not received from the first moment.
+        /// Time after the start of the node during which an input that has never sent a sample raises no alarm (s). The
+        /// status shows it as not received from the beginning.
         first_sample_within: f64 = 300.0, within(0.0, 86_400.0), "s", "a rig is connected within minutes of the twin's start; a day";
-        /// The pipe goes round against the rotation.
+        /// The pipe whirls against the rotation.
         backward_whirl: ToolAlarm = ToolAlarm::default(), below;
-        /// The pipe goes round with the rotation.
+        /// The pipe whirls with the rotation.
         forward_whirl: ToolAlarm = ToolAlarm::default(), below;
-        /// Collisions.
+        /// Strong collisions of the pipes with each other or with the wall.
         shock: ToolAlarm = ToolAlarm::default(), below;
-        /// The bit stops and springs forward.
+        /// The bit sticks and slips.
         stick_slip: ToolAlarm = ToolAlarm::default(), below;
-        /// Joints beyond their rating.
+        /// The stop of a joint carries more than its rated moment.
         joint_load: ToolAlarm = ToolAlarm::default(), below;
-        /// The pipe is thrown about without direction.
+        /// The pipe bounces without a steady direction.
         chaotic_whirl: ToolAlarm = ToolAlarm::default(), below;
-        /// The model contradicts itself.
+        /// The energy errors of the steps make the motion doubtful.
         model_quality: ToolAlarm = ToolAlarm::default(), below;
-        /// `rig/rotary_speed_rpm` not received, refused or stale.
+        /// The rotary speed is not received, refused or stale.
         rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
-        /// `rig/weight_on_bit_kn` not received, refused or stale.
+        /// The weight on bit is not received, refused or stale.
         weight_on_bit_input: NodeAlarm = NodeAlarm::default(), below;
-        /// More than one publisher drives an input.
+        /// More than one publisher sends an input.
         two_drivers: NodeAlarm = NodeAlarm::default(), below;
-        /// The model is slower than time.
+        /// The computer is too slow for the model.
         real_time: NodeAlarm = NodeAlarm::default(), below;
-        /// A step failed.
+        /// A step failed, and the model stands still.
         solver: NodeAlarm = NodeAlarm::default(), below;
-        /// The recording stopped or loses messages.
+        /// The recording stopped or lost messages.
         recording: NodeAlarm = NodeAlarm::default(), below;
-        /// DDS had to be started again.
+        /// DDS was restarted.
         network: NodeAlarm = NodeAlarm { on_delay: 0.0, ..NodeAlarm::default() }, below;
         /// Limits that the driller is advised to bring the speed and the weight on bit to.
         advice: AdviceTable = AdviceTable::default();
@@ -48,14 +48,14 @@ section! {
 }
 
 section! {
-    /// An alarm of the tool's motion or of what it is judged by, in model time.
+    /// An alarm of the tool's motion or of the model quality, in model time.
     #[derive(Copy)]
     pub struct ToolAlarm(this) {
-        /// False takes the alarm out of service. Default true.
+        /// `false` takes the alarm out of service: it is listed but never annunciates. Default true.
         in_service: bool = true;
-        /// Time that a level must stand before it calls (s).
+        /// Time for which a level must stand before the alarm annunciates (s).
         on_delay: f64 = 0.0, within(0.0, 600.0), "s", "levels have their own duration; longer would call too late";
-        /// Time that it must be gone before the alarm has returned (s).
+        /// Time for which it must be absent before the alarm returns to normal (s).
         off_delay: f64 = 1.0, within(0.0, 600.0), "s", "levels have their own hold-off; longer says nothing of now";
     }
 }
@@ -64,31 +64,32 @@ section! {
     /// An alarm of the node, in time on the rig's clock.
     #[derive(Copy)]
     pub struct NodeAlarm(this) {
-        /// False takes the alarm out of service. Default true.
+        /// `false` takes the alarm out of service: it is listed but never annunciates. Default true.
         in_service: bool = true;
-        /// Time that the condition must stand before it calls (s).
+        /// Time for which the condition must stand before the alarm annunciates (s).
         on_delay: f64 = 2.0, within(0.0, 600.0), "s", "a moment's lateness is nothing to act on";
-        /// Time that it must be gone before the alarm has returned (s).
+        /// Time for which it must be absent before the alarm returns to normal (s).
         off_delay: f64 = 5.0, within(0.0, 600.0), "s", "longer says nothing of now";
     }
 }
 
-/// Per alarm of the tool. What is given for an alarm replaces its default as a whole. Every default was followed in
-/// runs in which it ended its alarm and raised no higher one; `docs/alarms.md` lists them.
+/// One rule per alarm of the tool. A rule in the file replaces the default rule of its alarm as a whole. Each default
+/// rule was followed in runs in which it ended its alarm and raised no alarm of a higher priority; `docs/alarms.md`
+/// lists these runs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdviceTable {
-    /// Default: below 80 r/min.
+    /// Rule against backward whirl. Default: below 80 r/min.
     pub backward_whirl: Advice,
-    /// Default: below 60 r/min.
+    /// Rule against forward whirl. Default: below 60 r/min.
     pub forward_whirl: Advice,
-    /// Default: below 20 kN.
+    /// Rule against shock. Default: below 20 kN.
     pub shock: Advice,
-    /// Default: below 8 kN, then above 55 r/min.
+    /// Rule against stick-slip. Default: below 8 kN, then above 55 r/min.
     pub stick_slip: Advice,
-    /// Default: below 40 kN.
+    /// Rule against overload of the joints. Default: below 40 kN.
     pub joint_load: Advice,
-    /// Default: below 50 r/min.
+    /// Rule against chaotic whirl. Default: below 50 r/min.
     pub chaotic_whirl: Advice,
 }
 
@@ -108,22 +109,22 @@ impl Default for AdviceTable {
     }
 }
 
-/// What to bring an input to. Of several limits one is advised at a time: the first, in the order lower speed, lower
-/// weight, raise speed, raise weight, that changes the present inputs within their own limits and agrees with the rules
-/// of the other standing alarms.
+/// The limits of a rule. The twin advises on one limit at a time: the first, in the order lower speed, lower weight,
+/// raise speed, raise weight, that changes the present inputs within their limits and agrees with the rules of the
+/// other standing alarms.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Advice {
-    /// Bring the weight on bit below this.
+    /// Bring the weight on bit below this value (kN).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lower_weight_on_bit_kn: Option<f64>,
-    /// Bring the weight on bit above this.
+    /// Bring the weight on bit above this value (kN).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub raise_weight_on_bit_kn: Option<f64>,
-    /// Bring the rotary speed below this.
+    /// Bring the rotary speed below this value (r/min).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lower_rotary_speed_rpm: Option<f64>,
-    /// Bring the rotary speed above this.
+    /// Bring the rotary speed above this value (r/min).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub raise_rotary_speed_rpm: Option<f64>,
 }

@@ -12,16 +12,18 @@ use flexdrill_core::tool::{Body, Direction, Location, Support, WobPath};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Boundary {
-    /// `paper` or `none`. Default paper.
+    /// Set of supports: `paper` (Table 1) or `none` (only `supports`). Default paper.
     pub preset: Preset,
-    /// Whether the preset holds u at the bottom. Default free.
+    /// Whether the preset holds the axial displacement u at the bottom: `free` or `fixed`. Default free.
     pub bottom_axial: BottomAxial,
-    /// How the weight on bit reaches the tool. Default guide.
+    /// The pipe that carries the weight on bit: `guide`, or `shared`, which ties the pipe's lower end to the guide's.
+    /// Default guide.
     #[schemars(with = "json_schema::WobPath")]
     pub wob_path: WobPath,
-    /// What turns the first pipe node. Default top.
+    /// Drive of the first pipe node: `top` turns it at the commanded speed, `none` leaves it to the supports. Default
+    /// top.
     pub drive: Drive,
-    /// Beside those of the preset. Default none.
+    /// Supports in addition to those of the preset. Default none.
     pub supports: Vec<Held>,
 }
 
@@ -29,7 +31,8 @@ pub struct Boundary {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
-    /// Table 1: top u, v, w of both pipes, bottom v, w of both. The guide's spin is left free: its curvature keeps it.
+    /// Table 1: top u, v, w of both pipes, bottom v, w of both. The guide's spin is free, because its curvature holds
+    /// it.
     #[default]
     Paper,
     /// Only `supports`.
@@ -40,21 +43,21 @@ pub enum Preset {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BottomAxial {
-    /// The text's: weight on bit moves the end.
+    /// The paper's text: the weight on bit moves the end.
     #[default]
     Free,
-    /// The print of Table 1, for comparison: then weight on bit goes into the support.
+    /// Table 1 as printed, for comparison: the support carries the weight on bit.
     Fixed,
 }
 
-/// What turns the pipe.
+/// Drive of the pipe.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Drive {
     /// The first pipe node follows the commanded speed.
     #[default]
     Top,
-    /// Nothing; the first node is as the supports say.
+    /// No drive; the supports determine the motion of the first node.
     None,
 }
 
@@ -62,12 +65,13 @@ pub enum Drive {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Held {
-    /// Place along the tool.
+    /// Location along the tool.
     pub at: At,
-    /// `pipe` or `guide`.
+    /// The supported body: `pipe` or `guide`.
     #[schemars(with = "json_schema::Body")]
     pub body: Body,
-    /// Any of u (axial), v (horizontal), w (towards the low side), psi (spin), phi_y, phi_z (tilts).
+    /// Directions that are held: any of u (axial), v (horizontal), w (towards the low side), psi (spin), phi_y, phi_z
+    /// (tilts).
     #[schemars(with = "Vec<json_schema::Direction>")]
     pub fix: Vec<Direction>,
 }

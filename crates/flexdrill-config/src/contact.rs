@@ -9,13 +9,14 @@ section! {
     /// Contact between pipe and guide and between guide and wall.
     #[derive(Copy)]
     pub struct Contact(this) {
-        /// Pipe and guide, steel on steel.
+        /// Contact of the pipe with the guide, steel on steel.
         #[serde(deserialize_with = "inner_layer")]
         inner: Layer = Layer::INNER, below;
-        /// Guide and wall, steel on rock.
+        /// Contact of the guide with the wall, steel on rock.
         #[serde(deserialize_with = "outer_layer")]
         outer: Layer = Layer::OUTER, below;
-        /// Sliding speed at which the regularised friction reaches 71 % of Coulomb's (m/s).
+        /// Sliding speed at which the regularised friction reaches 71 % of the Coulomb friction (m/s). A smaller value
+        /// is closer to Coulomb's law and needs more iterations.
         slip_speed: f64 = 0.01, within(1e-6, 1.0), "m/s",
             "0 would make friction jump at standstill; above 1 m/s it hardly holds anything";
     }
@@ -25,14 +26,15 @@ section! {
     /// One gap layer.
     #[derive(Copy)]
     pub struct Layer(this) {
-        /// Penalty stiffness per station (N/m). Default 1e7 inner, 2e7 outer.
+        /// Penalty stiffness per station (N/m). A larger value gives shorter collisions, which need a smaller step.
+        /// Default 1e7 inner, 2e7 outer.
         stiffness: f64, within(0.0, 1e12), "N/m", "0 switches the layer off";
-        /// Damping of Hunt and Crossley (s/m). Default 0.5.
+        /// Hunt-Crossley damping (s/m). A larger value reduces the rebound. Default 0.5.
         damping: f64, within(0.0, 1e3), "s/m",
             "0 is elastic; bodies here meet at well below 10 m/s, where 10 s/m is already dead";
-        /// Coulomb, around the circumference. Default 0.2 inner, 0.3 outer.
+        /// Coulomb friction coefficient around the circumference. Default 0.2 inner, 0.3 outer.
         friction_tangential: f64, within(0.0, 2.0), "", "dry surfaces stay below 1; 2 leaves room for trials";
-        /// Coulomb, along the axis. Default 0.2 inner, 0.3 outer.
+        /// Coulomb friction coefficient along the axis. Default 0.2 inner, 0.3 outer.
         friction_axial: f64, within(0.0, 2.0), "", "dry surfaces stay below 1; 2 leaves room for trials";
     }
 }

@@ -8,37 +8,36 @@ use super::error::{ConfigError, Problem};
 use super::section::section;
 
 section! {
-    /// Limits of live parameters. Where the configuration itself goes further, its own value is the limit.
+    /// Limits of the parameters that may change while the twin runs. Where a value of the configuration is beyond its
+    /// hard limit, that value is the limit.
     #[derive(Copy)]
     pub struct HardLimits(this) {
-        /// `inputs.rotary_speed.min_rpm` is not set below this.
+        /// Lowest value of `inputs.rotary_speed.min_rpm` (r/min).
         min_rpm: f64 = 0.0, within(-5000.0, this.max_rpm), "r/min", "not above max_rpm";
-        /// `inputs.rotary_speed.max_rpm` is not set above this.
+        /// Highest value of `inputs.rotary_speed.max_rpm` (r/min).
         max_rpm: f64 = 300.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
-        /// `inputs.rotary_speed.safe_rpm` is not set above this, or above the configuration's own value where that is
-        /// higher.
+        /// Highest value of `inputs.rotary_speed.safe_rpm` (r/min), or the configured value where that is higher.
         safe_rpm: f64 = 0.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
-        /// `inputs.rotary_speed.slew_rpm_per_s`, `downhole_slew_rpm_per_s` and `safe_ramp_rpm_per_s` are not set above
-        /// this.
+        /// Highest value of `inputs.rotary_speed.slew_rpm_per_s`, `downhole_slew_rpm_per_s` and `safe_ramp_rpm_per_s`
+        /// (r/min per s).
         slew_rpm_per_s: f64 = 200.0, above(0.0, 1e6), "r/min per s", "a jump in speed is an infinite torque";
-        /// `inputs.rotary_speed.safe_ramp_rpm_per_s` is not set below this.
+        /// Lowest value of `inputs.rotary_speed.safe_ramp_rpm_per_s` (r/min per s).
         slowest_ramp_rpm_per_s: f64 = 0.5, within(0.0, 1e6), "r/min per s", "too slow a ramp never gets there";
-        /// `inputs.weight_on_bit.max_kn` is not set above this.
+        /// Highest value of `inputs.weight_on_bit.max_kn` (kN).
         max_kn: f64 = 200.0, within(0.0, 2000.0), "kN", "far above any drilling tool";
-        /// `inputs.weight_on_bit.safe_kn` is not set above this, or above the configuration's own value where that is
-        /// higher.
+        /// Highest value of `inputs.weight_on_bit.safe_kn` (kN), or the configured value where that is higher.
         safe_kn: f64 = 0.0, within(0.0, 2000.0), "kN", "far above any drilling tool";
-        /// `inputs.weight_on_bit.tare_error_kn` is not set above this.
+        /// Highest value of `inputs.weight_on_bit.tare_error_kn` (kN).
         tare_error_kn: f64 = 5.0, within(0.0, 100.0), "kN", "a reading further below zero is wrong, not untared";
-        /// `inputs.weight_on_bit.slew_kn_per_s` and `safe_ramp_kn_per_s` are not set above this.
+        /// Highest value of `inputs.weight_on_bit.slew_kn_per_s` and `safe_ramp_kn_per_s` (kN/s).
         slew_kn_per_s: f64 = 100.0, above(0.0, 1e6), "kN/s", "a jump in load is a blow on the tool";
-        /// `inputs.weight_on_bit.safe_ramp_kn_per_s` is not set below this.
+        /// Lowest value of `inputs.weight_on_bit.safe_ramp_kn_per_s` (kN/s).
         slowest_ramp_kn_per_s: f64 = 0.1, within(0.0, 1e6), "kN/s", "too slow a ramp never gets there";
-        /// `slow_age` and `max_age` of both inputs are not set above this.
+        /// Highest value of `slow_age` and `max_age` of both inputs (s).
         max_age: f64 = 60.0, above(0.0, 3600.0), "s", "an hour is not live any more";
-        /// `hold_before_safe` of both inputs is not set above this.
+        /// Highest value of `hold_before_safe` of both inputs (s).
         hold_before_safe: f64 = 600.0, within(0.0, 86_400.0), "s", "a day is not live any more";
-        /// No key of `outputs.rates` is set above this.
+        /// Highest value of all keys of `outputs.rates` (Hz).
         rate: f64 = 200.0, within(0.0, 1000.0), "Hz", "more would flood the network";
     }
 }

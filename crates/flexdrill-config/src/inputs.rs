@@ -11,47 +11,49 @@ use flexdrill_core::inputs::{InputRule, InputRules};
 section! {
     /// Both inputs.
     pub struct InputsConfig(this) {
-        /// Of the top drive.
+        /// Rotary speed of the top drive.
         rotary_speed: RotarySpeed = RotarySpeed::default(), below;
-        /// Weight on bit.
+        /// Axial load that presses the bit on the rock.
         weight_on_bit: WeightOnBit = WeightOnBit::default(), below;
-        /// Which publisher drives an input when there are several.
+        /// Selection of the publisher of an input when there are several.
         driver: DriverRule = DriverRule::default();
-        /// Samples with a stamp.
+        /// Checks of samples with a time stamp.
         stamp: StampRule = StampRule::default(), below;
-        /// What no parameter goes beyond while the twin runs.
+        /// Bounds that no parameter exceeds while the twin runs.
         hard_limits: HardLimits = HardLimits::default(), below;
     }
 }
 
-/// `inputs.driver`: which publisher drives an input when there are several.
+/// `inputs.driver`: selection of the publisher of an input when there are several.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DriverRule {
-    /// `newest`, `first` or `named`. Default newest.
+    /// `newest` accepts every publisher, `first` the one that came first until it has been silent for `max_age`,
+    /// `named` only those in `named`. Default newest.
     pub policy: DriverPolicy,
-    /// With `named`: absolute names of nodes or ids of publishers as `twin/status` shows them. Default none.
+    /// The publishers that `policy: named` accepts: absolute names of nodes, or ids as `twin/status` shows them.
+    /// Default none.
     pub named: Vec<String>,
 }
 
-/// Who drives.
+/// Policy for several publishers of an input.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DriverPolicy {
-    /// Every publisher; the newest sample acts.
+    /// The node accepts every publisher; the newest sample acts.
     #[default]
     Newest,
-    /// The one that came first, until it has been silent for the input's `max_age`.
+    /// The node accepts the publisher that came first, until it has been silent for the input's `max_age`.
     First,
-    /// Only those that `named` lists.
+    /// The node accepts only the publishers that `named` lists.
     Named,
 }
 
 section! {
-    /// `inputs.stamp`: samples of `rig/inputs`, which say when they were measured.
+    /// `inputs.stamp`: samples of `rig/inputs`, which carry the time of their measurement.
     #[derive(Copy)]
     pub struct StampRule(this) {
-        /// How far ahead of the node's clock a stamp may be (s).
+        /// Largest time by which a stamp may be ahead of the node's clock (s). The node refuses samples beyond it.
         max_skew: f64 = 0.5, within(0.0, 60.0), "s", "further ahead, the machines' clocks are not set";
     }
 }
@@ -60,41 +62,43 @@ section! {
     /// `inputs.rotary_speed`.
     #[derive(Copy)]
     pub struct RotarySpeed(this) {
-        /// Least speed that is taken.
+        /// Lowest accepted speed (r/min).
         min_rpm: f64 = 0.0, within(-5000.0, this.max_rpm), "r/min", "not above max_rpm";
-        /// Greatest speed that is taken.
+        /// Highest accepted speed (r/min).
         max_rpm: f64 = 120.0, within(-5000.0, 5000.0), "r/min", "far above any top drive";
-        /// `surface` or `downhole`: where the rig measures it. Default surface.
+        /// Where the rig measures the speed: at the `surface`, or `downhole` above the tool. Default surface.
         measured: Measured = Measured::Surface;
-        /// Fastest change that the model follows of a speed that is measured at the surface.
+        /// Fastest change that the model follows of a speed measured at the surface (r/min per s).
         slew_rpm_per_s: f64 = 20.0, above(0.0, 1e6), "r/min per s",
             "0 would never follow; a jump in speed is an infinite torque";
-        /// The same of a speed that is measured downhole, which swings faster than any drive.
+        /// Fastest change that the model follows of a speed measured downhole, which changes faster than any drive
+        /// (r/min per s).
         downhole_slew_rpm_per_s: f64 = 200.0, above(0.0, 1e6), "r/min per s",
             "0 would never follow; a jump in speed is an infinite torque";
-        /// Acts until the first sample.
+        /// Value that acts until the first sample.
         initial_rpm: f64 = 0.0, within(this.min_rpm, this.max_rpm), "r/min", "within min_rpm and max_rpm";
-        /// Where it is brought to when the rig stays silent.
+        /// Safe value to which the model is brought when the input stays away. It is an upper bound: a held value below
+        /// it does not change.
         safe_rpm: f64 = 0.0, within(this.min_rpm, this.max_rpm), "r/min", "within min_rpm and max_rpm";
-        /// How fast it is brought there.
+        /// Rate of the ramp to the safe value.
         safe_ramp_rpm_per_s: f64 = 5.0, above(0.0, 1e6), "r/min per s", "0 would never get there";
-        /// Age at which the input is SLOW (s).
+        /// Age of the newest good sample from which the input is SLOW (s).
         slow_age: f64 = 2.5, above(0.0, this.max_age), "s", "slow comes before stale (max_age)";
-        /// Age at which it is STALE (s).
+        /// Age of the newest good sample from which the input is STALE (s).
         max_age: f64 = 5.0, above(0.0, 3600.0), "s", "an hour is not live any more";
-        /// How long the last good value is held after that (s).
+        /// Time for which the last good value is held after that, before the ramp to the safe value (s).
         hold_before_safe: f64 = 10.0, within(0.0, 86_400.0), "s", "a day is not live any more";
     }
 }
 
-/// Where the rotary speed is measured.
+/// Location of the speed measurement.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Measured {
-    /// At the top drive, whose inertia limits how fast it changes.
+    /// At the top drive, whose inertia limits the rate of change.
     #[default]
     Surface,
-    /// Above the tool: with the swing of the string in it.
+    /// Above the tool, including the torsional swing of the string.
     Downhole,
 }
 
@@ -112,26 +116,27 @@ section! {
     /// `inputs.weight_on_bit`.
     #[derive(Copy)]
     pub struct WeightOnBit(this) {
-        /// Least weight that is taken.
+        /// Lowest accepted weight (kN).
         min_kn: f64 = 0.0, within(0.0, this.max_kn), "kN", "a bit does not pull, and not above max_kn";
-        /// Greatest weight that is taken.
+        /// Highest accepted weight (kN).
         max_kn: f64 = 60.0, within(0.0, 2000.0), "kN", "far above any drilling tool";
-        /// How far below zero a reading may be and still count as zero.
+        /// Largest negative reading that counts as zero (kN).
         tare_error_kn: f64 = 0.5, within(0.0, 100.0), "kN", "a reading further below zero is wrong, not untared";
-        /// Fastest change that the model follows.
+        /// Fastest change of the weight that the model follows (kN/s).
         slew_kn_per_s: f64 = 10.0, above(0.0, 1e6), "kN/s",
             "0 would never follow; a jump in load is a blow on the tool";
-        /// Acts until the first sample.
+        /// Value that acts until the first sample.
         initial_kn: f64 = 0.0, within(this.min_kn, this.max_kn), "kN", "within min_kn and max_kn";
-        /// Where it is brought to when the rig stays silent.
+        /// Safe value to which the model is brought when the input stays away. It is an upper bound: a held value below
+        /// it does not change.
         safe_kn: f64 = 0.0, within(this.min_kn, this.max_kn), "kN", "within min_kn and max_kn";
-        /// How fast it is brought there.
+        /// Rate of the ramp to the safe value.
         safe_ramp_kn_per_s: f64 = 1.0, above(0.0, 1e6), "kN/s", "0 would never get there";
-        /// Age at which the input is SLOW (s).
+        /// Age of the newest good sample from which the input is SLOW (s).
         slow_age: f64 = 2.5, above(0.0, this.max_age), "s", "slow comes before stale (max_age)";
-        /// Age at which it is STALE (s).
+        /// Age of the newest good sample from which the input is STALE (s).
         max_age: f64 = 5.0, above(0.0, 3600.0), "s", "an hour is not live any more";
-        /// How long the last good value is held after that (s).
+        /// Time for which the last good value is held after that, before the ramp to the safe value (s).
         hold_before_safe: f64 = 10.0, within(0.0, 86_400.0), "s", "a day is not live any more";
     }
 }

@@ -54,8 +54,22 @@ fn joined(text: &str) -> String {
         .split("\n\n")
         .map(|paragraph| paragraph.split_whitespace().collect::<Vec<_>>().join(" "))
         .filter(|paragraph| !paragraph.is_empty())
+        .map(|paragraph| bounds_for_a_reader(&paragraph).unwrap_or(paragraph))
         .collect();
     paragraphs.join("\n\n")
+}
+
+/// The bounds of a number as a reader of the file writes them: `86400` for `86_400.0`, a key for `this.key`.
+fn bounds_for_a_reader(paragraph: &str) -> Option<String> {
+    let bounds = paragraph.strip_prefix("Allowed: ")?;
+    let words = bounds.split(' ').map(|word| {
+        if word.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+            word.replace('_', "").trim_end_matches(".0").to_owned()
+        } else {
+            word.trim_start_matches("this.").to_owned()
+        }
+    });
+    Some(format!("Allowed: {}.", words.collect::<Vec<_>>().join(" ")))
 }
 
 /// Which of the two pipes.
@@ -127,6 +141,14 @@ pub(super) enum HingeAngle {
 mod tests {
     use super::*;
     use serde::de::DeserializeOwned;
+
+    #[test]
+    fn bounds_read_as_a_file_writes_them() {
+        let text = joined("How long (s).\n\nAllowed: within 1.0 to 86_400.0 s");
+        assert_eq!(text, "How long (s).\n\nAllowed: within 1 to 86400 s.");
+        let text = joined("Allowed: above this.min_rpm to 1e-4 ");
+        assert_eq!(text, "Allowed: above min_rpm to 1e-4.");
+    }
 
     /// Words of an enumeration in the schema.
     fn words(schema: &Value) -> Vec<String> {

@@ -99,62 +99,63 @@ const REQUIRED: &[&str] = &[
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Schema {
-    /// What the file is for.
+    /// Title and duration of a run.
     #[serde(default)]
     pub run: Run,
     /// The bore. Required.
     pub well: Well,
-    /// The tool in it. Required.
+    /// The tool in the bore. Required.
     pub tool: Tool,
-    /// Gap layers.
+    /// Contact between pipe and guide and between guide and wall.
     #[serde(default)]
     pub contact: Contact,
-    /// Gravity, buoyancy.
+    /// Gravity and buoyancy.
     #[serde(default)]
     pub environment: Environment,
-    /// Supports, drive, load path.
+    /// Supports, drive and load path.
     #[serde(default)]
     pub boundary: Boundary,
-    /// Beside gravity, drive and bit. Default none.
+    /// Loads in addition to gravity, drive and bit. Default none.
     #[serde(default)]
     pub loads: Vec<Load>,
-    /// Added to nodes. Default none.
+    /// Rigid bodies added to nodes. Default none.
     #[serde(default)]
     pub masses: Vec<Mass>,
-    /// `static` or `as_given`. Default static.
+    /// Beginning of a run: `static` from rest under gravity and the initial weight on bit, or `as_given` with
+    /// `initial`. Default static.
     #[serde(default)]
     pub start: Start,
-    /// With `start: as_given`.
+    /// Motion at the beginning; only with `start: as_given`.
     #[serde(default)]
     pub initial: Initial,
     /// Time integration.
     #[serde(default)]
     pub solver: Solver,
-    /// What the rig sends.
+    /// The inputs from the rig: limits, ages, safe values, publishers.
     #[serde(default)]
     pub inputs: InputsConfig,
-    /// How far DDS reaches.
+    /// Reach of DDS.
     #[serde(default)]
     pub network: Network,
-    /// Analysis and warnings.
+    /// Whirl analysis and its levels.
     #[serde(default)]
     pub whirl: Whirl,
-    /// Speed ripple of the bit.
+    /// Stick-slip of the bit and its levels.
     #[serde(default)]
     pub stick_slip: StickSlip,
-    /// Collisions.
+    /// Lateral shock and its levels.
     #[serde(default)]
     pub shock: Shock,
-    /// Load of the joints' stops.
+    /// Load of the joints' stops and its levels.
     #[serde(default)]
     pub joint_load: JointLoad,
-    /// Power of the collisions.
+    /// Chaotic whirl, judged by the power of the collisions, and its levels.
     #[serde(default)]
     pub chaotic_whirl: ChaoticWhirl,
-    /// What calls for an operator.
+    /// Alarms: delays, service, advice.
     #[serde(default)]
     pub alarms: Alarms,
-    /// Publishing.
+    /// Frames and publishing rates of the outputs.
     #[serde(default)]
     pub outputs: Outputs,
 }

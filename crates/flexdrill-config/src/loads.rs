@@ -18,63 +18,64 @@ const TIME_REASON: &str = "seconds of model time since the start";
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Place along the tool.
+    /// Location along the tool.
     pub at: At,
     /// `pipe` or `guide`.
     #[schemars(with = "json_schema::Body")]
     pub body: Body,
-    /// u, v, w for forces, psi, phi_y, phi_z for moments.
+    /// Direction: u, v, w for forces (N), psi, phi_y, phi_z for moments (N m).
     #[schemars(with = "json_schema::Direction")]
     pub direction: Direction,
-    /// How much, when.
+    /// Size of the load over time.
     pub history: History,
 }
 
-/// A load in time.
+/// The history of a load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum History {
     /// `constant: 500`.
     Constant(f64),
-    /// `ramp: {rate: 1000, start: 0, end: 1}`: grows from `start` (s) to `end` (s), then stays.
+    /// `ramp: {rate: 1000, start: 0, end: 1}`: grows from `start` (s) to `end` (s), then remains constant.
     Ramp {
-        /// N/s or N m/s.
+        /// Rate of the ramp (N/s or N m/s).
         rate: f64,
-        /// Start (s). Default 0.
+        /// Beginning of the ramp (s). Default 0.
         #[serde(default)]
         start: f64,
-        /// End (s).
+        /// End of the ramp (s).
         end: f64,
     },
     /// `sine: {amplitude: 100, frequency: 2, phase_deg: 0}`.
     Sine {
-        /// N or N m.
+        /// Amplitude of the sine (N or N m).
         amplitude: f64,
-        /// Frequency (Hz).
+        /// Frequency of the sine (Hz).
         frequency: f64,
-        /// Default 0.
+        /// Phase of the sine at time zero. Default 0.
         #[serde(default)]
         phase_deg: f64,
     },
-    /// `table: [[0, 0], [1, 500]]`: linear between (s, N or N m) points, held outside.
+    /// `table: [[0, 0], [1, 500]]`: linear between points (s, N or N m), constant outside.
     Table(Vec<(f64, f64)>),
 }
 
-/// A rigid body added to one node, round but for its unbalance. At a joint it is on the end of the link above.
+/// A rigid body added to one node, axisymmetric except for its unbalance. At a joint it is on the end of the link
+/// above.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mass {
-    /// Place along the tool.
+    /// Location along the tool.
     pub at: At,
     /// `pipe` or `guide`.
     #[schemars(with = "json_schema::Body")]
     pub body: Body,
     /// Mass (kg).
     pub mass: f64,
-    /// Rotary inertia about the axis (kg m2). Default 0.
+    /// Moment of inertia about the axis (kg m2). Default 0.
     #[serde(default)]
     pub inertia: f64,
-    /// Rotary inertia about a diameter (kg m2). Default half of `inertia`, a thin disc's.
+    /// Moment of inertia about a diameter (kg m2). Default half of `inertia`, as for a thin disc.
     #[serde(default)]
     pub transverse_inertia: Option<f64>,
     /// Distance of the centre of mass from the axis (m): the unbalance m e turns with the pipe. Default 0.

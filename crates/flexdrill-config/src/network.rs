@@ -7,18 +7,19 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::Checker;
 
-/// Most machines that can be named: each is sent some 16 small packets a second.
+/// Largest number of peers: each receives about 16 small packets a second.
 const MOST_PEERS: usize = 32;
-/// Longest name that DNS knows (bytes).
+/// Longest name that DNS allows (bytes).
 const LONGEST_NAME: usize = 253;
 
-/// How far DDS reaches.
+/// Reach of DDS.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Network {
-    /// How far others are looked for, and may look. Default environment.
+    /// Reach of the discovery in both directions: `environment` follows ROS 2's variables, `subnet` includes all
+    /// machines of the subnet, `localhost` this machine only. Default environment.
     pub reach: Reach,
-    /// IP addresses of this machine's interfaces that DDS is to use. Default: all that `reach` allows.
+    /// IP addresses of this machine's interfaces that DDS uses. Default: all that `reach` allows.
     pub interfaces: Vec<IpAddr>,
     /// Machines that multicast does not reach, by name or IPv4 address; each must name this one too. Default: those of
     /// ROS_STATIC_PEERS.
@@ -61,8 +62,7 @@ impl Network {
     }
 }
 
-/// Whether this can be the name or the IPv4 address of a machine. What is made of digits and dots alone must be an
-/// address.
+/// Whether this can be the name or the IPv4 address of a machine. A text of digits and dots alone must be an address.
 pub fn is_peer(name: &str) -> bool {
     let is_word = |part: &str| {
         !part.is_empty()
@@ -78,11 +78,11 @@ pub fn is_peer(name: &str) -> bool {
         }
 }
 
-/// How far discovery goes.
+/// Reach of the discovery.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Reach {
-    /// As ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_LOCALHOST_ONLY say; without them the subnet.
+    /// The reach that ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_LOCALHOST_ONLY set; without them the subnet.
     #[default]
     Environment,
     /// All machines of the subnet.

@@ -4,46 +4,46 @@ use super::checker::Checker;
 use super::section::section;
 
 section! {
-    /// Publishing.
+    /// Frames and rates of the outputs.
     pub struct Outputs(this) {
         /// `frame_id` of every header. Default `flexible_tool`.
         frame_id: String = "flexible_tool".to_string();
-        /// Frame in which `frame_id` is told to lie, on `/tf_static`: Z up, X in the build's direction, origin at the
-        /// kick-off. Default `map`; empty tells nothing.
+        /// Parent of `frame_id` on `/tf_static`: Z up, X in the build's direction, origin at the kick-off. Default
+        /// `map`; with an empty text the transform is not published.
         parent_frame: String = "map".to_string();
-        /// Factor on displacements in `twin/tool_shape`.
+        /// Factor by which `twin/tool_shape` enlarges displacements.
         exaggeration: f64 = 10.0, within(0.0, 1000.0), "", "1 is true to scale";
-        /// Per topic.
+        /// Messages per second, by topic.
         rates: Rates = Rates::default(), below;
     }
 }
 
 section! {
-    /// Messages per second of model time (Hz). Keys are the topics' last names. 0 switches a topic off, except those by
-    /// which an operator knows that the twin works. A recording keeps at least the rates with which the run began: rates
-    /// that are set lower while the twin runs act on DDS only.
+    /// Messages per second of model time (Hz). Each key is the last part of a topic's name. 0 switches a topic off,
+    /// except status and diagnostics, which show the operator that the twin works. A recording keeps at least the rates
+    /// at which the run began: lower rates that are set while the twin runs act on DDS only.
     #[derive(Copy)]
     pub struct Rates(this) {
-        /// `twin/joint_deflections`.
+        /// Rate of `twin/joint_deflections`.
         joint_deflections: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
-        /// `twin/contact_forces`.
+        /// Rate of `twin/contact_forces`.
         contact_forces: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
-        /// `twin/whirl`.
+        /// Rate of `twin/whirl`.
         whirl: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
-        /// `twin/bit_state`.
+        /// Rate of `twin/bit_state`.
         bit_state: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
-        /// `twin/status`.
+        /// Rate of `twin/status`.
         status: f64 = 5.0, within(1.0, 1000.0), "Hz",
             "it shows that the twin works; more would flood the network";
-        /// `twin/tool_shape`.
+        /// Rate of `twin/tool_shape`.
         tool_shape: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
-        /// `twin/ageing`.
+        /// Rate of `twin/ageing`.
         ageing: f64 = 1.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
-        /// `twin/reactions`.
+        /// Rate of `twin/reactions`.
         reactions: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
-        /// `joint_states`.
+        /// Rate of `joint_states`.
         joint_states: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
-        /// `/diagnostics`.
+        /// Rate of `/diagnostics`.
         diagnostics: f64 = 1.0, within(1.0, 1000.0), "Hz",
             "it shows that the twin works; more would flood the network";
     }

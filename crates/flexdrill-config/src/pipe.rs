@@ -9,7 +9,8 @@ use flexdrill_core::tool::Tube;
 const DIAMETER: Bound = Bound::above(0.0, 2.0);
 const DIAMETER_REASON: &str = "given in metres";
 
-/// The flexible pipe's links, all alike: either uniform (`outer_diameter`, `inner_diameter`) or stepped (`pieces`).
+/// The links of the flexible pipe, all identical: either uniform (`outer_diameter`, `inner_diameter`) or stepped
+/// (`pieces`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pipe {
@@ -19,21 +20,21 @@ pub struct Pipe {
     /// Inner diameter (m), 0 is a solid bar. Required unless there are pieces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner_diameter: Option<f64>,
-    /// Diameter with which the pipe meets the guide (m), where it is not the steel's outer diameter. Default: that.
+    /// Diameter at which the pipe contacts the guide (m). Default: the outer diameter of the steel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_diameter: Option<f64>,
-    /// A stepped link, top to bottom, without gaps. Default: uniform.
+    /// Pieces of a stepped link, from top to bottom without gaps. Default: a uniform link.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pieces: Vec<Piece>,
 }
 
-/// A piece of a stepped link. An element takes the piece at its middle.
+/// A piece of a stepped link. An element has the section of the piece at its middle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
-    /// Where it begins, as a fraction of the link from its top.
+    /// Beginning of the piece, as a fraction of the link from its top.
     pub from: f64,
-    /// Where it ends.
+    /// End of the piece, as a fraction of the link from its top.
     pub to: f64,
     /// Outer diameter (m).
     pub outer_diameter: f64,
@@ -41,7 +42,7 @@ pub struct Piece {
     pub inner_diameter: f64,
 }
 
-/// The guide pipe: one continuous tube that does not turn by itself.
+/// The guide pipe: one continuous tube that is not driven.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Guide {
@@ -52,7 +53,7 @@ pub struct Guide {
     /// Factor on the bending stiffness: 1 for a plain tube, less for a slotted one. Default 1.
     #[serde(default = "one")]
     pub bending_factor: f64,
-    /// Every node held in all directions, as the outer beam of the paper's Fig. 8. Default false.
+    /// `true` holds every node in all directions, like the outer beam of the paper's Fig. 8. Default false.
     #[serde(default)]
     pub fixed: bool,
 }

@@ -25,7 +25,7 @@ pub enum At {
     MeasuredDepth(f64),
 }
 
-/// The mesh that places refer to.
+/// The mesh that locations refer to.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mesh {
     pub(super) links: usize,

@@ -9,9 +9,9 @@ use super::checker::{Bound, Checker};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Run {
-    /// A name for people. Default empty.
+    /// Title of the run, for displays and reports. Default empty.
     pub title: String,
-    /// Model time after which a run ends by itself (s). Default: it goes on until stopped.
+    /// Model time after which a run ends (s). Default: it continues until it is stopped.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,
 }

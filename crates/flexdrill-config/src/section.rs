@@ -24,8 +24,8 @@ macro_rules! section {
             $(
                 $(#[$inner])*
                 $($(
-                    #[doc = concat!("\n\nDefault `", stringify!($default), "`, ", stringify!($bound), " ",
-                        stringify!($low), ", ", stringify!($high), " ", $unit)]
+                    #[doc = concat!("\n\nAllowed: ", stringify!($bound), " ", stringify!($low), " to ",
+                        stringify!($high), " ", $unit)]
                 )?)?
                 pub $field: $type,
             )*
@@ -55,8 +55,8 @@ macro_rules! section {
             $(
                 $(#[$inner])*
                 $($(
-                    #[doc = concat!("\n\n", stringify!($bound), " ", stringify!($low), ", ", stringify!($high), " ",
-                        $unit)]
+                    #[doc = concat!("\n\nAllowed: ", stringify!($bound), " ", stringify!($low), " to ",
+                        stringify!($high), " ", $unit)]
                 )?)?
                 pub $field: $type,
             )*

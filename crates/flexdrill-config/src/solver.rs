@@ -12,20 +12,22 @@ use flexdrill_core::twin::StepRule;
 #[serde(from = "Given")]
 #[schemars(!from, default, deny_unknown_fields)]
 pub struct Solver {
-    /// Time step (s). Default 0.0005.
+    /// Model step (s). Larger steps lose accuracy in collisions. Default 0.0005.
     pub time_step: f64,
-    /// Whether the step is taken whole or in two or four parts. Default `auto`.
+    /// `auto` solves each step in two parts, in four where the motion requires it, or whole where the machine is too
+    /// slow; `fixed` always whole. Default `auto`.
     pub step: StepTaken,
-    /// Default `generalised_alpha`.
+    /// Time integration scheme. Default `generalised_alpha`.
     pub scheme: TimeScheme,
-    /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Default 0.55. Given alone, it means `scheme: newmark`.
+    /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Values above 1/2 add numerical damping. Default 0.55. Without
+    /// `scheme`, this key selects `scheme: newmark`.
     pub gamma: f64,
-    /// Spectral radius at infinite frequency of the other schemes: the part of the highest frequencies that a step
-    /// leaves. Default 0.45; for `hht` 0.5.
+    /// Spectral radius at infinite frequency of the other schemes: the share of the amplitude at the highest
+    /// frequencies that remains after a step. A smaller value damps more. Default 0.45; for `hht` 0.5.
     pub rho_infinity: f64,
-    /// Most Newton iterations per sub-step. Default 15.
+    /// Largest number of Newton iterations per sub-step. Default 15.
     pub max_iterations: u32,
-    /// Most halvings of a step that does not converge. Default 6.
+    /// Largest number of times that a step without convergence is halved. Default 6.
     pub max_halvings: u32,
 }
 
@@ -33,7 +35,7 @@ pub struct Solver {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StepTaken {
-    /// In two parts; in four where the motion asks for it, whole where the machine is too slow.
+    /// In two parts; in four where the motion requires it, whole where the machine is too slow.
     Auto,
     /// Whole.
     Fixed,
@@ -54,7 +56,7 @@ pub enum TimeScheme {
 /// HHT's least spectral radius at infinite frequency: at alpha 1/3, beyond which it damps less again.
 const HHT_LEAST: f64 = 0.5;
 
-/// What stands in a file.
+/// The keys as a file gives them.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename = "Solver")]
 struct Given {
@@ -123,7 +125,7 @@ impl Solver {
         }
     }
 
-    /// The scheme and its parameter, for people.
+    /// The scheme and its parameter, as text for displays.
     pub fn scheme_in_words(&self) -> String {
         match self.scheme {
             TimeScheme::Newmark => format!("Newmark gamma {}", self.gamma),
@@ -132,7 +134,7 @@ impl Solver {
         }
     }
 
-    /// The step and how it is taken, for people.
+    /// The step and its division, as text for displays.
     pub fn step_in_words(&self) -> String {
         let whole = self.time_step * 1e3;
         match self.step {

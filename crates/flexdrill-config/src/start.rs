@@ -9,7 +9,7 @@ use super::checker::{Bound, Checker};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
-    /// At rest under gravity and the initial weight on bit, so that the run does not begin with a drop.
+    /// At rest under gravity and the initial weight on bit, so that the tool does not drop when the run begins.
     #[default]
     Static,
     /// On the bore's centre line with the motion given in `initial`.
@@ -20,11 +20,11 @@ pub enum Start {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Initial {
-    /// (u, v, w) in the station frame (m/s). Default 0.
+    /// Velocity (u, v, w) in the station frame (m/s). Default 0.
     pub velocity: [f64; 3],
-    /// (u, v, w) in the station frame (m). Default 0.
+    /// Displacement (u, v, w) in the station frame (m). Default 0.
     pub displacement: [f64; 3],
-    /// Default 0.
+    /// Spin of every pipe node. Default 0.
     pub spin_rpm: f64,
 }
 

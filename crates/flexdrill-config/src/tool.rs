@@ -19,7 +19,7 @@ pub struct Tool {
     /// Beam elements per link. Default 5, the paper's.
     #[serde(default = "five")]
     pub elements_per_link: usize,
-    /// Of both pipes. Default steel.
+    /// Material of both pipes. Default steel.
     #[serde(default)]
     pub material: Material,
     /// The flexible pipe. Required.
@@ -57,14 +57,15 @@ section! {
     /// The joints between links.
     #[derive(Copy)]
     pub struct Joint(this) {
-        /// `universal`, `ball_cage` or `revolute`. Default universal.
+        /// Kind of joint: `universal` (a cross), `ball_cage` (constant velocity) or `revolute` (a hinge, for comparison
+        /// with the paper). Default universal.
         #[serde(default = "universal")]
         #[schemars(with = "json_schema::JointKind")]
         kind: JointKind;
-        /// Bend angle at which the stop begins. Required.
+        /// Bend angle at which the stop begins. It affects the motion more than any other key. Required.
         limit_deg: f64, above(0.0, 45.0), "deg",
             "tilts are small in the model; a joint that never stops may be set to 45";
-        /// N m/rad. Default 2e5, of the order of 4EI/l of a link.
+        /// Stiffness of the stop (N m/rad). Default 2e5, of the order of 4EI/l of a link.
         #[serde(default = "default_stop_stiffness")]
         stop_stiffness: f64, within(0.0, 1e12), "N m/rad", "0 switches the stop off";
         /// Hunt-Crossley damping of the stop (s/rad). Default 0.5.
@@ -73,7 +74,7 @@ section! {
         /// Angle of the first cross about the shaft. Default 0.
         #[serde(default)]
         cross_phase_deg: f64, within(-360.0, 360.0), "deg", "one turn";
-        /// Turn from one cross to the next. Default 90.
+        /// Angle from one cross to the next. Default 90.
         #[serde(default = "ninety")]
         cross_phase_step_deg: f64, within(-360.0, 360.0), "deg", "one turn";
         /// Angle that a `revolute` joint keeps across its hinge: `straight` links, or `as_built` in the well. Default
@@ -104,9 +105,9 @@ section! {
     /// Rayleigh damping, C = alpha M + beta K.
     #[derive(Copy)]
     pub struct Damping(this) {
-        /// Of the mass (1/s).
+        /// Factor on the mass matrix (1/s).
         alpha: f64 = 2.0, within(0.0, 1e5), "1/s", "damping only takes energy";
-        /// Of the stiffness (s).
+        /// Factor on the stiffness matrix (s).
         beta: f64 = 1e-4, within(0.0, 1.0), "s", "damping only takes energy";
     }
 }
@@ -115,15 +116,17 @@ section! {
     /// The bit, Eq. 1.
     #[derive(Copy)]
     pub struct Bit(this) {
-        /// Diameter of the hole that it cuts (m). Required.
+        /// Diameter of the hole that the bit cuts (m). Required.
         diameter: f64, above(0.0, 2.0), "m", "given in metres";
-        /// eta of Eq. 1. Default 0.235, the paper's.
+        /// Friction factor eta of Eq. 1: the bit torque is eta x diameter x weight on bit / 3. Default 0.235, the
+        /// paper's.
         #[serde(default = "paper_eta")]
         friction_factor: f64, within(0.0, 5.0), "", "0 is a bit without torque; rock and bit rarely exceed 1";
-        /// Speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s). Default 0.1.
+        /// Bit speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s). Default 0.1.
         #[serde(default = "tenth")]
         slip_rate: f64, within(1e-4, 10.0), "rad/s", "0 would make the torque jump at standstill";
-        /// Rotary inertia of the bit about its axis (kg m2), a thin disc's. Default 0: what turns there is the pipe.
+        /// Moment of inertia of the bit about its axis (kg m2), as of a thin disc. Default 0: only the pipe's inertia
+        /// acts there.
         #[serde(default)]
         inertia: f64, within(0.0, 1e3), "kg m2", "an inertia is not negative; a bit of 8 kg in a 118 mm hole has 0.01";
     }

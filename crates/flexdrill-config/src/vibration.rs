@@ -16,18 +16,18 @@ section! {
     /// Stick-slip of the bit.
     #[derive(Copy)]
     pub struct StickSlip(this) {
-        /// Window of the index (s). Swings of up to this period are judged.
+        /// Window of the index (s). Swings with periods up to this length are judged.
         window: f64 = StickSlipSettings::default().window, within(0.1, 60.0), "s",
             "must hold a period of the swing; longer than a minute warns too late";
-        /// Mean speed of the drive below which the index is 0 (1.15 rad/s is 10.98 r/min).
+        /// Mean speed of the drive below which the index is 0 (r/min).
         gate_speed_rpm: f64 = rad_per_s_to_rpm(StickSlipSettings::default().gate_speed).round(),
             within(0.0, 1000.0), "r/min", "near standstill the quotient means nothing";
-        /// A level is left below threshold x (1 - hysteresis).
+        /// A level ends below threshold x (1 - hysteresis).
         hysteresis: f64 = StickSlipSettings::default().thresholds.hysteresis, within(0.0, 0.9), "",
             "at 1 a level would never be left";
-        /// And after this long there (s).
+        /// Time for which the value must stay below that before the level ends (s).
         hold_off: f64 = StickSlipSettings::default().thresholds.hold_off, within(0.0, 3600.0), "s", "an hour";
-        /// Index, (max - min) / (2 mean), from which to watch, warn and call critical. Default 0.5, 0.8, 1.
+        /// Thresholds of the index, (max - min) / (2 mean). Default 0.5, 0.8, 1.
         levels: Steps = Steps::from(StickSlipSettings::default().thresholds.levels);
     }
 }
@@ -36,22 +36,22 @@ section! {
     /// Lateral shock.
     #[derive(Copy)]
     pub struct Shock(this) {
-        /// Interval over which the force is summed up (s).
+        /// Interval over which the force is integrated (s).
         interval: f64 = ShockSettings::default().interval, within(1e-3, 0.5), "s",
             "longer than a collision of some ms, shorter than a turn of a whirl";
         /// Time over which the resting force is averaged (s).
         mean_time: f64 = ShockSettings::default().mean_time, within(2e-3, 10.0), "s",
             "several intervals; longer than a second takes a new load for a shock";
-        /// A level is left below threshold x (1 - hysteresis).
+        /// A level ends below threshold x (1 - hysteresis).
         hysteresis: f64 = ShockSettings::default().thresholds.hysteresis, within(0.0, 0.9), "",
             "at 1 a level would never be left";
-        /// And after this long there (s).
+        /// Time for which the value must stay below that before the level ends (s).
         hold_off: f64 = ShockSettings::default().thresholds.hold_off, within(0.0, 3600.0), "s", "an hour";
-        /// Impulse above the resting force (N s) from which to watch, warn and call critical. Default 5, 15, 45.
+        /// Thresholds of the impulse above the resting force (N s). Default 5, 15, 45.
         levels: Steps = Steps::from(ShockSettings::default().thresholds.levels);
-        /// How many such impulses within `span` reach the level. Default 10, 3, 1.
+        /// Number of such impulses within `span` that reach the level. Default 10, 3, 1.
         repeats: Repeats = Repeats::default();
-        /// Time in which they are counted (s).
+        /// Time in which the impulses are counted (s).
         span: f64 = ShockSettings::default().span, above(0.0, 3600.0), "s", "an hour";
     }
 }
@@ -60,11 +60,11 @@ section! {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Repeats {
-    /// Keep an eye on it.
+    /// Threshold of WATCH.
     pub watch: u32,
-    /// Act soon.
+    /// Threshold of WARNING.
     pub warning: u32,
-    /// Act now.
+    /// Threshold of CRITICAL.
     pub critical: u32,
 }
 
@@ -86,13 +86,13 @@ section! {
         /// Time over which the power of the collisions is averaged (s).
         window: f64 = ChaoticWhirlSettings::default().window, within(0.1, 60.0), "s",
             "shorter shows single blows; longer than a minute warns too late";
-        /// A level is left below threshold x (1 - hysteresis).
+        /// A level ends below threshold x (1 - hysteresis).
         hysteresis: f64 = ChaoticWhirlSettings::default().thresholds.hysteresis, within(0.0, 0.9), "",
             "at 1 a level would never be left";
-        /// And after this long there (s).
+        /// Time for which the value must stay below that before the level ends (s).
         hold_off: f64 = ChaoticWhirlSettings::default().thresholds.hold_off, within(0.0, 3600.0), "s", "an hour";
-        /// Power that collisions take per metre of the tool, times the part of the pipe that moves chaotically (W/m), from
-        /// which to watch, warn and call critical. Default 0.6, 2, 6.
+        /// Thresholds of the power that collisions dissipate per metre of the tool, times the share of the pipe in
+        /// chaotic motion (W/m). Default 0.6, 2, 6.
         levels: Steps = Steps::from(ChaoticWhirlSettings::default().thresholds.levels);
     }
 }
@@ -101,22 +101,22 @@ section! {
     /// Load of the joints' stops.
     #[derive(Copy)]
     pub struct JointLoad(this) {
-        /// Moment that the stop of a joint may carry for as long as one likes: that of its maker.
+        /// Moment that the stop of a joint can carry permanently, from its manufacturer (N m).
         rated_moment_nm: f64 = JointLoadSettings::default().rated_moment, above(0.0, 1e7), "N m",
             "a stop that may carry nothing is always overloaded";
-        /// Slope of the Woehler line by which load cycles are counted as damage, relative between places: 3 for welds and
-        /// sharp notches, 5 for machined steel.
+        /// Slope of the Woehler line that weights load cycles as damage, for comparison between stations: 3 for welds
+        /// and sharp notches, 5 for machined steel.
         woehler_slope: f64 = AgeingSettings::default().slope, within(1.0, 20.0), "",
             "steel has 3 to 8; at 1 only the number of cycles would count";
-        /// Interval of the mean (s).
+        /// Interval over which the moment is averaged (s).
         interval: f64 = JointLoadSettings::default().interval, within(1e-3, 10.0), "s",
             "shorter shows the stop's stiffness, longer hides a blow";
-        /// A level is left below threshold x (1 - hysteresis).
+        /// A level ends below threshold x (1 - hysteresis).
         hysteresis: f64 = JointLoadSettings::default().thresholds.hysteresis, within(0.0, 0.9), "",
             "at 1 a level would never be left";
-        /// And after this long there (s).
+        /// Time for which the value must stay below that before the level ends (s).
         hold_off: f64 = JointLoadSettings::default().thresholds.hold_off, within(0.0, 3600.0), "s", "an hour";
-        /// Mean moment over the rated one from which to watch, warn and call critical. Default 0.8, 1, 1.5.
+        /// Thresholds of the mean moment divided by the rated moment. Default 0.8, 1, 1.5.
         levels: Steps = Steps::from(JointLoadSettings::default().thresholds.levels);
     }
 }
@@ -125,11 +125,11 @@ section! {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Steps {
-    /// Keep an eye on it.
+    /// Threshold of WATCH.
     pub watch: f64,
-    /// Act soon.
+    /// Threshold of WARNING.
     pub warning: f64,
-    /// Act now.
+    /// Threshold of CRITICAL.
     pub critical: f64,
 }
 

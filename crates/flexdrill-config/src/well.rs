@@ -11,10 +11,10 @@ use flexdrill_core::units::deg_to_rad;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Well {
-    /// Inclination at the top, 0 is straight down, 90 horizontal. Default 0.
+    /// Inclination at the top: 0 is vertical, 90 horizontal. Default 0.
     #[serde(default)]
     pub start_inclination_deg: f64,
-    /// One after another from the top. Required.
+    /// Sections of the bore, from the top down. Required.
     pub sections: Vec<Section>,
     /// Diameter of the hole (m). Required.
     pub hole_diameter: f64,
@@ -26,14 +26,14 @@ pub struct Well {
 pub enum Section {
     /// `straight: {length: 1.0}`.
     Straight {
-        /// Length (m).
+        /// Length of the section (m).
         length: f64,
     },
     /// `arc: {radius: 3.2, build_angle_deg: 90}`.
     Arc {
-        /// Radius (m).
+        /// Radius of the arc (m).
         radius: f64,
-        /// Change of inclination, builds only.
+        /// Increase of the inclination over the arc.
         build_angle_deg: f64,
     },
 }
@@ -62,7 +62,7 @@ impl Well {
         self.start_inclination_deg + self.sections.iter().map(Section::build_deg).sum::<f64>()
     }
 
-    /// Whether no section bends.
+    /// Whether every section is straight.
     pub fn is_straight(&self) -> bool {
         !self
             .sections

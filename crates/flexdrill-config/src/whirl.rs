@@ -14,58 +14,58 @@ use flexdrill_core::units::rpm_to_rad_per_s;
 section! {
     /// Whirl analysis and warnings.
     pub struct Whirl(this) {
-        /// Length of the sliding window in turns of the tool.
+        /// Length of the sliding window in turns of the tool. A longer window is more certain and slower.
         window_turns: f64 = WhirlSettings::default().window_turns, within(1.0, 100.0), "turns",
             "a window must hold a turn of the whirl";
-        /// Longest window, for a slow or standing tool (s): 6, four turns at 40 r/min.
+        /// Longest window, for a slow or standing tool (s). The default is four turns at 40 r/min.
         max_window: f64 = WhirlSettings::default().max_window, within(0.5, 60.0), "s",
             "shorter than half a second shows no direction; longer than a minute warns too late";
         /// Samples of the motion per second.
         sample_rate: f64 = 250.0, within(10.0, 10_000.0), "Hz", "an orbit needs some 20 samples per turn";
-        /// `joints`, `all` or `{stations: [5, 10]}`. Default joints, where contact is.
+        /// Watched stations: `joints`, `all` or `{stations: [5, 10]}`. Default joints, where the contacts occur.
         watched: Watched = Watched::Joints;
-        /// Below this rotary speed the tool counts as standing and no ratio is given.
+        /// Rotary speed below which the tool counts as standing and no ratio is given (r/min).
         gate_speed_rpm: f64 = 5.0, within(0.0, 1000.0), "r/min", "a tool that does not turn does not whirl";
-        /// How long the speed must have been below that for the drive to stand (s): what follows is a run-up, in which no
-        /// alarm of the tool is raised.
+        /// Time below that speed after which the drive counts as standing (s). The next start is then a run-up, during
+        /// which no alarm of the tool is raised.
         standstill_time: f64 = WhirlSettings::default().standstill_time, within(0.0, 600.0), "s",
             "longer than the bit sticks in one swing of the string, shorter than a connection";
-        /// RMS orbit radius over clearance below which nothing is called whirl.
+        /// RMS orbit radius, as a share of the clearance, below which no motion is called whirl.
         min_orbit_ratio: f64 = WhirlSettings::default().min_orbit_ratio, within(0.0, 1.0), "",
             "a ratio; 1 fills the gap";
-        /// RMS radius about its own mean over clearance from which a motion is judged as whirl although it does not go
-        /// round the gap's centre.
+        /// RMS radius about its own mean, as a share of the clearance, from which a motion is judged as whirl even if
+        /// it does not circle the centre of the gap.
         large_orbit_ratio: f64 = WhirlSettings::default().large_orbit_ratio, within(0.0, 1.0), "",
             "a ratio; 1 fills the gap";
-        /// Part of direction, 0 to 1, from which an orbit is forward or backward and below which it is chaotic.
+        /// Directional share of the motion, 0 to 1, from which an orbit is forward or backward and below which it is
+        /// chaotic.
         steady_direction: f64 = WhirlSettings::default().steady_direction, within(0.1, 1.0), "",
             "broad-band motion scatters by 0.2";
-        /// Correlation, 0 to 1, from which a motion without direction counts as the same again, turn by turn, and is
-        /// not chaotic.
+        /// Correlation between successive turns, 0 to 1, from which a motion without direction counts as periodic and
+        /// not as chaotic.
         min_repetition: f64 = WhirlSettings::default().min_repetition, within(0.1, 1.0), "",
             "broad-band motion reaches 0.5 by chance; noise keeps periodic motion from 1";
-        /// Relative difference to the rate of rolling without slip within which backward whirl counts as rolling.
+        /// Relative difference from the rate of rolling without slip within which backward whirl counts as rolling.
         rolling_tolerance: f64 = WhirlSettings::default().rolling_tolerance, within(0.0, 0.5), "",
             "wider would call sliding rolling";
-        /// Factors on the confidence while an input is not as it should be.
+        /// Factors on the confidence while an input is not OK.
         input_trust: InputTrust = InputTrust::default(), below;
-        /// Below this confidence nothing raises a level.
+        /// Confidence below which whirl raises no level.
         min_confidence: f64 = WhirlSettings::default().min_confidence, within(0.0, 1.0), "", "0 to 1";
-        /// A level is left below threshold x (1 - hysteresis).
+        /// A level ends below threshold x (1 - hysteresis).
         hysteresis: f64 = WhirlSettings::default().hysteresis, within(0.0, 0.9), "", "at 1 a level would never be left";
-        /// And after this long there (s).
+        /// Time for which the value must stay below that before the level ends (s).
         hold_off: f64 = WhirlSettings::default().hold_off, within(0.0, 3600.0), "s", "an hour";
-        /// Backward whirl: bending cycles per turn of the tool from which to watch, warn and call critical. Default 1, 2,
-        /// 3.
+        /// Thresholds of backward whirl: bending cycles per turn of the tool. Default 1, 2, 3.
         backward_cycles: Steps = Steps::from(WhirlSettings::default().backward_cycles);
-        /// Forward whirl: work of the friction per second and metre (W/m) from which to watch and to warn.
+        /// Thresholds of forward whirl: work of the friction per second and metre (W/m).
         forward_power: ForwardPower = ForwardPower::default();
-        /// Turns of the tool for which it must last before it counts. Default 1, 1.5, 1.5.
+        /// Turns of the tool for which whirl must last before it reaches a level. Default 1, 1.5, 1.5.
         lasting_turns: Steps = Steps::from(WhirlSettings::default().lasting_turns);
     }
 }
 
-/// Which places are watched, on both pipes.
+/// The watched stations, on both pipes.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Watched {
@@ -74,7 +74,7 @@ pub enum Watched {
     Joints,
     /// Every station.
     All,
-    /// These stations, 0-based from the top.
+    /// These stations, counted from 0 at the top.
     Stations(Vec<usize>),
 }
 
@@ -82,16 +82,16 @@ section! {
     /// Factors on the confidence, 0 to 1.
     #[derive(Copy)]
     pub struct InputTrust(this) {
-        /// Late by a sample or two.
+        /// Factor while an input is SLOW: late by a sample or two.
         slow: f64 = motion::InputTrust::default().slow, within(0.0, 1.0), "",
             "a factor on the confidence; 0 lets no level rise";
-        /// The newest sample was refused.
+        /// Factor while an input is REJECTED: the newest sample was refused.
         rejected: f64 = motion::InputTrust::default().rejected, within(0.0, 1.0), "",
             "a factor on the confidence; 0 lets no level rise";
-        /// Held for long or on the way to the safe value.
+        /// Factor while an input is STALE: held, or on the ramp to the safe value.
         stale: f64 = motion::InputTrust::default().stale, within(0.0, 1.0), "",
             "a factor on the confidence; 0 lets no level rise";
-        /// The configured start values act.
+        /// Factor while an input is NOT_RECEIVED: the configured start value acts.
         not_received: f64 = motion::InputTrust::default().not_received, within(0.0, 1.0), "",
             "a factor on the confidence; 0 lets no level rise";
     }
@@ -112,9 +112,9 @@ section! {
     /// Levels of forward whirl, which is never critical.
     #[derive(Copy)]
     pub struct ForwardPower(this) {
-        /// Keep an eye on it (W/m).
+        /// Threshold of WATCH (W/m).
         watch: f64 = WhirlSettings::default().forward_power[0], above(0.0, 1e9), "W/m", "0 would always be reached";
-        /// Act soon (W/m).
+        /// Threshold of WARNING (W/m).
         warning: f64 = WhirlSettings::default().forward_power[1], above(0.0, 1e9), "W/m", "0 would always be reached";
     }
 }

@@ -131,29 +131,29 @@ pub mod flexdrill {
 
     use crate::Message;
 
-    /// What has aged since the start or the last reset, to compare joints and stations with each other and ways of drilling. No
-    /// absolute life follows from it.
+    /// Fatigue damage and friction work since the start or the last reset, to compare joints, stations and drilling
+    /// parameters with each other. No absolute life follows from them.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Ageing {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// Model time that the sums are of (s).
+        /// Model time over which the sums were taken (s).
         pub duration: f64,
         /// Slope m of the Woehler line: a load cycle of range r counts (r / rated_moment)^m.
         pub woehler_slope: f64,
         /// Rated moment of a joint's stop (N m).
         pub rated_moment: f64,
-        /// Per joint: place along the bore from the kick-off (m).
+        /// Per joint: measured depth from the kick-off (m).
         pub joint_measured_depth: Vec<f64>,
         /// Inclination of the bore there, 0 is straight down (rad).
         pub joint_inclination: Vec<f64>,
         /// Damage of the joint's stop per hour (1/h).
         pub stop_damage_rate: Vec<f64>,
-        /// Damage per hour of the link below the joint by bending at its middle, on the side that it is worse for (1/h).
+        /// Damage per hour of the link below the joint by bending at its middle, on its worse side (1/h).
         pub bending_damage_rate: Vec<f64>,
-        /// The larger of the two over that of the joint that ages fastest (0 to 1).
+        /// The larger of the two damage rates, divided by that of the joint that ages fastest (0 to 1).
         pub relative_damage: Vec<f64>,
-        /// Per station: place along the bore from the kick-off (m).
+        /// Per station: measured depth from the kick-off (m).
         pub station_measured_depth: Vec<f64>,
         /// Inclination of the bore there (rad).
         pub station_inclination: Vec<f64>,
@@ -179,72 +179,73 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Ageing", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "woehler_slope", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rated_moment", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bending_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "relative_damage", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// One alarm as it stands: one thing that an operator can do something about. What each of them means is in docs/alarms.md.
+    /// The state of one alarm: one condition that an operator can act on. docs/alarms.md explains each alarm.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Alarm {
-        /// Its name for programs and in requests, such as backward_whirl.
+        /// Identifier for programs and requests, such as backward_whirl.
         pub id: std::string::String,
-        /// Its name for people.
+        /// Name for displays.
         pub name: std::string::String,
-        /// NORMAL, ACTIVE_UNACKNOWLEDGED, ACTIVE_ACKNOWLEDGED, RETURNED_UNACKNOWLEDGED, SHELVED, SUPPRESSED_BY_DESIGN or OUT_OF_SERVICE.
+        /// NORMAL, ACTIVE_UNACKNOWLEDGED, ACTIVE_ACKNOWLEDGED, RETURNED_UNACKNOWLEDGED, SHELVED, SUPPRESSED_BY_DESIGN or
+        /// OUT_OF_SERVICE.
         pub state: u8,
-        /// That of the condition or of what is to be acknowledged, whichever is higher: NO_PRIORITY, LOW, MEDIUM or HIGH.
+        /// Priority of the condition, or of the alarm to be acknowledged, whichever is higher: NO_PRIORITY, LOW, MEDIUM or HIGH.
         pub priority: u8,
-        /// The condition stands; under a shelf too.
+        /// The condition stands, also while the alarm is shelved.
         pub active: bool,
-        /// Nothing is to be acknowledged.
+        /// No acknowledgement is needed.
         pub acknowledged: bool,
         /// When this state began, on the rig's clock; zero before the first change.
         pub since: super::builtin_interfaces::Time,
         /// When shelving ends at the latest, on the rig's clock; zero while not shelved.
         pub shelved_until: super::builtin_interfaces::Time,
-        /// Shelving ends when the condition goes.
+        /// Shelving ends when the condition ends.
         pub shelved_one_shot: bool,
-        /// Where it was worst, see worst_at: NOWHERE, PIPE or GUIDE.
+        /// Body with the worst value, see worst_at: NOWHERE, PIPE or GUIDE.
         pub body: u8,
-        /// Place along the bore from the kick-off (m), NaN where there is none.
+        /// Measured depth from the kick-off (m), NaN where there is none.
         pub measured_depth: f64,
         /// Inclination of the bore there, 0 is straight down (rad), NaN where there is none.
         pub inclination: f64,
-        /// What it is judged by, in unit; NaN where there is no such number.
+        /// The value that is judged, in unit; NaN where there is no such number.
         pub value: f64,
-        /// What value is held against, in unit; NaN where there is no such number.
+        /// The threshold that value is compared with, in unit; NaN where there is no such number.
         pub threshold: f64,
         /// Unit of value and threshold; empty where they have none.
         pub unit: std::string::String,
         /// How far the evidence can be trusted (0 to 1).
         pub confidence: f64,
-        /// What was seen at worst_at, in a sentence; it says when the condition has ended. This and the next three are empty while
-        /// the alarm is normal.
+        /// What happened at worst_at, in a sentence; it says when the condition has ended. This text and the next three are empty
+        /// while the alarm is normal.
         pub evidence: std::string::String,
-        /// Why it comes.
+        /// Why it happens.
         pub cause: std::string::String,
-        /// Why it matters: what it leads to without action.
+        /// Why it matters: the consequence without action.
         pub consequence: std::string::String,
-        /// What the driller can do: weight on bit, rotary speed, pick up, call the engineer. It agrees with that of all other alarms
-        /// in the list.
+        /// What the driller can do: weight on bit, rotary speed, pick up, call the engineer. It never contradicts the other
+        /// alarms in the list.
         pub what_to_do: std::string::String,
-        /// How often it has called for somebody since the count began, which a restart goes on with.
+        /// Number of annunciations since the count began; a restart continues the count.
         pub annunciations: u64,
-        /// How often in the last minute; from three on it chatters.
+        /// Number of annunciations in the last minute; from three on the alarm chatters.
         pub annunciations_last_minute: u32,
-        /// Whom the alarm is for: DRILLING or SYSTEM. Show SYSTEM alarms apart from the driller's.
+        /// Addressee of the alarm: DRILLING or SYSTEM. Show SYSTEM alarms separately from the driller's.
         pub category: u8,
         /// The present state began in an earlier run of the node; since is a time of that run.
         pub from_earlier_run: bool,
         /// What the engineer can do: settings of the model and the machine, measurements, inspection.
         pub what_the_engineer_can_do: std::string::String,
-        /// When place, value, confidence and evidence were seen, on the rig's clock: the worst moment since the priority was
-        /// reached. Zero while the alarm is normal.
+        /// Time of location, value, confidence and evidence, on the rig's clock: the worst moment since the priority was reached.
+        /// Zero while the alarm is normal.
         pub worst_at: super::builtin_interfaces::Time,
-        /// The condition for this priority has ended: the alarm is held in case it comes back, or waits to be acknowledged.
+        /// The condition for this priority has ended: the alarm is held in case it returns, or waits to be acknowledged.
         pub ended: bool,
         /// When the condition for this priority was last met, on the rig's clock; zero unless ended.
         pub ended_at: super::builtin_interfaces::Time,
     }
 
     impl Alarm {
-        /// Nothing to do.
+        /// No action is needed.
         pub const NORMAL: u8 = 0;
         /// The condition stands and is not yet acknowledged.
         pub const ACTIVE_UNACKNOWLEDGED: u8 = 1;
@@ -254,24 +255,24 @@ pub mod flexdrill {
         pub const RETURNED_UNACKNOWLEDGED: u8 = 3;
         /// An operator has put it aside for a time.
         pub const SHELVED: u8 = 4;
-        /// The condition means nothing at present: the drive stands or runs up, the model is paused, or the first sample of an
+        /// The condition has no meaning at present: the drive stands or runs up, the model is paused, or the first sample of an
         /// input is awaited.
         pub const SUPPRESSED_BY_DESIGN: u8 = 5;
         /// Switched off by the configuration.
         pub const OUT_OF_SERVICE: u8 = 6;
-        /// No priority: nothing to do.
+        /// No priority: no action is needed.
         pub const NO_PRIORITY: u8 = 0;
-        /// When there is time.
+        /// Act when there is time.
         pub const LOW: u8 = 1;
-        /// Soon.
+        /// Act soon.
         pub const MEDIUM: u8 = 2;
-        /// At once.
+        /// Act at once.
         pub const HIGH: u8 = 3;
         /// The alarm concerns drilling and is for the driller.
         pub const DRILLING: u8 = 0;
-        /// The alarm concerns the twin's computer, disk or network and is for whoever runs the computer.
+        /// The alarm concerns the twin's computer, disk or network and is for its administrator.
         pub const SYSTEM: u8 = 1;
-        /// The alarm is at no place along the tool, or at none now.
+        /// The alarm has no location along the tool, or none at present.
         pub const NOWHERE: u8 = 0;
         /// The flexible pipe.
         pub const PIPE: u8 = 1;
@@ -293,79 +294,79 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Alarm", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "active", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "acknowledged", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "threshold", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "consequence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_minute", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_earlier_run", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_the_engineer_can_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "worst_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "ended", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "ended_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
 
-    /// One change of one alarm: the journal. What the states and priorities are says Alarm.
+    /// One change of one alarm: an entry of the journal. Alarm defines the states and priorities.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AlarmEvent {
-        /// Stamp: when, on the rig's clock. Frame: the tool.
+        /// Stamp: time of the change, on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// One more in every event, over restarts.
+        /// Number of the event, one more in every event, also across restarts.
         pub sequence: u64,
-        /// Of the alarm, as in Alarm.
+        /// Id of the alarm, as in Alarm.
         pub id: std::string::String,
-        /// Its name for people.
+        /// Name for displays.
         pub name: std::string::String,
         /// ACTIVATED, RAISED, LOWERED, RETURNED, ACKNOWLEDGED, SHELVED, UNSHELVED, SUPPRESSED, RELEASED, TAKEN_OUT or PUT_BACK.
         pub change: u8,
-        /// State before, as in Alarm.
+        /// State before the change, as in Alarm.
         pub from_state: u8,
-        /// State after.
+        /// State after the change.
         pub to_state: u8,
-        /// The priority that the condition has now; of one that has gone, that which it had or which is to be acknowledged. As in
+        /// The present priority of the condition; when it has ended, its last priority or the one to be acknowledged. As in
         /// Alarm.
         pub priority: u8,
-        /// It calls the operator. A rise of an alarm that calls already is the same call.
+        /// The event is an annunciation. A rise of an alarm that is not yet acknowledged is none.
         pub annunciates: bool,
-        /// Who asked for it; empty where nobody did.
+        /// Operator who requested it; empty if it was not requested.
         pub operator_name: std::string::String,
-        /// Why; for UNSHELVED by itself, why the shelving ended.
+        /// Reason; for UNSHELVED without a request, why the shelving ended.
         pub reason: std::string::String,
         /// When shelving ends at the latest, for SHELVED.
         pub shelved_until: super::builtin_interfaces::Time,
-        /// What is seen, in a sentence; empty where the condition is not there.
+        /// What happens, in a sentence; empty where the condition is absent.
         pub evidence: std::string::String,
-        /// What the driller can do, as in Alarm; empty where nothing is to be done.
+        /// What the driller can do, as in Alarm; empty where no action is needed.
         pub what_to_do: std::string::String,
-        /// Where it was worst, as in Alarm: NOWHERE, PIPE or GUIDE.
+        /// Body with the worst value, as in Alarm: NOWHERE, PIPE or GUIDE.
         pub body: u8,
-        /// Place along the bore from the kick-off (m), NaN where there is none.
+        /// Measured depth from the kick-off (m), NaN where there is none.
         pub measured_depth: f64,
         /// Inclination of the bore there (rad), NaN where there is none.
         pub inclination: f64,
-        /// What it was judged by, NaN where there is no such number.
+        /// The value that was judged, NaN where there is no such number.
         pub value: f64,
-        /// Whom the alarm is for, as in Alarm: DRILLING or SYSTEM.
+        /// Addressee of the alarm, as in Alarm: DRILLING or SYSTEM.
         pub category: u8,
         /// What the engineer can do, as in Alarm.
         pub what_the_engineer_can_do: std::string::String,
-        /// When place, value and evidence were seen, as in Alarm.
+        /// Time of location, value and evidence, as in Alarm.
         pub worst_at: super::builtin_interfaces::Time,
-        /// When the condition ended, as in Alarm: earlier than the stamp of RETURNED and LOWERED by the time for which the alarm was
-        /// held. Zero while the condition is met.
+        /// When the condition ended, as in Alarm: earlier than the stamp of RETURNED and LOWERED by the time for which the alarm
+        /// was held. Zero while the condition is met.
         pub ended_at: super::builtin_interfaces::Time,
     }
 
     impl AlarmEvent {
         /// The condition has stood for its on-delay.
         pub const ACTIVATED: u8 = 0;
-        /// It has become worse.
+        /// Its priority has risen.
         pub const RAISED: u8 = 1;
-        /// It has become better, but stands.
+        /// Its priority has fallen, but it stands.
         pub const LOWERED: u8 = 2;
-        /// It has been gone for its off-delay.
+        /// The condition has been absent for its off-delay.
         pub const RETURNED: u8 = 3;
-        /// An operator knows.
+        /// An operator has acknowledged it.
         pub const ACKNOWLEDGED: u8 = 4;
-        /// An operator has put it aside.
+        /// An operator has shelved it.
         pub const SHELVED: u8 = 5;
-        /// It is back: asked for, after its time, as its condition went, or as it rose to HIGH.
+        /// Its shelving has ended: by a request, after its time, with its condition, or by a rise to HIGH.
         pub const UNSHELVED: u8 = 6;
-        /// The condition means nothing from now on: SUPPRESSED_BY_DESIGN in Alarm says when.
+        /// The condition has no meaning from now on; SUPPRESSED_BY_DESIGN in Alarm gives the cases.
         pub const SUPPRESSED: u8 = 7;
-        /// The condition means something again.
+        /// The condition has a meaning again.
         pub const RELEASED: u8 = 8;
-        /// The configuration switches it off.
+        /// The configuration takes it out of service.
         pub const TAKEN_OUT: u8 = 9;
-        /// The configuration switches it on again.
+        /// The configuration returns it to service.
         pub const PUT_BACK: u8 = 10;
     }
 
@@ -385,27 +386,26 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmEvent", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "change", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "to_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciates", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_the_engineer_can_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "worst_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "ended_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
 
-    /// All alarms, the worst first, sent when one of them changes and every second. Latched: of several received, the one with
-    /// the highest sequence holds, and of those with the same the newest.
+    /// All alarms, the worst first, sent when one of them changes and every second. Latched: of several received messages,
+    /// the one with the highest sequence is valid, and of those with the same sequence the newest.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AlarmList {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// Events so far, over restarts: the sequence of the newest AlarmEvent.
+        /// Number of events so far, across restarts: the sequence of the newest AlarmEvent.
         pub sequence: u64,
-        /// All of them, normal ones too. What calls for somebody is first: unacknowledged before acknowledged, then what returned,
-        /// what is shelved, suppressed and normal, out of service last; within each the driller's before those of the computer,
-        /// then by priority.
+        /// All alarms, including normal ones, in this order: active unacknowledged, active acknowledged, returned, shelved,
+        /// suppressed, normal, out of service; within each state the driller's before those of the computer, then by priority.
         pub alarms: Vec<Alarm>,
-        /// Alarms to be acknowledged.
+        /// Number of alarms to be acknowledged.
         pub unacknowledged: u32,
-        /// How often alarms have called for somebody in the last ten minutes.
+        /// Number of annunciations in the last ten minutes.
         pub annunciations_last_ten_minutes: u32,
-        /// More than ten in the last ten minutes.
+        /// There were more than ten annunciations in the last ten minutes.
         pub flood: bool,
-        /// Mean per hour since the count began, which a restart goes on with; NaN until one hour has been watched.
+        /// Mean number of annunciations per hour since the count began; a restart continues the count. NaN before one full hour.
         pub annunciations_per_hour: f64,
-        /// Part of the time watched that was in flood (0 to 1); NaN until ten minutes have been watched.
+        /// Share of the time in flood (0 to 1); NaN before ten full minutes.
         pub flood_share: f64,
     }
 
@@ -427,18 +427,18 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmList", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/Alarm"}}, {"name": "unacknowledged", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_ten_minutes", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "flood", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_per_hour", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "flood_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// What drives the model from a step on, sent when anything of it changes. The sequence of these messages and the
-    /// configuration determine a run to the bit. While nothing changes it is sent again every second of model time, with
-    /// reset false and with all parameters changed since the start, for who listens or records from later on.
+    /// The values that drive the model from a step on, sent when one of them changes. The sequence of these messages and the
+    /// configuration determine a run bit for bit. Without a change the message is repeated every second of model time, with
+    /// reset false and with all parameters changed since the start, for clients that join or record later.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AppliedInputs {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// Number of model steps taken before these values act: they act on the step that starts then.
+        /// Number of model steps before these values act: they act on the next step.
         pub step: u64,
         /// Steps skipped so far because the model was late.
         pub skipped_steps: u64,
-        /// The model went back to its state after the start before this step; step counts from 0 again.
+        /// The model was reset to its state after the start before this step; step counts from 0 again.
         pub reset: bool,
         /// Target speed of the drive, before the slew limit (rad/s).
         pub rotary_speed: f64,
@@ -460,22 +460,22 @@ pub mod flexdrill {
         pub parameter_name: Vec<std::string::String>,
         /// Their new values, in the parameter's unit.
         pub parameter_value: Vec<f64>,
-        /// Who asked for them: the service and its client, as node @ host (id of its DDS writer).
+        /// Client that requested them: the service and its client, as node @ host (id of its DDS writer).
         pub parameter_asked_by: Vec<std::string::String>,
-        /// Every model step is taken in 2^refinement equal parts: what the motion asks for, as far as the pace allows it.
+        /// Every model step is solved in 2^refinement equal parts: as many as the motion requires and the pace allows.
         pub refinement: u8,
     }
 
     impl AppliedInputs {
-        /// No sample yet: the twin runs on its configured start values.
+        /// No sample has arrived yet: the twin runs on its configured start values.
         pub const INPUT_NOT_RECEIVED: u8 = 0;
-        /// Fresh.
+        /// The newest sample is fresh.
         pub const INPUT_OK: u8 = 1;
-        /// Later than expected, not yet stale.
+        /// The newest sample is later than expected, but not yet stale.
         pub const INPUT_SLOW: u8 = 2;
-        /// Too old: held, then brought to the safe value.
+        /// The newest sample is too old: the value is held, then brought to the safe value.
         pub const INPUT_STALE: u8 = 3;
-        /// The newest sample was refused, the last good one is held.
+        /// The newest sample was refused; the last good value is held.
         pub const INPUT_REJECTED: u8 = 4;
     }
 
@@ -506,8 +506,8 @@ pub mod flexdrill {
         pub rotary_speed: f64,
         /// Weight on bit as applied to the model (N).
         pub weight_on_bit: f64,
-        /// (max - min) / (2 mean) of the rotary speed over its window; 0 while the drive hardly turns, at least 1 while the bit
-        /// stands and the drive turns.
+        /// (max - min) / (2 mean) of the rotary speed over its window; 0 while the drive is near standstill, at least 1 while the
+        /// bit stands and the drive turns.
         pub stick_slip_index: f64,
         /// Root mean square over the publishing interval of spin acceleration times bit radius (m/s2).
         pub tangential_acceleration: f64,
@@ -524,13 +524,13 @@ pub mod flexdrill {
     }
 
     impl BitState {
-        /// Nothing to do.
+        /// No action is needed.
         pub const OK: u8 = 0;
-        /// Keep an eye on it.
+        /// The driller should watch it.
         pub const WATCH: u8 = 1;
-        /// Act soon.
+        /// Action is needed soon.
         pub const WARNING: u8 = 2;
-        /// Act now.
+        /// Action is needed now.
         pub const CRITICAL: u8 = 3;
     }
 
@@ -564,13 +564,13 @@ pub mod flexdrill {
         pub max_guide_wall_force: f64,
         /// Entry of its station in the arrays below.
         pub max_guide_wall_station: u32,
-        /// Place along the bore from the kick-off (m).
+        /// Measured depth from the kick-off (m).
         pub measured_depth: Vec<f64>,
         /// Inclination of the bore there, 0 is straight down (rad).
         pub inclination: Vec<f64>,
         /// FREE, INNER, OUTER or BOTH at the stamp.
         pub state: Vec<u8>,
-        /// Clearance left between pipe and guide pipe (m, negative is penetration).
+        /// Gap between pipe and guide pipe (m, negative is penetration).
         pub pipe_guide_gap: Vec<f64>,
         /// Normal force at the stamp (N, \>= 0).
         pub pipe_guide_normal: Vec<f64>,
@@ -582,7 +582,7 @@ pub mod flexdrill {
         pub pipe_guide_normal_peak: Vec<f64>,
         /// Root mean square of the normal force over the publishing interval (N).
         pub pipe_guide_normal_rms: Vec<f64>,
-        /// Clearance left between guide pipe and wall (m, negative is penetration).
+        /// Gap between guide pipe and wall (m, negative is penetration).
         pub guide_wall_gap: Vec<f64>,
         /// Normal force at the stamp (N, \>= 0).
         pub guide_wall_normal: Vec<f64>,
@@ -594,8 +594,8 @@ pub mod flexdrill {
         pub guide_wall_normal_peak: Vec<f64>,
         /// Root mean square of the normal force over the publishing interval (N).
         pub guide_wall_normal_rms: Vec<f64>,
-        /// Shock: largest impulse of the normal force in a short interval (20 ms by default) in the publishing interval, less that of
-        /// the resting force (N s).
+        /// Shock: largest impulse of the normal force in a short interval (20 ms by default) in the publishing interval, minus
+        /// that of the resting force (N s).
         pub pipe_guide_shock: Vec<f64>,
         /// The same between guide pipe and wall (N s).
         pub guide_wall_shock: Vec<f64>,
@@ -610,21 +610,21 @@ pub mod flexdrill {
     }
 
     impl ContactForces {
-        /// Nothing touches at this station.
+        /// No contact at this station.
         pub const FREE: u8 = 0;
-        /// Pipe and guide pipe touch.
+        /// Pipe and guide pipe are in contact.
         pub const INNER: u8 = 1;
-        /// Guide pipe and wall touch.
+        /// Guide pipe and wall are in contact.
         pub const OUTER: u8 = 2;
-        /// Both layers touch.
+        /// Both layers are in contact.
         pub const BOTH: u8 = 3;
-        /// Nothing to do.
+        /// No action is needed.
         pub const SHOCK_OK: u8 = 0;
-        /// Keep an eye on it.
+        /// The driller should watch it.
         pub const SHOCK_WATCH: u8 = 1;
-        /// Act soon.
+        /// Action is needed soon.
         pub const SHOCK_WARNING: u8 = 2;
-        /// Act now.
+        /// Action is needed now.
         pub const SHOCK_CRITICAL: u8 = 3;
     }
 
@@ -656,7 +656,7 @@ pub mod flexdrill {
         pub max_bend_joint: u32,
         /// Number of joints whose bend angle has reached the limit.
         pub joints_at_limit: u32,
-        /// Place along the bore from the kick-off (m).
+        /// Measured depth from the kick-off (m).
         pub measured_depth: Vec<f64>,
         /// Inclination of the bore there, 0 is straight down (rad).
         pub inclination: Vec<f64>,
@@ -699,20 +699,20 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/JointDeflections", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "max_bend_angle", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_bend_joint", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joints_at_limit", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bend_angle", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bend_direction", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "limit_angle", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_moment", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "spin_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_force", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shear_force", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// The forces on the tool from outside, so that a reader can close the balance: supports, weight, wall, bit and loads. At
-    /// rest they sum to zero; in motion they do together with inertia and damping. All vectors are along the axes of the
+    /// The external forces on the tool, so that a reader can check the balance: supports, weight, wall, bit and loads. At
+    /// rest they sum to zero; in motion they do so together with inertia and damping. All vectors are along the axes of the
     /// frame: X horizontal in the build's direction, Y horizontal, Z down.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Reactions {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// Torque that the drive puts into the top of the pipe (N m), positive drives.
+        /// Torque of the drive at the top of the pipe (N m), positive when it drives.
         pub drive_torque: f64,
         /// Torque of the rock against the bit (N m).
         pub bit_torque: f64,
         /// Sum of the forces of all supports (N).
         pub support_force: [f64; 3],
-        /// Weight of both pipes and of what they carry, buoyancy taken off (N).
+        /// Weight of both pipes and of the bodies on them, minus buoyancy (N).
         pub weight: [f64; 3],
         /// Sum of the forces of the wall on the guide pipe, friction included (N).
         pub wall_force: [f64; 3],
@@ -720,13 +720,13 @@ pub mod flexdrill {
         pub bit_force: [f64; 3],
         /// Sum of the configured point loads (N).
         pub load_force: [f64; 3],
-        /// Minus mass times acceleration, of all of the tool (N).
+        /// Minus mass times acceleration of the whole tool (N).
         pub inertia_force: [f64; 3],
         /// Damping of the motion of the tool as a whole (N).
         pub damping_force: [f64; 3],
-        /// Sum of the seven forces: what the solver leaves (N).
+        /// Sum of the seven forces: the residual of the solver (N).
         pub unbalanced_force: [f64; 3],
-        /// Per support, a place where a pipe is held in some directions: place along the bore from the kick-off (m).
+        /// Per support, which holds a pipe in some directions: measured depth from the kick-off (m).
         pub measured_depth: Vec<f64>,
         /// Inclination of the bore there, 0 is straight down (rad).
         pub inclination: Vec<f64>,
@@ -738,7 +738,7 @@ pub mod flexdrill {
         pub force_y: Vec<f64>,
         /// Force, Z (N).
         pub force_z: Vec<f64>,
-        /// Moment of the support on the pipe about its place, X (N m). The drive's torque is not in it.
+        /// Moment of the support on the pipe about the support's location, X (N m), without the drive's torque.
         pub moment_x: Vec<f64>,
         /// Moment, Y (N m).
         pub moment_y: Vec<f64>,
@@ -769,28 +769,28 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Reactions", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "drive_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "support_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "wall_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "load_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inertia_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "damping_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unbalanced_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// Both inputs of the rig with the time at which they were measured, for rigs that have it; the topics rig/rotary_speed_rpm and
-    /// rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
+    /// Both inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm
+    /// and rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct RigInputs {
-        /// Stamp: when it was measured, on the rig's clock. The age of the input counts from here. Frame: of no meaning.
+        /// Stamp: time of the measurement, on the rig's clock. The age of the input counts from it. Frame: not used.
         pub header: super::std_msgs::Header,
         /// Speed of the top drive (r/min), NaN if not given.
         pub rotary_speed_rpm: f64,
         /// Weight on bit (kN), NaN if not given.
         pub weight_on_bit_kn: f64,
-        /// GOOD, SUSPECT or BAD, of both values.
+        /// Quality of both values: GOOD, SUSPECT or BAD.
         pub quality: u8,
-        /// Sensor or program that it comes from, for people; may be empty.
+        /// Sensor or program of origin, for displays; may be empty.
         pub source: std::string::String,
     }
 
     impl RigInputs {
-        /// The values are right as far as the source knows.
+        /// The source considers the values correct.
         pub const GOOD: u8 = 0;
-        /// The source has doubts; the values are taken, and the status says so.
+        /// The source has doubts; the twin accepts the values, and the status says so.
         pub const SUSPECT: u8 = 1;
-        /// The values are wrong or not measured; they are refused.
+        /// The values are wrong or not measured; the twin refuses them.
         pub const BAD: u8 = 2;
     }
 
@@ -810,7 +810,7 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// What a run was made with, so that a recording stands alone.
+    /// Configuration and version of a run, so that a recording is self-contained.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct SessionInfo {
         /// Stamp: start of the run on the rig's clock. Frame: the tool, as in all messages of this run.
@@ -848,7 +848,7 @@ pub mod flexdrill {
     pub struct TwinStatus {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// Heartbeat, one more in every message.
+        /// Heartbeat: one more in every message.
         pub sequence: u64,
         /// STARTING, RUNNING, PAUSED or FAILED.
         pub state: u8,
@@ -865,7 +865,7 @@ pub mod flexdrill {
         pub lateness: f64,
         /// Steps that ended after their deadline.
         pub deadline_misses: u64,
-        /// Steps given up because the model was late; those of a pause or after a failed step are in steps_stood_still.
+        /// Steps skipped because the model was late; those of a pause or after a failed step are in steps_stood_still.
         pub steps_skipped: u64,
         /// Median computing time of a step in the last interval (s).
         pub step_time_p50: f64,
@@ -877,7 +877,7 @@ pub mod flexdrill {
         pub newton_iterations_mean: f64,
         /// Sub-steps rejected since the start.
         pub rejected_steps: u64,
-        /// Steps that had to be split since the start.
+        /// Steps that were halved since the start.
         pub halved_steps: u64,
         /// Steps that failed at the smallest sub-step since the start.
         pub failed_steps: u64,
@@ -885,19 +885,19 @@ pub mod flexdrill {
         pub last_rejection_cause: std::string::String,
         /// Station of the last rejection, 0 is the uppermost.
         pub last_rejection_station: u32,
-        /// Place of that station along the bore from the kick-off (m).
+        /// Measured depth of that station from the kick-off (m).
         pub last_rejection_measured_depth: f64,
-        /// Work in, less energy out, less energy stored since the start (J); zero is exact.
+        /// Work put in, minus energy taken out, minus energy stored since the start (J); zero is exact.
         pub energy_error: f64,
-        /// Magnitude of energy_error over the drive's work.
+        /// Magnitude of energy_error divided by the drive's work.
         pub energy_error_ratio: f64,
         /// RECORDING_OFF, RECORDING_ON or RECORDING_FAILED.
         pub recording_state: u8,
-        /// File that is recorded to, empty if none.
+        /// File of the recording, empty if none.
         pub recording_path: std::string::String,
-        /// Messages in the recording's files; those of the last moments are still on their way there.
+        /// Messages in the recording's files, without the newest ones that are not written yet.
         pub recording_messages: u64,
-        /// Messages that the recording lost, and those in a file that the disk refused to keep.
+        /// Messages that the recording lost, including those in a file whose sync the disk refused.
         pub recording_drops: u64,
         /// SHA-256 of the configuration in force.
         pub config_hash: std::string::String,
@@ -921,64 +921,65 @@ pub mod flexdrill {
         pub output_sent: Vec<u64>,
         /// Messages lost since the start.
         pub output_dropped: Vec<u64>,
-        /// Per phase of a step: its name. assembly, contact, solve, energy, analysis, snapshot and other make up the solver's time; publish is
-        /// that of encoding and sending, on another thread.
+        /// Per phase of a step: its name. assembly, contact, solve, energy, analysis, snapshot and other make up the solver's
+        /// time; publish is the time of encoding and sending, on another thread.
         pub phase_name: Vec<std::string::String>,
         /// Mean time per step in the last interval (s).
         pub phase_time: Vec<f64>,
         /// How far the motion can be trusted: QUALITY_GOOD, QUALITY_DEGRADED or QUALITY_POOR.
         pub model_quality: u8,
-        /// Why it is not GOOD, with value and bound, or that it is not judged yet; empty if all is well.
+        /// Why it is not GOOD, with value and bound, or that it is not judged yet; empty if it is GOOD.
         pub model_quality_cause: std::string::String,
-        /// Work of the steps against the laws over the last 10 s, magnitudes added, over what contact, Rayleigh and numerical damping took in
-        /// them; zero is exact.
+        /// Energy error of the steps over the last 10 s, magnitudes added, divided by the energy that contact, Rayleigh and
+        /// numerical damping dissipated in that time; zero is exact.
         pub energy_error_share: f64,
-        /// DDS: whether it is up, and how often it had to be started again since the start.
+        /// DDS: whether it is up, and how often it was restarted since the start.
         pub dds_up: bool,
         pub dds_restarts: u64,
-        /// Why it had to be, the last time; empty if it never was.
+        /// Cause of the last restart; empty if there was none.
         pub dds_restart_cause: std::string::String,
-        /// Topic, node, address and id of readers that asked for every sample and did not take them within the last minute; empty if there are
-        /// none.
+        /// Topic, node, address and id of reliable readers that did not read their samples within the last minute; empty if there
+        /// are none.
         pub dds_stalled_reader: std::string::String,
         /// Other nodes on the network with the name of this one, with address and id.
         pub namesake: Vec<std::string::String>,
-        /// What the system's clock was set by since the start (s). Stamps keep to the clock as it was at the start.
+        /// Time by which the system clock was set since the start (s). Stamps follow the clock as it was at the start.
         pub clock_set_by: f64,
-        /// Per input: the publisher that drives it, as node @ host (id of its DDS writer); empty while nobody does.
+        /// Per input: the publisher that drives it, as node @ host (id of its DDS writer); empty while there is none.
         pub input_driver: Vec<std::string::String>,
-        /// Per input: all publishers heard within its max_age, the one that drives first, separated by commas.
+        /// Per input: all publishers with a sample within its max_age, the one that drives first, separated by commas.
         pub input_publishers: Vec<std::string::String>,
         /// Per input: two or more publishers send it at once.
         pub input_several_drivers: Vec<bool>,
         /// Per input: samples refused because their publisher does not drive.
         pub input_not_driving: Vec<u64>,
-        /// Per input: samples whose bytes were no message of the topic's type.
+        /// Per input: samples whose bytes do not match the topic's type.
         pub input_unreadable: Vec<u64>,
-        /// Per input: without a good sample for so long that the model is on its way to the safe value, or there.
+        /// Per input: without a good sample for so long that the model is on the ramp to the safe value, or has reached it.
         pub input_safe: Vec<bool>,
-        /// Per input: source of the newest good sample as it says itself, empty if it says none.
+        /// Per input: source that the newest good sample names, empty if it names none.
         pub input_source: Vec<std::string::String>,
         /// Per input: the source has doubts about the newest good sample.
         pub input_suspect: Vec<bool>,
-        /// Snapshots that found the publisher's thread too far behind since the start: the outputs of these instants were neither sent nor
-        /// recorded.
+        /// Snapshots that were dropped since the start because the publisher's thread was too late: their outputs were neither
+        /// sent nor recorded.
         pub frames_dropped: u64,
-        /// Changes of the inputs that found it so: a recording of this run cannot be replayed exactly.
+        /// Changes of the inputs that were lost for the same reason: a recording of this run cannot be replayed exactly.
         pub events_lost: u64,
-        /// Per input: samples that came faster than they were taken since the start: the oldest of 256 that waited were given up.
+        /// Per input: samples that arrived faster than the node read them since the start: the oldest of 256 waiting samples were
+        /// dropped.
         pub input_overrun: Vec<u64>,
-        /// Step in which the motion is computed, the model step or a half or a quarter of it (s).
+        /// Step in which the motion is computed: the model step, or a half or a quarter of it (s).
         pub step_in_force: f64,
-        /// Step that the motion asks for (s); shorter than the one in force where the machine is too slow for it.
+        /// Step that the motion requires (s); shorter than the one in force where the machine is too slow for it.
         pub step_wanted: f64,
-        /// How the model keeps up with the clock, judged over ten seconds and with hysteresis: PACE_NOT_JUDGED, PACE_KEPT,
-        /// PACE_LATE or PACE_FAR_BEHIND. Being late is a matter of the computer, not of drilling.
+        /// Pace of the model relative to the clock, judged over ten seconds and with hysteresis: PACE_NOT_JUDGED, PACE_KEPT,
+        /// PACE_LATE or PACE_FAR_BEHIND. Lateness concerns the computer, not drilling.
         pub pace: u8,
-        /// Model time gained per second of wall time, over the last ten seconds: what pace is judged by. NaN until the model has
-        /// run for so long.
+        /// Model time gained per second of wall time over the last ten seconds, from which pace is judged. NaN until the model
+        /// has run for ten seconds.
         pub pace_factor: f64,
-        /// Why messages are missing in the recording, with the count of each cause; empty if none are.
+        /// Why messages are missing in the recording, with the count of each cause; empty if none is missing.
         pub recording_drops_cause: std::string::String,
         /// Steps during which the model stood still: paused, or after a failed step.
         pub steps_stood_still: u64,
@@ -993,28 +994,28 @@ pub mod flexdrill {
         pub const PAUSED: u8 = 2;
         /// The model stands still because a step failed; reset it.
         pub const FAILED: u8 = 3;
-        /// No sample yet: the twin runs on its configured start values.
+        /// No sample has arrived yet: the twin runs on its configured start values.
         pub const INPUT_NOT_RECEIVED: u8 = 0;
-        /// Fresh.
+        /// The newest sample is fresh.
         pub const INPUT_OK: u8 = 1;
-        /// Later than expected, not yet stale.
+        /// The newest sample is later than expected, but not yet stale.
         pub const INPUT_SLOW: u8 = 2;
-        /// Too old: held, then brought to the safe value.
+        /// The newest sample is too old: the value is held, then brought to the safe value.
         pub const INPUT_STALE: u8 = 3;
-        /// The newest sample was refused, the last good one is held.
+        /// The newest sample was refused; the last good value is held.
         pub const INPUT_REJECTED: u8 = 4;
         /// Not recording.
         pub const RECORDING_OFF: u8 = 0;
         /// Recording to recording_path.
         pub const RECORDING_ON: u8 = 1;
-        /// The recording stopped on an error; what was written before is kept. It goes on in another file as soon as that can be
-        /// written, and is RECORDING_ON again then.
+        /// The recording stopped on an error; earlier messages are kept. It continues in another file as soon as the disk allows
+        /// it, and is then RECORDING_ON again.
         pub const RECORDING_FAILED: u8 = 2;
-        /// The steps' errors are those of runs that agree with a finer step within about a tenth in ripple and forces.
+        /// With such errors of the steps, runs agree with a finer step within about a tenth in ripple and forces.
         pub const QUALITY_GOOD: u8 = 0;
-        /// They are those of runs that are off by more; model_quality_cause says why.
+        /// With such errors, runs differ by more; model_quality_cause gives the reason.
         pub const QUALITY_DEGRADED: u8 = 1;
-        /// They are those of runs that are off by a sixth to several times: an alarm. Confidences of the whirl analysis are lowered.
+        /// With such errors, runs differ by a sixth up to several times: an alarm. The whirl analysis lowers its confidences.
         pub const QUALITY_POOR: u8 = 2;
         /// Not judged: the model has run for less than ten seconds since the start, a pause or a failed step.
         pub const PACE_NOT_JUDGED: u8 = 0;
@@ -1042,12 +1043,12 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/TwinStatus", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_time", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_count", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "real_time_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateness", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "deadline_misses", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_skipped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p50", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p99", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_max", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "newton_iterations_mean", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rejected_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "halved_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_path", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_messages", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_age", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_received", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_applied", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_rejected", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_topic", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_sent", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_dropped", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_time", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_up", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restarts", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restart_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_stalled_reader", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "namesake", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clock_set_by", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_driver", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_publishers", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_several_drivers", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_not_driving", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_unreadable", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_safe", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_source", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_suspect", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "frames_dropped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "events_lost", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_overrun", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_in_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_wanted", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pace", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pace_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_stood_still", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// Whirl of every watched place. All arrays have one entry per watched station and pipe.
+    /// Whirl at every watched station. All arrays have one entry per watched station and pipe.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct WhirlState {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// Place along the bore from the kick-off (m).
+        /// Measured depth from the kick-off (m).
         pub measured_depth: Vec<f64>,
         /// Inclination of the bore there, 0 is straight down (rad).
         pub inclination: Vec<f64>,
@@ -1057,24 +1058,26 @@ pub mod flexdrill {
         pub kind: Vec<u8>,
         /// Rate of the orbit (rad/s, positive in the sense of the rotation).
         pub whirl_rate: Vec<f64>,
-        /// Rate of the orbit over the rotary speed, NaN where the motion is no whirl of one rate and while the tool does not turn.
+        /// Rate of the orbit divided by the rotary speed; NaN where the motion has no single whirl rate and while the tool does
+        /// not turn.
         pub whirl_ratio: Vec<f64>,
         /// Root mean square radius about the running mean (m).
         pub orbit_radius: Vec<f64>,
-        /// Largest distance from the gap's centre in the window over the clearance.
+        /// Largest distance from the centre of the gap in the window, divided by the clearance.
         pub clearance_ratio: Vec<f64>,
-        /// Part of the window in contact (0 to 1).
+        /// Share of the window in contact (0 to 1).
         pub contact_duty: Vec<f64>,
-        /// Confidence in the kind (0 to 1), lowered while an input is not as it should be.
+        /// Confidence in the kind (0 to 1); it is lower while an input is not OK.
         pub confidence: Vec<f64>,
-        /// Level at this place: OK, WATCH, WARNING or CRITICAL of WhirlWarning.
+        /// Level at this station: OK, WATCH, WARNING or CRITICAL of WhirlWarning.
         pub severity: Vec<u8>,
-        /// Backward whirl of the driven pipe: rate over that of rolling without slip, - spin d / (D - d). 1 rolls, less slides, 0 is
-        /// no such whirl.
+        /// Backward whirl of the driven pipe: rate divided by that of rolling without slip, - spin d / (D - d). 1 rolls, a
+        /// smaller value slides, 0 is no such whirl.
         pub rolling_share: Vec<f64>,
-        /// Turns about the gap's centre per turn of the tool, counted, positive in the sense of the rotation; NaN while it stands.
+        /// Counted turns about the centre of the gap per turn of the tool, positive in the sense of the rotation; NaN while the
+        /// tool stands.
         pub gap_turns: Vec<f64>,
-        /// Bending cycles per turn of the tool that whirl of one rate brings; 0 elsewhere.
+        /// Bending cycles per turn of the tool due to whirl of one rate; 0 elsewhere.
         pub bending_cycles: Vec<f64>,
         /// Largest impulse above the resting one in the window (N s).
         pub impulse: Vec<f64>,
@@ -1085,8 +1088,8 @@ pub mod flexdrill {
     }
 
     impl WhirlState {
-        /// No whirl: at rest, along a line, small beside the gap's centre, or a motion that repeats itself turn by turn without going
-        /// round.
+        /// No whirl: at rest, along a line, a small orbit off the centre of the gap, or a motion that repeats itself turn by turn
+        /// without circling the centre.
         pub const NONE: u8 = 0;
         /// The orbit turns in the sense of the rotation.
         pub const FORWARD: u8 = 1;
@@ -1094,8 +1097,8 @@ pub mod flexdrill {
         pub const BACKWARD: u8 = 2;
         /// Large motion without a steady direction that does not repeat itself.
         pub const CHAOTIC: u8 = 3;
-        /// A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS, whose
-        /// words the other kinds are, has none for it.
+        /// A small orbit at twice the tool's speed that does not circle the centre of the gap: the cross of the joint drives it.
+        /// D-WIS defines the other kinds and has no term for this one.
         pub const JOINT_VIBRATION: u8 = 4;
         /// The flexible pipe.
         pub const PIPE: u8 = 0;
@@ -1119,8 +1122,8 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhirlState", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kind", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_ratio", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "orbit_radius", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clearance_ratio", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_duty", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "severity", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rolling_share", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "gap_turns", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bending_cycles", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "impulse", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "impact_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_power", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// The level at which the whirl warning stands, sent when it changes. Latched: of several received, the one with the
-    /// highest sequence holds.
+    /// The level of the whirl warning, sent when it changes. Latched: of several received messages, the one with the highest
+    /// sequence is valid.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct WhirlWarning {
         /// Stamp: model time on the rig's clock. Frame: the tool.
@@ -1131,46 +1134,46 @@ pub mod flexdrill {
         pub kind: u8,
         /// PIPE or GUIDE.
         pub body: u8,
-        /// Place along the bore from the kick-off (m).
+        /// Measured depth from the kick-off (m).
         pub measured_depth: f64,
         /// Inclination of the bore there, 0 is straight down (rad).
         pub inclination: f64,
-        /// Evidence: rate of the orbit over the rotary speed, NaN where there is none.
+        /// Evidence: rate of the orbit divided by the rotary speed; NaN where there is none.
         pub whirl_ratio: f64,
-        /// Evidence: largest distance from the gap's centre over the clearance.
+        /// Evidence: largest distance from the centre of the gap, divided by the clearance.
         pub clearance_ratio: f64,
-        /// Evidence: part of the window in contact (0 to 1).
+        /// Evidence: share of the window in contact (0 to 1).
         pub contact_duty: f64,
-        /// Length of the window that the evidence was taken from (s).
+        /// Length of the window of the evidence (s).
         pub window: f64,
         /// When this level was reached, on the rig's clock.
         pub since: super::builtin_interfaces::Time,
         /// The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED.
         pub input_quality: u8,
-        /// Number of changes so far, of the level, its place and kind, or of the trust in the inputs.
+        /// Number of changes so far, of the level, its station and kind, or of the trust in the inputs.
         pub sequence: u64,
-        /// The same for a person, in one sentence.
+        /// The warning as one sentence for an operator.
         pub message: std::string::String,
         /// Evidence: largest normal force in the window (N).
         pub peak_force: f64,
-        /// Evidence: rate over that of rolling without slip, - spin d / (D - d), of backward whirl of the driven pipe. 1 rolls, less
-        /// slides, 0 is no such whirl.
+        /// Evidence: backward whirl of the driven pipe, rate divided by that of rolling without slip, - spin d / (D - d). 1
+        /// rolls, a smaller value slides, 0 is no such whirl.
         pub rolling_share: f64,
-        /// Confidence in the kind (0 to 1), lowered while an input is not as it should be.
+        /// Confidence in the kind (0 to 1); it is lower while an input is not OK.
         pub confidence: f64,
     }
 
     impl WhirlWarning {
-        /// Nothing to do.
+        /// No action is needed.
         pub const OK: u8 = 0;
-        /// Keep an eye on it.
+        /// The driller should watch it.
         pub const WATCH: u8 = 1;
-        /// Act soon.
+        /// Action is needed soon.
         pub const WARNING: u8 = 2;
-        /// Act now.
+        /// Action is needed now.
         pub const CRITICAL: u8 = 3;
-        /// No whirl: at rest, along a line, small beside the gap's centre, or a motion that repeats itself turn by turn without going
-        /// round.
+        /// No whirl: at rest, along a line, a small orbit off the centre of the gap, or a motion that repeats itself turn by turn
+        /// without circling the centre.
         pub const NONE: u8 = 0;
         /// The orbit turns in the sense of the rotation.
         pub const FORWARD: u8 = 1;
@@ -1178,22 +1181,22 @@ pub mod flexdrill {
         pub const BACKWARD: u8 = 2;
         /// Large motion without a steady direction that does not repeat itself.
         pub const CHAOTIC: u8 = 3;
-        /// A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS, whose
-        /// words the other kinds are, has none for it.
+        /// A small orbit at twice the tool's speed that does not circle the centre of the gap: the cross of the joint drives it.
+        /// D-WIS defines the other kinds and has no term for this one.
         pub const JOINT_VIBRATION: u8 = 4;
         /// The flexible pipe.
         pub const PIPE: u8 = 0;
         /// The guide pipe.
         pub const GUIDE: u8 = 1;
-        /// No sample yet: the twin runs on its configured start values.
+        /// No sample has arrived yet: the twin runs on its configured start values.
         pub const INPUT_NOT_RECEIVED: u8 = 0;
-        /// Fresh.
+        /// The newest sample is fresh.
         pub const INPUT_OK: u8 = 1;
-        /// Later than expected, not yet stale.
+        /// The newest sample is later than expected, but not yet stale.
         pub const INPUT_SLOW: u8 = 2;
-        /// Too old: held, then brought to the safe value.
+        /// The newest sample is too old: the value is held, then brought to the safe value.
         pub const INPUT_STALE: u8 = 3;
-        /// The newest sample was refused, the last good one is held.
+        /// The newest sample was refused; the last good value is held.
         pub const INPUT_REJECTED: u8 = 4;
     }
 
@@ -1213,14 +1216,14 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhirlWarning", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kind", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "whirl_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clearance_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_duty", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "window", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "peak_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rolling_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// Says that somebody knows of an alarm.
+    /// Acknowledges an alarm on behalf of an operator.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AcknowledgeAlarmRequest {
-        /// Of the alarm, such as backward_whirl; empty or all: every alarm that is to be acknowledged.
+        /// Id of the alarm, such as backward_whirl; empty or all: every alarm that needs an acknowledgement.
         pub id: std::string::String,
-        /// Who says so. Must not be empty.
+        /// Name of the operator. It must not be empty.
         pub operator_name: std::string::String,
-        /// For the journal; may be empty.
+        /// Reason for the journal; it may be empty.
         pub reason: std::string::String,
     }
 
@@ -1230,16 +1233,16 @@ pub mod flexdrill {
         const ROS_TYPE: &'static str = "flexdrill/srv/AcknowledgeAlarm_Request";
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::AcknowledgeAlarm_Request_";
         const RIHS01: &'static str = "RIHS01_f79a38c9120398574da69bcb97cbfea7b2a75af0eff1ed18a6f487237848290a";
-        const SCHEMA: &'static str = "# Says that somebody knows of an alarm.\n\n# Of the alarm, such as backward_whirl; empty or all: every alarm that is to be acknowledged.\nstring id\n# Who says so. Must not be empty.\nstring operator_name\n# For the journal; may be empty.\nstring reason\n";
+        const SCHEMA: &'static str = "# Acknowledges an alarm on behalf of an operator.\n\n# Id of the alarm, such as backward_whirl; empty or all: every alarm that needs an acknowledgement.\nstring id\n# Name of the operator. It must not be empty.\nstring operator_name\n# Reason for the journal; it may be empty.\nstring reason\n";
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm_Request", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `flexdrill/srv/AcknowledgeAlarm_Response`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AcknowledgeAlarmResponse {
-        /// Whether the journal has it.
+        /// Whether the journal has the acknowledgement.
         pub success: bool,
-        /// What was done, or why not.
+        /// The result, or the reason of a refusal.
         pub message: std::string::String,
     }
 
@@ -1249,22 +1252,22 @@ pub mod flexdrill {
         const ROS_TYPE: &'static str = "flexdrill/srv/AcknowledgeAlarm_Response";
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::AcknowledgeAlarm_Response_";
         const RIHS01: &'static str = "RIHS01_982e6903d0b88cc10f418258bf38db0249f8a0c1b33ea6c1986541d3e1868730";
-        const SCHEMA: &'static str = "# Whether the journal has it.\nbool success\n# What was done, or why not.\nstring message\n";
+        const SCHEMA: &'static str = "# Whether the journal has the acknowledgement.\nbool success\n# The result, or the reason of a refusal.\nstring message\n";
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// Puts an alarm aside for a time.
+    /// Shelves an alarm for a time.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct ShelveAlarmRequest {
-        /// Of the alarm, such as backward_whirl.
+        /// Id of the alarm, such as backward_whirl.
         pub id: std::string::String,
-        /// Until the condition has gone, at most for the longest time of the configuration; duration is not looked at then.
+        /// Shelves until the condition has ended, at most for the longest time of the configuration; duration is then ignored.
         pub one_shot: bool,
-        /// For so long (s), at most the longest time of the configuration.
+        /// Duration (s), at most the longest time of the configuration.
         pub duration: f64,
-        /// Who wants it. Must not be empty.
+        /// Name of the operator. It must not be empty.
         pub operator_name: std::string::String,
-        /// Why. Must not be empty.
+        /// Reason for the journal. It must not be empty.
         pub reason: std::string::String,
     }
 
@@ -1274,16 +1277,16 @@ pub mod flexdrill {
         const ROS_TYPE: &'static str = "flexdrill/srv/ShelveAlarm_Request";
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::ShelveAlarm_Request_";
         const RIHS01: &'static str = "RIHS01_3866739753c91bc6e370b97f9df74188b76166a9447cafc3d397eb710bf730ef";
-        const SCHEMA: &'static str = "# Puts an alarm aside for a time.\n\n# Of the alarm, such as backward_whirl.\nstring id\n# Until the condition has gone, at most for the longest time of the configuration; duration is not looked at then.\nbool one_shot\n# For so long (s), at most the longest time of the configuration.\nfloat64 duration\n# Who wants it. Must not be empty.\nstring operator_name\n# Why. Must not be empty.\nstring reason\n";
+        const SCHEMA: &'static str = "# Shelves an alarm for a time.\n\n# Id of the alarm, such as backward_whirl.\nstring id\n# Shelves until the condition has ended, at most for the longest time of the configuration; duration is then ignored.\nbool one_shot\n# Duration (s), at most the longest time of the configuration.\nfloat64 duration\n# Name of the operator. It must not be empty.\nstring operator_name\n# Reason for the journal. It must not be empty.\nstring reason\n";
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/ShelveAlarm_Request", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `flexdrill/srv/ShelveAlarm_Response`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct ShelveAlarmResponse {
-        /// Whether it is shelved.
+        /// Whether the alarm is shelved.
         pub success: bool,
-        /// Until when, or why not.
+        /// The end of the shelving, or the reason of a refusal.
         pub message: std::string::String,
     }
 
@@ -1293,18 +1296,18 @@ pub mod flexdrill {
         const ROS_TYPE: &'static str = "flexdrill/srv/ShelveAlarm_Response";
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::ShelveAlarm_Response_";
         const RIHS01: &'static str = "RIHS01_08f2120785f28bfdee73a05f02403c5148f0c329cc732190381602da11261d7e";
-        const SCHEMA: &'static str = "# Whether it is shelved.\nbool success\n# Until when, or why not.\nstring message\n";
+        const SCHEMA: &'static str = "# Whether the alarm is shelved.\nbool success\n# The end of the shelving, or the reason of a refusal.\nstring message\n";
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/ShelveAlarm_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// Takes an alarm back from the shelf.
+    /// Ends the shelving of an alarm.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct UnshelveAlarmRequest {
-        /// Of the alarm, such as backward_whirl.
+        /// Id of the alarm, such as backward_whirl.
         pub id: std::string::String,
-        /// Who wants it. Must not be empty.
+        /// Name of the operator. It must not be empty.
         pub operator_name: std::string::String,
-        /// For the journal; may be empty.
+        /// Reason for the journal; it may be empty.
         pub reason: std::string::String,
     }
 
@@ -1314,16 +1317,16 @@ pub mod flexdrill {
         const ROS_TYPE: &'static str = "flexdrill/srv/UnshelveAlarm_Request";
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::UnshelveAlarm_Request_";
         const RIHS01: &'static str = "RIHS01_b7d3b33cc977e3739b3e05be7729d5b4218c4542821b13bae8075ce872ff253c";
-        const SCHEMA: &'static str = "# Takes an alarm back from the shelf.\n\n# Of the alarm, such as backward_whirl.\nstring id\n# Who wants it. Must not be empty.\nstring operator_name\n# For the journal; may be empty.\nstring reason\n";
+        const SCHEMA: &'static str = "# Ends the shelving of an alarm.\n\n# Id of the alarm, such as backward_whirl.\nstring id\n# Name of the operator. It must not be empty.\nstring operator_name\n# Reason for the journal; it may be empty.\nstring reason\n";
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/UnshelveAlarm_Request", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reason", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// `flexdrill/srv/UnshelveAlarm_Response`.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct UnshelveAlarmResponse {
-        /// Whether it is back.
+        /// Whether the shelving has ended.
         pub success: bool,
-        /// What was done, or why not.
+        /// The result, or the reason of a refusal.
         pub message: std::string::String,
     }
 
@@ -1333,7 +1336,7 @@ pub mod flexdrill {
         const ROS_TYPE: &'static str = "flexdrill/srv/UnshelveAlarm_Response";
         const DDS_TYPE: &'static str = "flexdrill::srv::dds_::UnshelveAlarm_Response_";
         const RIHS01: &'static str = "RIHS01_a2c420ea33db6edd380a9599a50564c47cabf1e7d292c4a15efd0ad61032f37a";
-        const SCHEMA: &'static str = "# Whether it is back.\nbool success\n# What was done, or why not.\nstring message\n";
+        const SCHEMA: &'static str = "# Whether the shelving has ended.\nbool success\n# The result, or the reason of a refusal.\nstring message\n";
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/UnshelveAlarm_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 }

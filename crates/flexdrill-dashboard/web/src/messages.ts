@@ -27,29 +27,29 @@ export function decodeHeader(reader: CdrReader): Header {
 }
 
 /**
- * What has aged since the start or the last reset, to compare joints and stations with each other and ways of drilling. No
- * absolute life follows from it.
+ * Fatigue damage and friction work since the start or the last reset, to compare joints, stations and drilling
+ * parameters with each other. No absolute life follows from them.
  */
 export interface Ageing {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
-  /** Model time that the sums are of (s). */
+  /** Model time over which the sums were taken (s). */
   duration: number;
   /** Slope m of the Woehler line: a load cycle of range r counts (r / rated_moment)^m. */
   woehler_slope: number;
   /** Rated moment of a joint's stop (N m). */
   rated_moment: number;
-  /** Per joint: place along the bore from the kick-off (m). */
+  /** Per joint: measured depth from the kick-off (m). */
   joint_measured_depth: Float64Array;
   /** Inclination of the bore there, 0 is straight down (rad). */
   joint_inclination: Float64Array;
   /** Damage of the joint's stop per hour (1/h). */
   stop_damage_rate: Float64Array;
-  /** Damage per hour of the link below the joint by bending at its middle, on the side that it is worse for (1/h). */
+  /** Damage per hour of the link below the joint by bending at its middle, on its worse side (1/h). */
   bending_damage_rate: Float64Array;
-  /** The larger of the two over that of the joint that ages fastest (0 to 1). */
+  /** The larger of the two damage rates, divided by that of the joint that ages fastest (0 to 1). */
   relative_damage: Float64Array;
-  /** Per station: place along the bore from the kick-off (m). */
+  /** Per station: measured depth from the kick-off (m). */
   station_measured_depth: Float64Array;
   /** Inclination of the bore there (rad). */
   station_inclination: Float64Array;
@@ -77,76 +77,79 @@ export function decodeAgeing(reader: CdrReader): Ageing {
   };
 }
 
-/** One alarm as it stands: one thing that an operator can do something about. What each of them means is in docs/alarms.md. */
+/** The state of one alarm: one condition that an operator can act on. docs/alarms.md explains each alarm. */
 export interface Alarm {
-  /** Its name for programs and in requests, such as backward_whirl. */
+  /** Identifier for programs and requests, such as backward_whirl. */
   id: string;
-  /** Its name for people. */
+  /** Name for displays. */
   name: string;
-  /** NORMAL, ACTIVE_UNACKNOWLEDGED, ACTIVE_ACKNOWLEDGED, RETURNED_UNACKNOWLEDGED, SHELVED, SUPPRESSED_BY_DESIGN or OUT_OF_SERVICE. */
+  /**
+   * NORMAL, ACTIVE_UNACKNOWLEDGED, ACTIVE_ACKNOWLEDGED, RETURNED_UNACKNOWLEDGED, SHELVED, SUPPRESSED_BY_DESIGN or
+   * OUT_OF_SERVICE.
+   */
   state: number;
-  /** That of the condition or of what is to be acknowledged, whichever is higher: NO_PRIORITY, LOW, MEDIUM or HIGH. */
+  /** Priority of the condition, or of the alarm to be acknowledged, whichever is higher: NO_PRIORITY, LOW, MEDIUM or HIGH. */
   priority: number;
-  /** The condition stands; under a shelf too. */
+  /** The condition stands, also while the alarm is shelved. */
   active: boolean;
-  /** Nothing is to be acknowledged. */
+  /** No acknowledgement is needed. */
   acknowledged: boolean;
   /** When this state began, on the rig's clock; zero before the first change. */
   since: Time;
   /** When shelving ends at the latest, on the rig's clock; zero while not shelved. */
   shelved_until: Time;
-  /** Shelving ends when the condition goes. */
+  /** Shelving ends when the condition ends. */
   shelved_one_shot: boolean;
-  /** Where it was worst, see worst_at: NOWHERE, PIPE or GUIDE. */
+  /** Body with the worst value, see worst_at: NOWHERE, PIPE or GUIDE. */
   body: number;
-  /** Place along the bore from the kick-off (m), NaN where there is none. */
+  /** Measured depth from the kick-off (m), NaN where there is none. */
   measured_depth: number;
   /** Inclination of the bore there, 0 is straight down (rad), NaN where there is none. */
   inclination: number;
-  /** What it is judged by, in unit; NaN where there is no such number. */
+  /** The value that is judged, in unit; NaN where there is no such number. */
   value: number;
-  /** What value is held against, in unit; NaN where there is no such number. */
+  /** The threshold that value is compared with, in unit; NaN where there is no such number. */
   threshold: number;
   /** Unit of value and threshold; empty where they have none. */
   unit: string;
   /** How far the evidence can be trusted (0 to 1). */
   confidence: number;
   /**
-   * What was seen at worst_at, in a sentence; it says when the condition has ended. This and the next three are empty while
-   * the alarm is normal.
+   * What happened at worst_at, in a sentence; it says when the condition has ended. This text and the next three are empty
+   * while the alarm is normal.
    */
   evidence: string;
-  /** Why it comes. */
+  /** Why it happens. */
   cause: string;
-  /** Why it matters: what it leads to without action. */
+  /** Why it matters: the consequence without action. */
   consequence: string;
   /**
-   * What the driller can do: weight on bit, rotary speed, pick up, call the engineer. It agrees with that of all other alarms
-   * in the list.
+   * What the driller can do: weight on bit, rotary speed, pick up, call the engineer. It never contradicts the other
+   * alarms in the list.
    */
   what_to_do: string;
-  /** How often it has called for somebody since the count began, which a restart goes on with. */
+  /** Number of annunciations since the count began; a restart continues the count. */
   annunciations: number;
-  /** How often in the last minute; from three on it chatters. */
+  /** Number of annunciations in the last minute; from three on the alarm chatters. */
   annunciations_last_minute: number;
-  /** Whom the alarm is for: DRILLING or SYSTEM. Show SYSTEM alarms apart from the driller's. */
+  /** Addressee of the alarm: DRILLING or SYSTEM. Show SYSTEM alarms separately from the driller's. */
   category: number;
   /** The present state began in an earlier run of the node; since is a time of that run. */
   from_earlier_run: boolean;
   /** What the engineer can do: settings of the model and the machine, measurements, inspection. */
   what_the_engineer_can_do: string;
   /**
-   * When place, value, confidence and evidence were seen, on the rig's clock: the worst moment since the priority was
-   * reached. Zero while the alarm is normal.
+   * Time of location, value, confidence and evidence, on the rig's clock: the worst moment since the priority was reached.
+   * Zero while the alarm is normal.
    */
   worst_at: Time;
-  /** The condition for this priority has ended: the alarm is held in case it comes back, or waits to be acknowledged. */
+  /** The condition for this priority has ended: the alarm is held in case it returns, or waits to be acknowledged. */
   ended: boolean;
   /** When the condition for this priority was last met, on the rig's clock; zero unless ended. */
   ended_at: Time;
 }
 export const Alarm = {
-  /** Nothing to do. */
+  /** No action is needed. */
   NORMAL: 0,
   /** The condition stands and is not yet acknowledged. */
   ACTIVE_UNACKNOWLEDGED: 1,
@@ -157,25 +160,25 @@ export const Alarm = {
   /** An operator has put it aside for a time. */
   SHELVED: 4,
   /**
-   * The condition means nothing at present: the drive stands or runs up, the model is paused, or the first sample of an
+   * The condition has no meaning at present: the drive stands or runs up, the model is paused, or the first sample of an
    * input is awaited.
    */
   SUPPRESSED_BY_DESIGN: 5,
   /** Switched off by the configuration. */
   OUT_OF_SERVICE: 6,
-  /** No priority: nothing to do. */
+  /** No priority: no action is needed. */
   NO_PRIORITY: 0,
-  /** When there is time. */
+  /** Act when there is time. */
   LOW: 1,
-  /** Soon. */
+  /** Act soon. */
   MEDIUM: 2,
-  /** At once. */
+  /** Act at once. */
   HIGH: 3,
   /** The alarm concerns drilling and is for the driller. */
   DRILLING: 0,
-  /** The alarm concerns the twin's computer, disk or network and is for whoever runs the computer. */
+  /** The alarm concerns the twin's computer, disk or network and is for its administrator. */
   SYSTEM: 1,
-  /** The alarm is at no place along the tool, or at none now. */
+  /** The alarm has no location along the tool, or none at present. */
   NOWHERE: 0,
   /** The flexible pipe. */
   PIPE: 1,
@@ -216,81 +219,81 @@ export function decodeAlarm(reader: CdrReader): Alarm {
   };
 }
 
-/** One change of one alarm: the journal. What the states and priorities are says Alarm. */
+/** One change of one alarm: an entry of the journal. Alarm defines the states and priorities. */
 export interface AlarmEvent {
-  /** Stamp: when, on the rig's clock. Frame: the tool. */
+  /** Stamp: time of the change, on the rig's clock. Frame: the tool. */
   header: Header;
-  /** One more in every event, over restarts. */
+  /** Number of the event, one more in every event, also across restarts. */
   sequence: number;
-  /** Of the alarm, as in Alarm. */
+  /** Id of the alarm, as in Alarm. */
   id: string;
-  /** Its name for people. */
+  /** Name for displays. */
   name: string;
   /** ACTIVATED, RAISED, LOWERED, RETURNED, ACKNOWLEDGED, SHELVED, UNSHELVED, SUPPRESSED, RELEASED, TAKEN_OUT or PUT_BACK. */
   change: number;
-  /** State before, as in Alarm. */
+  /** State before the change, as in Alarm. */
   from_state: number;
-  /** State after. */
+  /** State after the change. */
   to_state: number;
   /**
-   * The priority that the condition has now; of one that has gone, that which it had or which is to be acknowledged. As in
+   * The present priority of the condition; when it has ended, its last priority or the one to be acknowledged. As in
    * Alarm.
    */
   priority: number;
-  /** It calls the operator. A rise of an alarm that calls already is the same call. */
+  /** The event is an annunciation. A rise of an alarm that is not yet acknowledged is none. */
   annunciates: boolean;
-  /** Who asked for it; empty where nobody did. */
+  /** Operator who requested it; empty if it was not requested. */
   operator_name: string;
-  /** Why; for UNSHELVED by itself, why the shelving ended. */
+  /** Reason; for UNSHELVED without a request, why the shelving ended. */
   reason: string;
   /** When shelving ends at the latest, for SHELVED. */
   shelved_until: Time;
-  /** What is seen, in a sentence; empty where the condition is not there. */
+  /** What happens, in a sentence; empty where the condition is absent. */
   evidence: string;
-  /** What the driller can do, as in Alarm; empty where nothing is to be done. */
+  /** What the driller can do, as in Alarm; empty where no action is needed. */
   what_to_do: string;
-  /** Where it was worst, as in Alarm: NOWHERE, PIPE or GUIDE. */
+  /** Body with the worst value, as in Alarm: NOWHERE, PIPE or GUIDE. */
   body: number;
-  /** Place along the bore from the kick-off (m), NaN where there is none. */
+  /** Measured depth from the kick-off (m), NaN where there is none. */
   measured_depth: number;
   /** Inclination of the bore there (rad), NaN where there is none. */
   inclination: number;
-  /** What it was judged by, NaN where there is no such number. */
+  /** The value that was judged, NaN where there is no such number. */
   value: number;
-  /** Whom the alarm is for, as in Alarm: DRILLING or SYSTEM. */
+  /** Addressee of the alarm, as in Alarm: DRILLING or SYSTEM. */
   category: number;
   /** What the engineer can do, as in Alarm. */
   what_the_engineer_can_do: string;
-  /** When place, value and evidence were seen, as in Alarm. */
+  /** Time of location, value and evidence, as in Alarm. */
   worst_at: Time;
   /**
-   * When the condition ended, as in Alarm: earlier than the stamp of RETURNED and LOWERED by the time for which the alarm was
-   * held. Zero while the condition is met.
+   * When the condition ended, as in Alarm: earlier than the stamp of RETURNED and LOWERED by the time for which the alarm
+   * was held. Zero while the condition is met.
    */
   ended_at: Time;
 }
 export const AlarmEvent = {
   /** The condition has stood for its on-delay. */
   ACTIVATED: 0,
-  /** It has become worse. */
+  /** Its priority has risen. */
   RAISED: 1,
-  /** It has become better, but stands. */
+  /** Its priority has fallen, but it stands. */
   LOWERED: 2,
-  /** It has been gone for its off-delay. */
+  /** The condition has been absent for its off-delay. */
   RETURNED: 3,
-  /** An operator knows. */
+  /** An operator has acknowledged it. */
   ACKNOWLEDGED: 4,
-  /** An operator has put it aside. */
+  /** An operator has shelved it. */
   SHELVED: 5,
-  /** It is back: asked for, after its time, as its condition went, or as it rose to HIGH. */
+  /** Its shelving has ended: by a request, after its time, with its condition, or by a rise to HIGH. */
   UNSHELVED: 6,
-  /** The condition means nothing from now on: SUPPRESSED_BY_DESIGN in Alarm says when. */
+  /** The condition has no meaning from now on; SUPPRESSED_BY_DESIGN in Alarm gives the cases. */
   SUPPRESSED: 7,
-  /** The condition means something again. */
+  /** The condition has a meaning again. */
   RELEASED: 8,
-  /** The configuration switches it off. */
+  /** The configuration takes it out of service. */
   TAKEN_OUT: 9,
-  /** The configuration switches it on again. */
+  /** The configuration returns it to service. */
   PUT_BACK: 10,
 } as const;
 /** Reads a `flexdrill/msg/AlarmEvent`. */
@@ -322,29 +325,28 @@ export function decodeAlarmEvent(reader: CdrReader): AlarmEvent {
 }
 
 /**
- * All alarms, the worst first, sent when one of them changes and every second. Latched: of several received, the one with
- * the highest sequence holds, and of those with the same the newest.
+ * All alarms, the worst first, sent when one of them changes and every second. Latched: of several received messages,
+ * the one with the highest sequence is valid, and of those with the same sequence the newest.
  */
 export interface AlarmList {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
-  /** Events so far, over restarts: the sequence of the newest AlarmEvent. */
+  /** Number of events so far, across restarts: the sequence of the newest AlarmEvent. */
   sequence: number;
   /**
-   * All of them, normal ones too. What calls for somebody is first: unacknowledged before acknowledged, then what returned,
-   * what is shelved, suppressed and normal, out of service last; within each the driller's before those of the computer,
-   * then by priority.
+   * All alarms, including normal ones, in this order: active unacknowledged, active acknowledged, returned, shelved,
+   * suppressed, normal, out of service; within each state the driller's before those of the computer, then by priority.
    */
   alarms: Alarm[];
-  /** Alarms to be acknowledged. */
+  /** Number of alarms to be acknowledged. */
   unacknowledged: number;
-  /** How often alarms have called for somebody in the last ten minutes. */
+  /** Number of annunciations in the last ten minutes. */
   annunciations_last_ten_minutes: number;
-  /** More than ten in the last ten minutes. */
+  /** There were more than ten annunciations in the last ten minutes. */
   flood: boolean;
-  /** Mean per hour since the count began, which a restart goes on with; NaN until one hour has been watched. */
+  /** Mean number of annunciations per hour since the count began; a restart continues the count. NaN before one full hour. */
   annunciations_per_hour: number;
-  /** Part of the time watched that was in flood (0 to 1); NaN until ten minutes have been watched. */
+  /** Share of the time in flood (0 to 1); NaN before ten full minutes. */
   flood_share: number;
 }
 /** Reads a `flexdrill/msg/AlarmList`. */
@@ -362,18 +364,18 @@ export function decodeAlarmList(reader: CdrReader): AlarmList {
 }
 
 /**
- * What drives the model from a step on, sent when anything of it changes. The sequence of these messages and the
- * configuration determine a run to the bit. While nothing changes it is sent again every second of model time, with
- * reset false and with all parameters changed since the start, for who listens or records from later on.
+ * The values that drive the model from a step on, sent when one of them changes. The sequence of these messages and the
+ * configuration determine a run bit for bit. Without a change the message is repeated every second of model time, with
+ * reset false and with all parameters changed since the start, for clients that join or record later.
  */
 export interface AppliedInputs {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
-  /** Number of model steps taken before these values act: they act on the step that starts then. */
+  /** Number of model steps before these values act: they act on the next step. */
   step: number;
   /** Steps skipped so far because the model was late. */
   skipped_steps: number;
-  /** The model went back to its state after the start before this step; step counts from 0 again. */
+  /** The model was reset to its state after the start before this step; step counts from 0 again. */
   reset: boolean;
   /** Target speed of the drive, before the slew limit (rad/s). */
   rotary_speed: number;
@@ -395,21 +397,21 @@ export interface AppliedInputs {
   parameter_name: string[];
   /** Their new values, in the parameter's unit. */
   parameter_value: Float64Array;
-  /** Who asked for them: the service and its client, as node @ host (id of its DDS writer). */
+  /** Client that requested them: the service and its client, as node @ host (id of its DDS writer). */
   parameter_asked_by: string[];
-  /** Every model step is taken in 2^refinement equal parts: what the motion asks for, as far as the pace allows it. */
+  /** Every model step is solved in 2^refinement equal parts: as many as the motion requires and the pace allows. */
   refinement: number;
 }
 export const AppliedInputs = {
-  /** No sample yet: the twin runs on its configured start values. */
+  /** No sample has arrived yet: the twin runs on its configured start values. */
   INPUT_NOT_RECEIVED: 0,
-  /** Fresh. */
+  /** The newest sample is fresh. */
   INPUT_OK: 1,
-  /** Later than expected, not yet stale. */
+  /** The newest sample is later than expected, but not yet stale. */
   INPUT_SLOW: 2,
-  /** Too old: held, then brought to the safe value. */
+  /** The newest sample is too old: the value is held, then brought to the safe value. */
   INPUT_STALE: 3,
-  /** The newest sample was refused, the last good one is held. */
+  /** The newest sample was refused; the last good value is held. */
   INPUT_REJECTED: 4,
 } as const;
 /** Reads a `flexdrill/msg/AppliedInputs`. */
@@ -445,8 +447,8 @@ export interface BitState {
   /** Weight on bit as applied to the model (N). */
   weight_on_bit: number;
   /**
-   * (max - min) / (2 mean) of the rotary speed over its window; 0 while the drive hardly turns, at least 1 while the bit
-   * stands and the drive turns.
+   * (max - min) / (2 mean) of the rotary speed over its window; 0 while the drive is near standstill, at least 1 while the
+   * bit stands and the drive turns.
    */
   stick_slip_index: number;
   /** Root mean square over the publishing interval of spin acceleration times bit radius (m/s2). */
@@ -463,13 +465,13 @@ export interface BitState {
   stick_slip_severity: number;
 }
 export const BitState = {
-  /** Nothing to do. */
+  /** No action is needed. */
   OK: 0,
-  /** Keep an eye on it. */
+  /** The driller should watch it. */
   WATCH: 1,
-  /** Act soon. */
+  /** Action is needed soon. */
   WARNING: 2,
-  /** Act now. */
+  /** Action is needed now. */
   CRITICAL: 3,
 } as const;
 /** Reads a `flexdrill/msg/BitState`. */
@@ -504,13 +506,13 @@ export interface ContactForces {
   max_guide_wall_force: number;
   /** Entry of its station in the arrays below. */
   max_guide_wall_station: number;
-  /** Place along the bore from the kick-off (m). */
+  /** Measured depth from the kick-off (m). */
   measured_depth: Float64Array;
   /** Inclination of the bore there, 0 is straight down (rad). */
   inclination: Float64Array;
   /** FREE, INNER, OUTER or BOTH at the stamp. */
   state: Uint8Array;
-  /** Clearance left between pipe and guide pipe (m, negative is penetration). */
+  /** Gap between pipe and guide pipe (m, negative is penetration). */
   pipe_guide_gap: Float64Array;
   /** Normal force at the stamp (N, >= 0). */
   pipe_guide_normal: Float64Array;
@@ -522,7 +524,7 @@ export interface ContactForces {
   pipe_guide_normal_peak: Float64Array;
   /** Root mean square of the normal force over the publishing interval (N). */
   pipe_guide_normal_rms: Float64Array;
-  /** Clearance left between guide pipe and wall (m, negative is penetration). */
+  /** Gap between guide pipe and wall (m, negative is penetration). */
   guide_wall_gap: Float64Array;
   /** Normal force at the stamp (N, >= 0). */
   guide_wall_normal: Float64Array;
@@ -535,8 +537,8 @@ export interface ContactForces {
   /** Root mean square of the normal force over the publishing interval (N). */
   guide_wall_normal_rms: Float64Array;
   /**
-   * Shock: largest impulse of the normal force in a short interval (20 ms by default) in the publishing interval, less that of
-   * the resting force (N s).
+   * Shock: largest impulse of the normal force in a short interval (20 ms by default) in the publishing interval, minus
+   * that of the resting force (N s).
    */
   pipe_guide_shock: Float64Array;
   /** The same between guide pipe and wall (N s). */
@@ -551,21 +553,21 @@ export interface ContactForces {
   shock_layer: number;
 }
 export const ContactForces = {
-  /** Nothing touches at this station. */
+  /** No contact at this station. */
   FREE: 0,
-  /** Pipe and guide pipe touch. */
+  /** Pipe and guide pipe are in contact. */
   INNER: 1,
-  /** Guide pipe and wall touch. */
+  /** Guide pipe and wall are in contact. */
   OUTER: 2,
-  /** Both layers touch. */
+  /** Both layers are in contact. */
   BOTH: 3,
-  /** Nothing to do. */
+  /** No action is needed. */
   SHOCK_OK: 0,
-  /** Keep an eye on it. */
+  /** The driller should watch it. */
   SHOCK_WATCH: 1,
-  /** Act soon. */
+  /** Action is needed soon. */
   SHOCK_WARNING: 2,
-  /** Act now. */
+  /** Action is needed now. */
   SHOCK_CRITICAL: 3,
 } as const;
 /** Reads a `flexdrill/msg/ContactForces`. */
@@ -613,7 +615,7 @@ export interface JointDeflections {
   max_bend_joint: number;
   /** Number of joints whose bend angle has reached the limit. */
   joints_at_limit: number;
-  /** Place along the bore from the kick-off (m). */
+  /** Measured depth from the kick-off (m). */
   measured_depth: Float64Array;
   /** Inclination of the bore there, 0 is straight down (rad). */
   inclination: Float64Array;
@@ -664,20 +666,20 @@ export function decodeJointDeflections(reader: CdrReader): JointDeflections {
 }
 
 /**
- * The forces on the tool from outside, so that a reader can close the balance: supports, weight, wall, bit and loads. At
- * rest they sum to zero; in motion they do together with inertia and damping. All vectors are along the axes of the
+ * The external forces on the tool, so that a reader can check the balance: supports, weight, wall, bit and loads. At
+ * rest they sum to zero; in motion they do so together with inertia and damping. All vectors are along the axes of the
  * frame: X horizontal in the build's direction, Y horizontal, Z down.
  */
 export interface Reactions {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
-  /** Torque that the drive puts into the top of the pipe (N m), positive drives. */
+  /** Torque of the drive at the top of the pipe (N m), positive when it drives. */
   drive_torque: number;
   /** Torque of the rock against the bit (N m). */
   bit_torque: number;
   /** Sum of the forces of all supports (N). */
   support_force: Float64Array;
-  /** Weight of both pipes and of what they carry, buoyancy taken off (N). */
+  /** Weight of both pipes and of the bodies on them, minus buoyancy (N). */
   weight: Float64Array;
   /** Sum of the forces of the wall on the guide pipe, friction included (N). */
   wall_force: Float64Array;
@@ -685,13 +687,13 @@ export interface Reactions {
   bit_force: Float64Array;
   /** Sum of the configured point loads (N). */
   load_force: Float64Array;
-  /** Minus mass times acceleration, of all of the tool (N). */
+  /** Minus mass times acceleration of the whole tool (N). */
   inertia_force: Float64Array;
   /** Damping of the motion of the tool as a whole (N). */
   damping_force: Float64Array;
-  /** Sum of the seven forces: what the solver leaves (N). */
+  /** Sum of the seven forces: the residual of the solver (N). */
   unbalanced_force: Float64Array;
-  /** Per support, a place where a pipe is held in some directions: place along the bore from the kick-off (m). */
+  /** Per support, which holds a pipe in some directions: measured depth from the kick-off (m). */
   measured_depth: Float64Array;
   /** Inclination of the bore there, 0 is straight down (rad). */
   inclination: Float64Array;
@@ -703,7 +705,7 @@ export interface Reactions {
   force_y: Float64Array;
   /** Force, Z (N). */
   force_z: Float64Array;
-  /** Moment of the support on the pipe about its place, X (N m). The drive's torque is not in it. */
+  /** Moment of the support on the pipe about the support's location, X (N m), without the drive's torque. */
   moment_x: Float64Array;
   /** Moment, Y (N m). */
   moment_y: Float64Array;
@@ -743,27 +745,27 @@ export function decodeReactions(reader: CdrReader): Reactions {
 }
 
 /**
- * Both inputs of the rig with the time at which they were measured, for rigs that have it; the topics rig/rotary_speed_rpm and
- * rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
+ * Both inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm
+ * and rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
  */
 export interface RigInputs {
-  /** Stamp: when it was measured, on the rig's clock. The age of the input counts from here. Frame: of no meaning. */
+  /** Stamp: time of the measurement, on the rig's clock. The age of the input counts from it. Frame: not used. */
   header: Header;
   /** Speed of the top drive (r/min), NaN if not given. */
   rotary_speed_rpm: number;
   /** Weight on bit (kN), NaN if not given. */
   weight_on_bit_kn: number;
-  /** GOOD, SUSPECT or BAD, of both values. */
+  /** Quality of both values: GOOD, SUSPECT or BAD. */
   quality: number;
-  /** Sensor or program that it comes from, for people; may be empty. */
+  /** Sensor or program of origin, for displays; may be empty. */
   source: string;
 }
 export const RigInputs = {
-  /** The values are right as far as the source knows. */
+  /** The source considers the values correct. */
   GOOD: 0,
-  /** The source has doubts; the values are taken, and the status says so. */
+  /** The source has doubts; the twin accepts the values, and the status says so. */
   SUSPECT: 1,
-  /** The values are wrong or not measured; they are refused. */
+  /** The values are wrong or not measured; the twin refuses them. */
   BAD: 2,
 } as const;
 /** Reads a `flexdrill/msg/RigInputs`. */
@@ -777,7 +779,7 @@ export function decodeRigInputs(reader: CdrReader): RigInputs {
   };
 }
 
-/** What a run was made with, so that a recording stands alone. */
+/** Configuration and version of a run, so that a recording is self-contained. */
 export interface SessionInfo {
   /** Stamp: start of the run on the rig's clock. Frame: the tool, as in all messages of this run. */
   header: Header;
@@ -808,7 +810,7 @@ export function decodeSessionInfo(reader: CdrReader): SessionInfo {
 export interface TwinStatus {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
-  /** Heartbeat, one more in every message. */
+  /** Heartbeat: one more in every message. */
   sequence: number;
   /** STARTING, RUNNING, PAUSED or FAILED. */
   state: number;
@@ -827,7 +829,7 @@ export interface TwinStatus {
   lateness: number;
   /** Steps that ended after their deadline. */
   deadline_misses: number;
-  /** Steps given up because the model was late; those of a pause or after a failed step are in steps_stood_still. */
+  /** Steps skipped because the model was late; those of a pause or after a failed step are in steps_stood_still. */
   steps_skipped: number;
   /** Median computing time of a step in the last interval (s). */
   step_time_p50: number;
@@ -839,7 +841,7 @@ export interface TwinStatus {
   newton_iterations_mean: number;
   /** Sub-steps rejected since the start. */
   rejected_steps: number;
-  /** Steps that had to be split since the start. */
+  /** Steps that were halved since the start. */
   halved_steps: number;
   /** Steps that failed at the smallest sub-step since the start. */
   failed_steps: number;
@@ -847,19 +849,19 @@ export interface TwinStatus {
   last_rejection_cause: string;
   /** Station of the last rejection, 0 is the uppermost. */
   last_rejection_station: number;
-  /** Place of that station along the bore from the kick-off (m). */
+  /** Measured depth of that station from the kick-off (m). */
   last_rejection_measured_depth: number;
-  /** Work in, less energy out, less energy stored since the start (J); zero is exact. */
+  /** Work put in, minus energy taken out, minus energy stored since the start (J); zero is exact. */
   energy_error: number;
-  /** Magnitude of energy_error over the drive's work. */
+  /** Magnitude of energy_error divided by the drive's work. */
   energy_error_ratio: number;
   /** RECORDING_OFF, RECORDING_ON or RECORDING_FAILED. */
   recording_state: number;
-  /** File that is recorded to, empty if none. */
+  /** File of the recording, empty if none. */
   recording_path: string;
-  /** Messages in the recording's files; those of the last moments are still on their way there. */
+  /** Messages in the recording's files, without the newest ones that are not written yet. */
   recording_messages: number;
-  /** Messages that the recording lost, and those in a file that the disk refused to keep. */
+  /** Messages that the recording lost, including those in a file whose sync the disk refused. */
   recording_drops: number;
   /** SHA-256 of the configuration in force. */
   config_hash: string;
@@ -884,75 +886,78 @@ export interface TwinStatus {
   /** Messages lost since the start. */
   output_dropped: number[];
   /**
-   * Per phase of a step: its name. assembly, contact, solve, energy, analysis, snapshot and other make up the solver's time; publish is
-   * that of encoding and sending, on another thread.
+   * Per phase of a step: its name. assembly, contact, solve, energy, analysis, snapshot and other make up the solver's
+   * time; publish is the time of encoding and sending, on another thread.
    */
   phase_name: string[];
   /** Mean time per step in the last interval (s). */
   phase_time: Float64Array;
   /** How far the motion can be trusted: QUALITY_GOOD, QUALITY_DEGRADED or QUALITY_POOR. */
   model_quality: number;
-  /** Why it is not GOOD, with value and bound, or that it is not judged yet; empty if all is well. */
+  /** Why it is not GOOD, with value and bound, or that it is not judged yet; empty if it is GOOD. */
   model_quality_cause: string;
   /**
-   * Work of the steps against the laws over the last 10 s, magnitudes added, over what contact, Rayleigh and numerical damping took in
-   * them; zero is exact.
+   * Energy error of the steps over the last 10 s, magnitudes added, divided by the energy that contact, Rayleigh and
+   * numerical damping dissipated in that time; zero is exact.
    */
   energy_error_share: number;
-  /** DDS: whether it is up, and how often it had to be started again since the start. */
+  /** DDS: whether it is up, and how often it was restarted since the start. */
   dds_up: boolean;
   dds_restarts: number;
-  /** Why it had to be, the last time; empty if it never was. */
+  /** Cause of the last restart; empty if there was none. */
   dds_restart_cause: string;
   /**
-   * Topic, node, address and id of readers that asked for every sample and did not take them within the last minute; empty if there are
-   * none.
+   * Topic, node, address and id of reliable readers that did not read their samples within the last minute; empty if there
+   * are none.
    */
   dds_stalled_reader: string;
   /** Other nodes on the network with the name of this one, with address and id. */
   namesake: string[];
-  /** What the system's clock was set by since the start (s). Stamps keep to the clock as it was at the start. */
+  /** Time by which the system clock was set since the start (s). Stamps follow the clock as it was at the start. */
   clock_set_by: number;
-  /** Per input: the publisher that drives it, as node @ host (id of its DDS writer); empty while nobody does. */
+  /** Per input: the publisher that drives it, as node @ host (id of its DDS writer); empty while there is none. */
   input_driver: string[];
-  /** Per input: all publishers heard within its max_age, the one that drives first, separated by commas. */
+  /** Per input: all publishers with a sample within its max_age, the one that drives first, separated by commas. */
   input_publishers: string[];
   /** Per input: two or more publishers send it at once. */
   input_several_drivers: boolean[];
   /** Per input: samples refused because their publisher does not drive. */
   input_not_driving: number[];
-  /** Per input: samples whose bytes were no message of the topic's type. */
+  /** Per input: samples whose bytes do not match the topic's type. */
   input_unreadable: number[];
-  /** Per input: without a good sample for so long that the model is on its way to the safe value, or there. */
+  /** Per input: without a good sample for so long that the model is on the ramp to the safe value, or has reached it. */
   input_safe: boolean[];
-  /** Per input: source of the newest good sample as it says itself, empty if it says none. */
+  /** Per input: source that the newest good sample names, empty if it names none. */
   input_source: string[];
   /** Per input: the source has doubts about the newest good sample. */
   input_suspect: boolean[];
   /**
-   * Snapshots that found the publisher's thread too far behind since the start: the outputs of these instants were neither sent nor
-   * recorded.
+   * Snapshots that were dropped since the start because the publisher's thread was too late: their outputs were neither
+   * sent nor recorded.
    */
   frames_dropped: number;
-  /** Changes of the inputs that found it so: a recording of this run cannot be replayed exactly. */
+  /** Changes of the inputs that were lost for the same reason: a recording of this run cannot be replayed exactly. */
   events_lost: number;
-  /** Per input: samples that came faster than they were taken since the start: the oldest of 256 that waited were given up. */
+  /**
+   * Per input: samples that arrived faster than the node read them since the start: the oldest of 256 waiting samples were
+   * dropped.
+   */
   input_overrun: number[];
-  /** Step in which the motion is computed, the model step or a half or a quarter of it (s). */
+  /** Step in which the motion is computed: the model step, or a half or a quarter of it (s). */
   step_in_force: number;
-  /** Step that the motion asks for (s); shorter than the one in force where the machine is too slow for it. */
+  /** Step that the motion requires (s); shorter than the one in force where the machine is too slow for it. */
   step_wanted: number;
   /**
-   * How the model keeps up with the clock, judged over ten seconds and with hysteresis: PACE_NOT_JUDGED, PACE_KEPT,
-   * PACE_LATE or PACE_FAR_BEHIND. Being late is a matter of the computer, not of drilling.
+   * Pace of the model relative to the clock, judged over ten seconds and with hysteresis: PACE_NOT_JUDGED, PACE_KEPT,
+   * PACE_LATE or PACE_FAR_BEHIND. Lateness concerns the computer, not drilling.
    */
   pace: number;
   /**
-   * Model time gained per second of wall time, over the last ten seconds: what pace is judged by. NaN until the model has
-   * run for so long.
+   * Model time gained per second of wall time over the last ten seconds, from which pace is judged. NaN until the model
+   * has run for ten seconds.
    */
   pace_factor: number;
-  /** Why messages are missing in the recording, with the count of each cause; empty if none are. */
+  /** Why messages are missing in the recording, with the count of each cause; empty if none is missing. */
   recording_drops_cause: string;
   /** Steps during which the model stood still: paused, or after a failed step. */
   steps_stood_still: number;
@@ -966,30 +971,30 @@ export const TwinStatus = {
   PAUSED: 2,
   /** The model stands still because a step failed; reset it. */
   FAILED: 3,
-  /** No sample yet: the twin runs on its configured start values. */
+  /** No sample has arrived yet: the twin runs on its configured start values. */
   INPUT_NOT_RECEIVED: 0,
-  /** Fresh. */
+  /** The newest sample is fresh. */
   INPUT_OK: 1,
-  /** Later than expected, not yet stale. */
+  /** The newest sample is later than expected, but not yet stale. */
   INPUT_SLOW: 2,
-  /** Too old: held, then brought to the safe value. */
+  /** The newest sample is too old: the value is held, then brought to the safe value. */
   INPUT_STALE: 3,
-  /** The newest sample was refused, the last good one is held. */
+  /** The newest sample was refused; the last good value is held. */
   INPUT_REJECTED: 4,
   /** Not recording. */
   RECORDING_OFF: 0,
   /** Recording to recording_path. */
   RECORDING_ON: 1,
   /**
-   * The recording stopped on an error; what was written before is kept. It goes on in another file as soon as that can be
-   * written, and is RECORDING_ON again then.
+   * The recording stopped on an error; earlier messages are kept. It continues in another file as soon as the disk allows
+   * it, and is then RECORDING_ON again.
    */
   RECORDING_FAILED: 2,
-  /** The steps' errors are those of runs that agree with a finer step within about a tenth in ripple and forces. */
+  /** With such errors of the steps, runs agree with a finer step within about a tenth in ripple and forces. */
   QUALITY_GOOD: 0,
-  /** They are those of runs that are off by more; model_quality_cause says why. */
+  /** With such errors, runs differ by more; model_quality_cause gives the reason. */
   QUALITY_DEGRADED: 1,
-  /** They are those of runs that are off by a sixth to several times: an alarm. Confidences of the whirl analysis are lowered. */
+  /** With such errors, runs differ by a sixth up to several times: an alarm. The whirl analysis lowers its confidences. */
   QUALITY_POOR: 2,
   /** Not judged: the model has run for less than ten seconds since the start, a pause or a failed step. */
   PACE_NOT_JUDGED: 0,
@@ -1071,11 +1076,11 @@ export function decodeTwinStatus(reader: CdrReader): TwinStatus {
   };
 }
 
-/** Whirl of every watched place. All arrays have one entry per watched station and pipe. */
+/** Whirl at every watched station. All arrays have one entry per watched station and pipe. */
 export interface WhirlState {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
-  /** Place along the bore from the kick-off (m). */
+  /** Measured depth from the kick-off (m). */
   measured_depth: Float64Array;
   /** Inclination of the bore there, 0 is straight down (rad). */
   inclination: Float64Array;
@@ -1085,26 +1090,32 @@ export interface WhirlState {
   kind: Uint8Array;
   /** Rate of the orbit (rad/s, positive in the sense of the rotation). */
   whirl_rate: Float64Array;
-  /** Rate of the orbit over the rotary speed, NaN where the motion is no whirl of one rate and while the tool does not turn. */
+  /**
+   * Rate of the orbit divided by the rotary speed; NaN where the motion has no single whirl rate and while the tool does
+   * not turn.
+   */
   whirl_ratio: Float64Array;
   /** Root mean square radius about the running mean (m). */
   orbit_radius: Float64Array;
-  /** Largest distance from the gap's centre in the window over the clearance. */
+  /** Largest distance from the centre of the gap in the window, divided by the clearance. */
   clearance_ratio: Float64Array;
-  /** Part of the window in contact (0 to 1). */
+  /** Share of the window in contact (0 to 1). */
   contact_duty: Float64Array;
-  /** Confidence in the kind (0 to 1), lowered while an input is not as it should be. */
+  /** Confidence in the kind (0 to 1); it is lower while an input is not OK. */
   confidence: Float64Array;
-  /** Level at this place: OK, WATCH, WARNING or CRITICAL of WhirlWarning. */
+  /** Level at this station: OK, WATCH, WARNING or CRITICAL of WhirlWarning. */
   severity: Uint8Array;
   /**
-   * Backward whirl of the driven pipe: rate over that of rolling without slip, - spin d / (D - d). 1 rolls, less slides, 0 is
-   * no such whirl.
+   * Backward whirl of the driven pipe: rate divided by that of rolling without slip, - spin d / (D - d). 1 rolls, a
+   * smaller value slides, 0 is no such whirl.
    */
   rolling_share: Float64Array;
-  /** Turns about the gap's centre per turn of the tool, counted, positive in the sense of the rotation; NaN while it stands. */
+  /**
+   * Counted turns about the centre of the gap per turn of the tool, positive in the sense of the rotation; NaN while the
+   * tool stands.
+   */
   gap_turns: Float64Array;
-  /** Bending cycles per turn of the tool that whirl of one rate brings; 0 elsewhere. */
+  /** Bending cycles per turn of the tool due to whirl of one rate; 0 elsewhere. */
   bending_cycles: Float64Array;
   /** Largest impulse above the resting one in the window (N s). */
   impulse: Float64Array;
@@ -1115,8 +1126,8 @@ export interface WhirlState {
 }
 export const WhirlState = {
   /**
-   * No whirl: at rest, along a line, small beside the gap's centre, or a motion that repeats itself turn by turn without going
-   * round.
+   * No whirl: at rest, along a line, a small orbit off the centre of the gap, or a motion that repeats itself turn by turn
+   * without circling the centre.
    */
   NONE: 0,
   /** The orbit turns in the sense of the rotation. */
@@ -1126,8 +1137,8 @@ export const WhirlState = {
   /** Large motion without a steady direction that does not repeat itself. */
   CHAOTIC: 3,
   /**
-   * A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS, whose
-   * words the other kinds are, has none for it.
+   * A small orbit at twice the tool's speed that does not circle the centre of the gap: the cross of the joint drives it.
+   * D-WIS defines the other kinds and has no term for this one.
    */
   JOINT_VIBRATION: 4,
   /** The flexible pipe. */
@@ -1160,8 +1171,8 @@ export function decodeWhirlState(reader: CdrReader): WhirlState {
 }
 
 /**
- * The level at which the whirl warning stands, sent when it changes. Latched: of several received, the one with the
- * highest sequence holds.
+ * The level of the whirl warning, sent when it changes. Latched: of several received messages, the one with the highest
+ * sequence is valid.
  */
 export interface WhirlWarning {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
@@ -1172,48 +1183,48 @@ export interface WhirlWarning {
   kind: number;
   /** PIPE or GUIDE. */
   body: number;
-  /** Place along the bore from the kick-off (m). */
+  /** Measured depth from the kick-off (m). */
   measured_depth: number;
   /** Inclination of the bore there, 0 is straight down (rad). */
   inclination: number;
-  /** Evidence: rate of the orbit over the rotary speed, NaN where there is none. */
+  /** Evidence: rate of the orbit divided by the rotary speed; NaN where there is none. */
   whirl_ratio: number;
-  /** Evidence: largest distance from the gap's centre over the clearance. */
+  /** Evidence: largest distance from the centre of the gap, divided by the clearance. */
   clearance_ratio: number;
-  /** Evidence: part of the window in contact (0 to 1). */
+  /** Evidence: share of the window in contact (0 to 1). */
   contact_duty: number;
-  /** Length of the window that the evidence was taken from (s). */
+  /** Length of the window of the evidence (s). */
   window: number;
   /** When this level was reached, on the rig's clock. */
   since: Time;
   /** The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED. */
   input_quality: number;
-  /** Number of changes so far, of the level, its place and kind, or of the trust in the inputs. */
+  /** Number of changes so far, of the level, its station and kind, or of the trust in the inputs. */
   sequence: number;
-  /** The same for a person, in one sentence. */
+  /** The warning as one sentence for an operator. */
   message: string;
   /** Evidence: largest normal force in the window (N). */
   peak_force: number;
   /**
-   * Evidence: rate over that of rolling without slip, - spin d / (D - d), of backward whirl of the driven pipe. 1 rolls, less
-   * slides, 0 is no such whirl.
+   * Evidence: backward whirl of the driven pipe, rate divided by that of rolling without slip, - spin d / (D - d). 1
+   * rolls, a smaller value slides, 0 is no such whirl.
    */
   rolling_share: number;
-  /** Confidence in the kind (0 to 1), lowered while an input is not as it should be. */
+  /** Confidence in the kind (0 to 1); it is lower while an input is not OK. */
   confidence: number;
 }
 export const WhirlWarning = {
-  /** Nothing to do. */
+  /** No action is needed. */
   OK: 0,
-  /** Keep an eye on it. */
+  /** The driller should watch it. */
   WATCH: 1,
-  /** Act soon. */
+  /** Action is needed soon. */
   WARNING: 2,
-  /** Act now. */
+  /** Action is needed now. */
   CRITICAL: 3,
   /**
-   * No whirl: at rest, along a line, small beside the gap's centre, or a motion that repeats itself turn by turn without going
-   * round.
+   * No whirl: at rest, along a line, a small orbit off the centre of the gap, or a motion that repeats itself turn by turn
+   * without circling the centre.
    */
   NONE: 0,
   /** The orbit turns in the sense of the rotation. */
@@ -1223,23 +1234,23 @@ export const WhirlWarning = {
   /** Large motion without a steady direction that does not repeat itself. */
   CHAOTIC: 3,
   /**
-   * A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS, whose
-   * words the other kinds are, has none for it.
+   * A small orbit at twice the tool's speed that does not circle the centre of the gap: the cross of the joint drives it.
+   * D-WIS defines the other kinds and has no term for this one.
    */
   JOINT_VIBRATION: 4,
   /** The flexible pipe. */
   PIPE: 0,
   /** The guide pipe. */
   GUIDE: 1,
-  /** No sample yet: the twin runs on its configured start values. */
+  /** No sample has arrived yet: the twin runs on its configured start values. */
   INPUT_NOT_RECEIVED: 0,
-  /** Fresh. */
+  /** The newest sample is fresh. */
   INPUT_OK: 1,
-  /** Later than expected, not yet stale. */
+  /** The newest sample is later than expected, but not yet stale. */
   INPUT_SLOW: 2,
-  /** Too old: held, then brought to the safe value. */
+  /** The newest sample is too old: the value is held, then brought to the safe value. */
   INPUT_STALE: 3,
-  /** The newest sample was refused, the last good one is held. */
+  /** The newest sample was refused; the last good value is held. */
   INPUT_REJECTED: 4,
 } as const;
 /** Reads a `flexdrill/msg/WhirlWarning`. */
