@@ -515,6 +515,80 @@ fn every_crate_has_a_row_in_the_architecture() {
     assert!(missing.is_empty(), "no row in docs/architecture.md: {missing:?}");
 }
 
+/// The string literals of a source of Rust or TypeScript, without what is filled in between braces.
+fn literals(source: &str) -> String {
+    let source = source.replace("'\"'", "").replace("'`'", "");
+    let mut chars = source.chars().peekable();
+    let (mut out, mut quote, mut braces) = (String::new(), None, 0_u32);
+    while let Some(c) = chars.next() {
+        match (quote, c) {
+            // A comment ends with its line.
+            (None, '/') if chars.peek() == Some(&'/') => while chars.next_if(|c| *c != '\n').is_some() {},
+            (None, '"' | '`') => quote = Some(c),
+            (None, _) => {}
+            (Some(_), '\\') => match chars.next() {
+                Some('\n') => while chars.next_if(|c| c.is_whitespace()).is_some() {},
+                Some('n') => out.push(' '),
+                Some(escaped) if braces == 0 => out.push(escaped),
+                _ => {}
+            },
+            (Some(_), '{') => braces += 1,
+            (Some(_), '}') => braces = braces.saturating_sub(1),
+            (Some(_), _) if braces > 0 => {}
+            (Some(open), c) if c == open => {
+                quote = None;
+                out.push('\n');
+            }
+            (Some(_), c) => out.push(c),
+        }
+    }
+    out
+}
+
+/// Least length of a part of a message by which it is recognised.
+const RECOGNISED: usize = 12;
+
+/// Every message that the page on troubleshooting quotes is one that a source has, in one of its parts at least.
+#[test]
+fn messages_of_the_page_on_troubleshooting_exist() {
+    let own = |path: &PathBuf| !name(path).contains("/dist/");
+    let code = files(&[".rs", ".ts"]).into_iter().filter(own);
+    let mut sources: Vec<String> = code.map(|file| literals(&read(&file))).collect();
+    sources.extend(files(&[".sh", ".mjs", ".py"]).iter().map(|file| read(file)));
+    sources.push(read(&root().join(".ci/run")));
+    let page = read(&root().join("docs/troubleshooting.md"));
+    let (before, symptoms) = page.split_once("## Missing data").unwrap();
+    // Symptoms are what other programs show.
+    let after = symptoms.split_once("\n## ").unwrap().1;
+    let mut missing = Vec::new();
+    let mut rows = 0;
+    for row in before
+        .lines()
+        .chain(after.lines())
+        .filter(|line| line.starts_with("| `"))
+    {
+        let quoted = row.split(" | ").next().unwrap_or_default();
+        let spans = quoted.split('`').skip(1).step_by(2);
+        let parts: Vec<&str> = spans
+            .flat_map(|span| span.split("..."))
+            .flat_map(|part| part.split(|c: char| c.is_ascii_digit() || ":;".contains(c)))
+            .map(str::trim)
+            .filter(|part| part.len() >= RECOGNISED)
+            .collect();
+        rows += 1;
+        let known = |part: &&str| sources.iter().any(|source| source.contains(*part));
+        if !parts.is_empty() && !parts.iter().any(known) {
+            missing.push(quoted);
+        }
+    }
+    assert!(rows > 100, "{rows}");
+    assert!(
+        missing.is_empty(),
+        "no source has these messages:\n{}",
+        missing.join("\n")
+    );
+}
+
 /// The checks find what they are for.
 #[test]
 fn names_in_comments_do_not_count() {
