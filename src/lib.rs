@@ -23,13 +23,14 @@
 pub mod alarms;
 pub mod cli;
 pub mod dashboard;
-pub mod dds;
 pub mod health;
+pub mod node;
 pub mod rig_inputs;
-pub mod ros;
 
 pub use flexdrill_bag as bag;
 pub use flexdrill_field_log as field_log;
 pub use flexdrill_live as live;
 pub use flexdrill_messages as messages;
 pub use flexdrill_report as report;
+pub use flexdrill_ros2 as ros;
+pub use flexdrill_ros2::dds;

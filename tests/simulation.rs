@@ -27,7 +27,7 @@ use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{Alarm, AlarmList, CdrError, TwinStatus, from_cdr, topics};
 use flexdrill::rig_inputs::{DriverId, Intake, RigSample};
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
+use flexdrill_core::inputs::{InputKind, InputState};
 use flexdrill_core::twin::{Output, Run, Simulation};
 use flexdrill_realtime::clock::Clock;
 use flexdrill_realtime::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Settings, Targets, link};
@@ -105,7 +105,6 @@ struct World {
     next: BTreeMap<Happening, u64>,
     config: Arc<Config>,
     intake: Intake,
-    conditioner: Conditioner,
     targets: Arc<Targets>,
     gauges: Arc<Gauges>,
     publisher: PublisherEnd,
@@ -198,7 +197,7 @@ impl World {
 
     /// A sample of the rig, good or not; how long until the next one.
     fn sample(&mut self, kind: InputKind) -> u64 {
-        let rule = *self.conditioner.rule(kind);
+        let rule = *self.intake.conditioner().rule(kind);
         let good = self.chance.within(rule.min, rule.max);
         let value = match self.chance.below(12) {
             0 => f64::NAN,
@@ -216,7 +215,7 @@ impl World {
             time: self.seconds(),
             stamp: None,
         };
-        let taken = self.intake.take(&mut self.conditioner, &sample).is_ok();
+        let taken = self.intake.accept(&sample).is_ok();
         assert!(!taken || (rule.min..=rule.max).contains(&value), "{value} was taken");
         self.update_targets();
         match self.chance.below(30) {
@@ -228,11 +227,11 @@ impl World {
 
     fn update_targets(&mut self) {
         let now = self.seconds();
-        let targets = self.conditioner.targets(now);
-        let quality = self.conditioner.quality(now);
+        let targets = self.intake.conditioner().targets(now);
+        let quality = self.intake.conditioner().quality(now);
         for kind in InputKind::ALL {
-            let rule = self.conditioner.rule(kind);
-            let target = self.conditioner.target(kind, now);
+            let rule = self.intake.conditioner().rule(kind);
+            let target = self.intake.conditioner().target(kind, now);
             let allowed = rule.min.min(rule.safe)..=rule.max.max(rule.safe);
             assert!(allowed.contains(&target), "{kind:?}: a target of {target}");
         }
@@ -345,7 +344,6 @@ impl World {
             .collect();
         let sources = Sources {
             gauges: &self.gauges,
-            conditioner: &self.conditioner,
             intake: &self.intake,
             now: self.seconds(),
             pace_time: self.now,
@@ -361,7 +359,7 @@ impl World {
         assert!(status.state <= TwinStatus::FAILED, "{}", status.state);
         for (index, state) in status.input_state.iter().enumerate() {
             assert!(*state <= TwinStatus::INPUT_REJECTED, "{state}");
-            let received = self.conditioner.counts(InputKind::ALL[index]);
+            let received = self.intake.conditioner().counts(InputKind::ALL[index]);
             assert_eq!(status.input_rejected[index], received.rejected.iter().sum::<u64>());
         }
         let numbers = [
@@ -396,11 +394,11 @@ impl World {
     fn judge(&mut self) {
         let now = self.seconds();
         let state = NodeState {
-            conditioner: &self.conditioner,
+            conditioner: self.intake.conditioner(),
             dds: self.dds.clone(),
             now,
             namesakes: Vec::new(),
-            drivers: InputKind::ALL.map(|kind| self.intake.drivers.summary(kind, now)),
+            drivers: InputKind::ALL.map(|kind| self.intake.drivers(kind, now)),
             run_state: self.gauges.run_state(),
             failure: None,
             pace: PaceReading::default(),
@@ -421,7 +419,7 @@ impl World {
     /// An input that has been stale for longer than its alarm's delays calls, one that never was does not call high.
     fn check_alarms(&mut self, sent: &[(&'static str, i64, Vec<u8>)]) {
         for kind in InputKind::ALL {
-            let is_stale = self.conditioner.state(kind, self.seconds()) == InputState::Stale;
+            let is_stale = self.intake.conditioner().state(kind, self.seconds()) == InputState::Stale;
             let since = &mut self.stale_since[kind.index()];
             *since = if is_stale { since.or(Some(self.now)) } else { None };
         }
@@ -512,7 +510,6 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         next,
         config: Arc::clone(config),
         intake: Intake::new(&config.inputs),
-        conditioner: Conditioner::new(config.inputs.rules()),
         targets,
         gauges: Arc::clone(&gauges),
         publisher,

@@ -12,8 +12,9 @@ use super::{WrongUse, signals};
 use crate::cli::output::say;
 use crate::dashboard::{Dashboard, Source, Token};
 use crate::dds::network::Network;
+use crate::node::DEFAULT_NODE_NAME;
 use crate::ros::args::{NodeIdentity, RosArgs};
-use crate::ros::{DEFAULT_NODE_NAME, logging};
+use flexdrill_ros2::logging;
 
 /// Serve a page that shows a running twin or a recording in a browser; with --allow-control it also steers.
 #[derive(Debug, Args)]

@@ -9,9 +9,9 @@ use super::source::{self, Sample};
 use super::{WrongUse, numbers, signals};
 use crate::cli::output::say;
 use crate::dds::network::Network;
+use crate::node::demonstration_rig::{RIG_NODE_NAME, RigNode};
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
-use crate::ros::rig_node::{RIG_NODE_NAME, RigNode};
 use flexdrill_core::inputs::InputKind;
 
 /// Time between two lines of progress.
@@ -134,7 +134,7 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
                 at(last),
                 show(newest[0]),
                 show(newest[1]),
-                node.listeners()
+                node.subscribers()
             );
         }
         tokio::time::sleep(LEAST_GAP).await;

@@ -15,13 +15,14 @@ use crate::dds::network::Network;
 use crate::live::Token;
 use crate::messages::topics::{self, Cadence};
 use crate::messages::{TwinStatus, outputs};
+use crate::node::DEFAULT_NODE_NAME;
+use crate::node::parameters;
+use crate::node::{self, LiveAddress, NodeSetup, RunSummary};
 use crate::ros::args::RosArgs;
-use crate::ros::node::{self, LiveAddress, NodeSetup, RunSummary};
-use crate::ros::parameters;
 use crate::ros::service::ServiceMapping;
-use crate::ros::{DEFAULT_NODE_NAME, logging};
 use flexdrill_config::Config;
 use flexdrill_core::twin::Output;
+use flexdrill_ros2::logging;
 
 /// Name of the configuration of a node without a given one.
 const DEFAULT_CONFIG_NAME: &str = BuiltIn::Default.name();

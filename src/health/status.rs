@@ -11,7 +11,7 @@ use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Intake;
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::dynamics::{EnergyAudit, StepFailure};
-use flexdrill_core::inputs::{Conditioner, InputKind};
+use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::{ModelQuality, Snapshot, SolverCounters};
 use flexdrill_realtime::link::{Gauges, RunState};
 use flexdrill_realtime::{PaceReading, PaceWatch, RealTimeFactor};
@@ -59,9 +59,7 @@ pub struct OutputCount<'a> {
 pub struct Sources<'a> {
     /// Of the solver's thread.
     pub gauges: &'a Gauges,
-    /// Inputs.
-    pub conditioner: &'a Conditioner,
-    /// Who sends them, and what could not be read.
+    /// The inputs: their publishers, their conditioned values, and lost samples.
     pub intake: &'a Intake,
     /// Present time as the conditioner counts it (s).
     pub now: f64,
@@ -241,8 +239,9 @@ impl StatusKeeper {
     }
 
     fn fill_inputs(&self, status: &mut TwinStatus, sources: &Sources<'_>) {
+        let intake = sources.intake;
+        let conditioner = intake.conditioner();
         for kind in InputKind::ALL {
-            let conditioner = sources.conditioner;
             status.input_name.push(kind.name().to_owned());
             status.input_state.push(conditioner.state(kind, sources.now) as u8);
             status
@@ -253,8 +252,7 @@ impl StatusKeeper {
                 .push(conditioner.last_good(kind).map_or(f64::NAN, |value| kind.to_si(value)));
             status.input_applied.push(self.applied[kind.index()]);
             status.input_rejected.push(conditioner.counts(kind).rejected_total());
-            let intake = sources.intake;
-            let drivers = intake.drivers.summary(kind, sources.now);
+            let drivers = intake.drivers(kind, sources.now);
             status.input_driver.push(drivers.driving);
             status.input_publishers.push(drivers.heard.join(", "));
             status.input_several_drivers.push(drivers.several);
@@ -264,9 +262,9 @@ impl StatusKeeper {
             status
                 .input_safe
                 .push(conditioner.is_brought_to_safe(kind, sources.now));
-            let sent = intake.sent(kind);
-            status.input_source.push(sent.source.clone());
-            status.input_suspect.push(sent.suspect);
+            let source = intake.source(kind);
+            status.input_source.push(source.name.clone());
+            status.input_suspect.push(source.suspect);
         }
     }
 }

@@ -1,10 +1,10 @@
-//! A publisher of an input, and what is known of it.
+//! A publisher of an input: its id, node and host.
 
 use std::fmt;
 
 use flexdrill_text::printable;
 
-/// Bytes of an id that tell the process; the others tell the writer in it.
+/// Bytes of an id that identify the process; the others identify the writer in it.
 const PROCESS: usize = 12;
 
 /// A publisher: the GUID of its DDS writer.
@@ -21,8 +21,8 @@ impl DriverId {
 /// Hexadecimal, a dot between the process and the writer in it.
 impl fmt::Display for DriverId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (place, byte) in self.0.iter().enumerate() {
-            if place == PROCESS {
+        for (index, byte) in self.0.iter().enumerate() {
+            if index == PROCESS {
                 write!(f, ".")?;
             }
             write!(f, "{byte:02x}")?;
@@ -31,19 +31,19 @@ impl fmt::Display for DriverId {
     }
 }
 
-/// What is known of a publisher. `Display` is `node @ host (id)`.
+/// A publisher with its node and host, as far as discovery knows them. `Display` is `node @ host (id)`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Driver {
     /// Its writer.
     pub id: DriverId,
-    /// Absolute name of its node, where discovery has told it.
+    /// Absolute name of its node, where known.
     pub node: Option<String>,
-    /// Address or name of its machine, where discovery has told it.
+    /// Address or name of its machine, where known.
     pub host: Option<String>,
 }
 
 impl Driver {
-    /// Of whom nothing but the id is known.
+    /// A publisher of which only the id is known.
     pub fn unknown(id: DriverId) -> Self {
         Self {
             id,

@@ -1,4 +1,4 @@
-//! Who drives: publishers of each input, and which of them the model listens to.
+//! The publishers of each input, and which of them drives it.
 
 use std::fmt;
 
@@ -6,17 +6,17 @@ use super::driver::{Driver, DriverId};
 use flexdrill_config::{DriverPolicy, InputsConfig};
 use flexdrill_core::inputs::{InputKind, InputRoute};
 
-/// Publishers kept per input; of more, the one that has been silent longest is forgotten.
-const MOST_HEARD: usize = 16;
-/// Descriptions kept.
+/// Most publishers kept per input; a further one replaces the one that has been silent longest.
+const MOST_PUBLISHERS: usize = 16;
+/// Most descriptions kept.
 const MOST_KNOWN: usize = 64;
-/// Publishers named in a status.
-const MOST_SHOWN: usize = 4;
+/// Most publishers named in a status.
+const MOST_NAMED: usize = 4;
 
-/// Who may drive.
+/// Which publishers may drive an input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rule {
-    /// Which of several.
+    /// The choice among several.
     pub policy: DriverPolicy,
     /// Absolute names of nodes, or ids, for [`DriverPolicy::Named`].
     pub named: Vec<String>,
@@ -25,7 +25,7 @@ pub struct Rule {
 }
 
 impl Rule {
-    /// As a configuration has it: a publisher has gone when its input would be stale.
+    /// The rule of a configuration: a publisher is gone after the age at which its input is stale.
     pub fn of(inputs: &InputsConfig) -> Self {
         Self {
             policy: inputs.driver.policy,
@@ -35,7 +35,7 @@ impl Rule {
     }
 }
 
-/// A sample of a publisher that does not drive. Its `Display` is a sentence with what to do.
+/// A sample whose publisher does not drive the input. `Display` is a sentence that ends with the remedy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NotDriving {
     /// Of which input.
@@ -44,11 +44,11 @@ pub struct NotDriving {
     pub route: InputRoute,
     /// As received (r/min or kN).
     pub value: f64,
-    /// Who sent it.
+    /// Its publisher.
     pub sender: Driver,
-    /// Who drives; none where only others are allowed.
+    /// The publisher that drives; none where the rule excludes this one.
     pub driving: Option<Driver>,
-    /// For how long the one that drives must be silent (s).
+    /// Silence after which another publisher may drive (s).
     pub silent_after: f64,
 }
 
@@ -72,10 +72,10 @@ impl fmt::Display for NotDriving {
 
 /// One publisher of an input.
 #[derive(Debug, Clone, Copy)]
-struct Heard {
+struct Publisher {
     id: DriverId,
     route: InputRoute,
-    /// First sample since it was last gone (s).
+    /// First sample after its last silence (s).
     since: f64,
     /// Newest sample (s).
     last: f64,
@@ -85,12 +85,12 @@ struct Heard {
 
 #[derive(Debug, Clone, Default)]
 struct Channel {
-    heard: Vec<Heard>,
+    heard: Vec<Publisher>,
     driving: Option<DriverId>,
     refused: u64,
 }
 
-/// Keeps who sends each input and decides who drives. Times are seconds on the clock of the inputs' ages.
+/// Decides which publisher drives each input. Times are in s on the conditioner's clock.
 #[derive(Debug, Clone)]
 pub struct Drivers {
     rule: Rule,
@@ -98,21 +98,21 @@ pub struct Drivers {
     known: Vec<Driver>,
 }
 
-/// How the publishers of an input are.
+/// The publishers of an input at one moment.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DriverSummary {
-    /// Who drives; empty while nobody does.
+    /// The publisher that drives; empty while none does.
     pub driving: String,
-    /// All that are heard, the one that drives first.
+    /// All publishers that are present, the driving one first.
     pub heard: Vec<String>,
-    /// Two or more send at once.
+    /// Two or more publish at the same time.
     pub several: bool,
-    /// Samples refused because their sender does not drive.
+    /// Samples refused because their publisher does not drive.
     pub refused: u64,
 }
 
 impl Drivers {
-    /// Nobody heard yet.
+    /// No publisher yet.
     pub fn new(rule: Rule) -> Self {
         Self {
             rule,
@@ -121,12 +121,12 @@ impl Drivers {
         }
     }
 
-    /// Takes over changed times.
+    /// Adopts a changed rule.
     pub fn set_rule(&mut self, rule: Rule) {
         self.rule = rule;
     }
 
-    /// Keeps what discovery says of a publisher.
+    /// Adds what discovery knows of a publisher.
     pub fn describe(&mut self, driver: Driver) {
         match self.known.iter_mut().find(|known| known.id == driver.id) {
             Some(known) => {
@@ -153,7 +153,7 @@ impl Drivers {
         known.cloned().unwrap_or_else(|| Driver::unknown(id))
     }
 
-    /// Judges a sample (r/min or kN) by its sender, at the time of its arrival.
+    /// Judges a sample (r/min or kN) by its publisher, at the time of its arrival.
     ///
     /// # Errors
     /// When another publisher drives, or this one may not.
@@ -168,7 +168,7 @@ impl Drivers {
         let silent_after = self.rule.silent_after[kind.index()];
         let not_named = self.rule.policy == DriverPolicy::Named && !self.is_named(id);
         let channel = &mut self.channels[kind.index()];
-        channel.hear(id, route, time, value, silent_after);
+        channel.note(id, route, time, value, silent_after);
         let present = match self.rule.policy {
             DriverPolicy::First => channel.present_driver(time, silent_after),
             DriverPolicy::Newest | DriverPolicy::Named => None,
@@ -185,7 +185,7 @@ impl Drivers {
                 silent_after,
             }));
         }
-        // What is no number does not drive anything.
+        // A publisher of NaN does not become the driver.
         if value.is_finite() && present.is_none() {
             channel.driving = Some(id);
         }
@@ -201,18 +201,18 @@ impl Drivers {
             .any(|name| *name == text || driver.node.as_ref() == Some(name))
     }
 
-    /// How the publishers of an input are at `now` (s).
+    /// The publishers of an input at `now` (s).
     pub fn summary(&self, kind: InputKind, now: f64) -> DriverSummary {
         let channel = &self.channels[kind.index()];
         let mut present = channel.present(now, self.rule.silent_after[kind.index()]);
         present.sort_by_key(|heard| (Some(heard.id) != channel.driving, heard.id));
         let mut shown: Vec<String> = present
             .iter()
-            .take(MOST_SHOWN)
+            .take(MOST_NAMED)
             .map(|heard| self.driver(heard.id).to_string())
             .collect();
-        if present.len() > MOST_SHOWN {
-            shown.push(format!("and {} more", present.len() - MOST_SHOWN));
+        if present.len() > MOST_NAMED {
+            shown.push(format!("and {} more", present.len() - MOST_NAMED));
         }
         let driving = present.iter().find(|heard| Some(heard.id) == channel.driving);
         DriverSummary {
@@ -223,7 +223,7 @@ impl Drivers {
         }
     }
 
-    /// To be called when the clock was set anew: silences count from `now` on.
+    /// Restarts all silences at `now` (s), after the clock was set.
     pub fn clock_set(&mut self, now: f64) {
         for heard in self.channels.iter_mut().flat_map(|channel| &mut channel.heard) {
             heard.since = now;
@@ -234,7 +234,7 @@ impl Drivers {
 }
 
 impl Channel {
-    fn hear(&mut self, id: DriverId, route: InputRoute, time: f64, value: f64, silent_after: f64) {
+    fn note(&mut self, id: DriverId, route: InputRoute, time: f64, value: f64, silent_after: f64) {
         let number = value.is_finite().then_some(time);
         if let Some(heard) = self.heard.iter_mut().find(|heard| heard.id == id) {
             if time - heard.last >= silent_after {
@@ -244,13 +244,13 @@ impl Channel {
             heard.last_number = number.or(heard.last_number);
             return;
         }
-        if self.heard.len() >= MOST_HEARD {
+        if self.heard.len() >= MOST_PUBLISHERS {
             let (index, _) = (self.heard.iter().enumerate())
                 .min_by(|(_, a), (_, b)| a.last.total_cmp(&b.last))
                 .unwrap_or((0, &self.heard[0]));
             self.heard.swap_remove(index);
         }
-        self.heard.push(Heard {
+        self.heard.push(Publisher {
             id,
             route,
             since: time,
@@ -259,28 +259,27 @@ impl Channel {
         });
     }
 
-    /// The publisher that drives, unless it is silent.
-    fn present_driver(&self, now: f64, silent_after: f64) -> Option<Heard> {
+    /// The publisher that drives, unless it has been silent for `silent_after` (s).
+    fn present_driver(&self, now: f64, silent_after: f64) -> Option<Publisher> {
         let driving = self.driving?;
         let heard = self.heard.iter().find(|heard| heard.id == driving)?;
         let silent = heard.last_number.is_none_or(|last| now - last >= silent_after);
         (!silent).then_some(*heard)
     }
 
-    fn present(&self, now: f64, silent_after: f64) -> Vec<Heard> {
-        let present = |heard: &&Heard| now - heard.last < silent_after;
+    fn present(&self, now: f64, silent_after: f64) -> Vec<Publisher> {
+        let present = |heard: &&Publisher| now - heard.last < silent_after;
         self.heard.iter().filter(present).copied().collect()
     }
 }
 
-/// Whether the publisher is that one, or the same process on the input's other topic: a process that offers an input on
-/// both is one.
-fn is_one(heard: &Heard, id: DriverId, route: InputRoute) -> bool {
+/// Whether both are one publisher: the same writer, or the same process on the input's other topic.
+fn is_one(heard: &Publisher, id: DriverId, route: InputRoute) -> bool {
     heard.id == id || (heard.id.same_process(&id) && heard.route != route)
 }
 
-/// Whether two send at the same time: one that took over from another does not.
-fn are_several(present: &[Heard]) -> bool {
+/// Whether two publish at the same time. A publisher that replaced another does not count.
+fn are_several(present: &[Publisher]) -> bool {
     present.iter().enumerate().any(|(index, a)| {
         let others = &present[index + 1..];
         others

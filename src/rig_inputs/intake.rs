@@ -1,19 +1,19 @@
-//! The door: every sample of the rig is judged by its sender, then by its value.
+//! Input validation: every sample of the rig is judged by its publisher, then by its value.
 
 use std::fmt;
 
-use super::announcer::{Announcement, Announcer};
-use super::driver::DriverId;
-use super::drivers::{Drivers, NotDriving, Rule};
+use super::driver::{Driver, DriverId};
+use super::drivers::{DriverSummary, Drivers, NotDriving, Rule};
+use super::safe_value_watch::{SafeValueEvent, SafeValueWatch};
 use flexdrill_config::InputsConfig;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Rejection, Stamp};
 
-/// Where a sample of `rig/inputs` comes from, as it says itself.
+/// What a message on `rig/inputs` states about its source.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Sent {
-    /// Sensor or program; empty if it does not say.
-    pub source: String,
-    /// The source has doubts about it.
+pub struct SampleSource {
+    /// Sensor or program; empty where the message names none.
+    pub name: String,
+    /// The source doubts the values.
     pub suspect: bool,
 }
 
@@ -24,20 +24,20 @@ pub struct RigSample {
     pub kind: InputKind,
     /// r/min or kN.
     pub value: f64,
-    /// Who sent it.
+    /// Its publisher.
     pub id: DriverId,
     /// When it arrived (s, the conditioner's clock).
     pub time: f64,
-    /// What it says of itself; none of a number alone.
-    pub stamp: Option<(Stamp, Sent)>,
+    /// Stamp and source; none for a plain number.
+    pub stamp: Option<(Stamp, SampleSource)>,
 }
 
 /// Why a sample was refused.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SampleRefused {
-    /// Its sender does not drive.
+    /// Its publisher does not drive the input.
     Driver(Box<NotDriving>),
-    /// It cannot be right.
+    /// Its value or its stamp is refused.
     Value(Rejection),
 }
 
@@ -50,40 +50,62 @@ impl fmt::Display for SampleRefused {
     }
 }
 
-/// What is kept of the samples beside their values.
+/// The state of both inputs: their publishers, their conditioned values, and the counts of samples that were lost.
 #[derive(Debug, Clone)]
 pub struct Intake {
-    /// Who sends.
-    pub drivers: Drivers,
-    announcer: Announcer,
+    drivers: Drivers,
+    conditioner: Conditioner,
+    safe_values: SafeValueWatch,
     unreadable: [u64; 2],
     overrun: [u64; 2],
     /// Of the newest good sample.
-    sent: [Sent; 2],
+    sources: [SampleSource; 2],
 }
 
 impl Intake {
-    /// Nothing has come yet.
+    /// An intake that has received nothing.
     pub fn new(inputs: &InputsConfig) -> Self {
         Self {
             drivers: Drivers::new(Rule::of(inputs)),
-            announcer: Announcer::default(),
+            conditioner: Conditioner::new(inputs.rules()),
+            safe_values: SafeValueWatch::default(),
             unreadable: [0; 2],
             overrun: [0; 2],
-            sent: Default::default(),
+            sources: Default::default(),
         }
     }
 
-    /// Takes over a changed configuration.
-    pub fn set_rules(&mut self, inputs: &InputsConfig) {
-        self.drivers.set_rule(Rule::of(inputs));
+    /// The conditioned values.
+    pub fn conditioner(&self) -> &Conditioner {
+        &self.conditioner
     }
 
-    /// Hands a sample to the conditioner.
+    /// The publishers of an input at `now` (s, the conditioner's clock).
+    pub fn drivers(&self, kind: InputKind, now: f64) -> DriverSummary {
+        self.drivers.summary(kind, now)
+    }
+
+    /// Adopts the rules of a changed configuration from `now` on (s, the conditioner's clock).
+    pub fn set_rules(&mut self, inputs: &InputsConfig, now: f64) {
+        self.drivers.set_rule(Rule::of(inputs));
+        self.conditioner.set_rules(inputs.rules(), now);
+    }
+
+    /// Adds what discovery knows of a publisher.
+    pub fn describe(&mut self, driver: Driver) {
+        self.drivers.describe(driver);
+    }
+
+    /// Whether node and host of a publisher are known.
+    pub fn is_described(&self, id: DriverId) -> bool {
+        self.drivers.is_described(id)
+    }
+
+    /// Accepts a sample: it becomes the input's newest value.
     ///
     /// # Errors
-    /// When its sender or its value is refused.
-    pub fn take(&mut self, conditioner: &mut Conditioner, sample: &RigSample) -> Result<(), SampleRefused> {
+    /// When its publisher or its value is refused.
+    pub fn accept(&mut self, sample: &RigSample) -> Result<(), SampleRefused> {
         let RigSample {
             kind,
             value,
@@ -99,12 +121,12 @@ impl Intake {
         self.drivers
             .offer(kind, route, id, time, value)
             .map_err(SampleRefused::Driver)?;
-        let taken = match stamp {
-            None => conditioner.offer(kind, value, time),
-            Some((stamp, _)) => conditioner.offer_stamped(kind, value, time, stamp),
+        let judged = match stamp {
+            None => self.conditioner.offer(kind, value, time),
+            Some((stamp, _)) => self.conditioner.offer_stamped(kind, value, time, stamp),
         };
-        taken.map_err(SampleRefused::Value)?;
-        self.sent[kind.index()] = stamp.as_ref().map(|(_, sent)| sent.clone()).unwrap_or_default();
+        judged.map_err(SampleRefused::Value)?;
+        self.sources[kind.index()] = stamp.as_ref().map(|(_, source)| source.clone()).unwrap_or_default();
         Ok(())
     }
 
@@ -120,31 +142,32 @@ impl Intake {
         self.unreadable[kind.index()]
     }
 
-    /// Counts samples that came faster than they were taken, and that nobody has seen.
+    /// Counts samples that were dropped unread because they came faster than the node reads them.
     pub fn count_overrun(&mut self, kinds: &[InputKind], samples: u64) {
         for kind in kinds {
             self.overrun[kind.index()] += samples;
         }
     }
 
-    /// Samples that came faster than they were taken so far.
+    /// Samples dropped unread so far.
     pub fn overrun(&self, kind: InputKind) -> u64 {
         self.overrun[kind.index()]
     }
 
-    /// What the newest good sample said of itself.
-    pub fn sent(&self, kind: InputKind) -> &Sent {
-        &self.sent[kind.index()]
+    /// The source of the newest good sample.
+    pub fn source(&self, kind: InputKind) -> &SampleSource {
+        &self.sources[kind.index()]
     }
 
-    /// What is to be told of an input by `now` (s, the conditioner's clock).
-    pub fn announce(&mut self, kind: InputKind, conditioner: &Conditioner, now: f64) -> Option<Announcement> {
-        self.announcer.look(kind, conditioner, now)
+    /// The begin or end of an input's ramp to its safe value since the last call, at `now` (s, the conditioner's clock).
+    pub fn safe_value_event(&mut self, kind: InputKind, now: f64) -> Option<SafeValueEvent> {
+        self.safe_values.update(kind, &self.conditioner, now)
     }
 
-    /// To be called when the clock was set anew, with the conditioner's own call.
+    /// Restarts all ages and silences at `now` (s), after the conditioner's clock was set.
     pub fn clock_set(&mut self, now: f64) {
         self.drivers.clock_set(now);
+        self.conditioner.clock_set(now);
     }
 }
 
@@ -167,41 +190,39 @@ mod tests {
     fn a_sample_of_another_than_the_driver_does_not_reach_the_conditioner() {
         let mut inputs = InputsConfig::default();
         inputs.driver.policy = flexdrill_config::DriverPolicy::First;
-        let mut conditioner = Conditioner::new(inputs.rules());
         let mut intake = Intake::new(&inputs);
-        intake.take(&mut conditioner, &sample(1, 40.0, 1.0)).unwrap();
-        let refused = intake.take(&mut conditioner, &sample(2, 90.0, 1.5)).unwrap_err();
+        intake.accept(&sample(1, 40.0, 1.0)).unwrap();
+        let refused = intake.accept(&sample(2, 90.0, 1.5)).unwrap_err();
         assert!(matches!(refused, SampleRefused::Driver(_)));
-        assert_eq!(conditioner.target(RotarySpeed, 1.5), 40.0);
-        assert_eq!(conditioner.counts(RotarySpeed).accepted, 1);
-        assert_eq!(intake.drivers.summary(RotarySpeed, 1.5).refused, 1);
-        let refused = intake.take(&mut conditioner, &sample(1, 500.0, 2.0)).unwrap_err();
+        assert_eq!(intake.conditioner().target(RotarySpeed, 1.5), 40.0);
+        assert_eq!(intake.conditioner().counts(RotarySpeed).accepted, 1);
+        assert_eq!(intake.drivers(RotarySpeed, 1.5).refused, 1);
+        let refused = intake.accept(&sample(1, 500.0, 2.0)).unwrap_err();
         assert!(refused.to_string().contains("above the maximum of 120 r/min"));
     }
 
     #[test]
     fn source_and_doubt_are_those_of_the_newest_good_sample() {
         let inputs = InputsConfig::default();
-        let mut conditioner = Conditioner::new(inputs.rules());
         let mut intake = Intake::new(&inputs);
         let stamp = Stamp {
             age: 0.1,
             bad: false,
             max_skew: 0.5,
         };
-        let sent = Sent {
-            source: "encoder".into(),
+        let source = SampleSource {
+            name: "encoder".into(),
             suspect: true,
         };
         let mut stamped = sample(1, 40.0, 1.0);
-        stamped.stamp = Some((stamp, sent.clone()));
-        intake.take(&mut conditioner, &stamped).unwrap();
-        assert_eq!(intake.sent(RotarySpeed), &sent);
-        stamped.stamp = Some((Stamp { bad: true, ..stamp }, Sent::default()));
+        stamped.stamp = Some((stamp, source.clone()));
+        intake.accept(&stamped).unwrap();
+        assert_eq!(intake.source(RotarySpeed), &source);
+        stamped.stamp = Some((Stamp { bad: true, ..stamp }, SampleSource::default()));
         stamped.time = 1.1;
-        assert!(intake.take(&mut conditioner, &stamped).is_err());
-        assert_eq!(intake.sent(RotarySpeed), &sent);
-        intake.take(&mut conditioner, &sample(1, 41.0, 1.2)).unwrap();
-        assert_eq!(intake.sent(RotarySpeed), &Sent::default());
+        assert!(intake.accept(&stamped).is_err());
+        assert_eq!(intake.source(RotarySpeed), &source);
+        intake.accept(&sample(1, 41.0, 1.2)).unwrap();
+        assert_eq!(intake.source(RotarySpeed), &SampleSource::default());
     }
 }

@@ -1,15 +1,16 @@
-//! What comes from the rig, from sample to target: who sends it ([`Drivers`]), when it was measured ([`stamped`]), and
-//! what is told of it ([`Announcer`]). It knows no middleware; times are handed in.
+//! The rig's inputs from sample to target: the publisher of a sample ([`Drivers`]), its age ([`stamped`]), its value (the
+//! conditioner of the core), and the log lines about safe values ([`SafeValueWatch`]). The room knows no middleware and
+//! no clock: the caller passes times in.
 //!
-//! [`Intake`] joins them: a sample goes in, and is taken by the conditioner or refused in words.
+//! [`Intake`] owns all of them: it accepts a sample, or refuses it with a reason.
 
-mod announcer;
 mod driver;
 mod drivers;
 mod intake;
+mod safe_value_watch;
 pub mod stamped;
 
-pub use announcer::{Announcement, Announcer};
 pub use driver::{Driver, DriverId};
 pub use drivers::{DriverSummary, Drivers, NotDriving, Rule};
-pub use intake::{Intake, RigSample, SampleRefused, Sent};
+pub use intake::{Intake, RigSample, SampleRefused, SampleSource};
+pub use safe_value_watch::{SafeValueEvent, SafeValueWatch};

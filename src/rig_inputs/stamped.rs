@@ -1,15 +1,15 @@
-//! `rig/inputs`: both inputs with stamp, quality and source.
+//! Messages on `rig/inputs`: both inputs with stamp, quality and source.
 
-use crate::messages::RigInputs;
 use flexdrill_core::inputs::{InputKind, Stamp};
+use flexdrill_messages::RigInputs;
 
-/// The values that a message gives, at `rig_time` (ns since 1970) on the clock of its stamp; `None` where it gives none
-/// (NaN).
+/// The values of a message at `rig_time` (ns since 1970, on the clock of its stamp); `None` for an input that the message
+/// leaves out (NaN).
 pub fn values(message: &RigInputs, rig_time: i64, max_skew: f64) -> [Option<(f64, Stamp)>; 2] {
     let age = rig_time.saturating_sub(message.header.stamp.to_nanoseconds());
     let stamp = Stamp {
         age: age as f64 * 1e-9,
-        // A code that is not known is not trusted.
+        // An unknown code counts as bad.
         bad: !matches!(message.quality, RigInputs::GOOD | RigInputs::SUSPECT),
         max_skew,
     };
@@ -22,7 +22,7 @@ pub fn values(message: &RigInputs, rig_time: i64, max_skew: f64) -> [Option<(f64
     })
 }
 
-/// Whether its source has doubts about a message.
+/// Whether the source doubts the values.
 pub fn is_suspect(message: &RigInputs) -> bool {
     message.quality == RigInputs::SUSPECT
 }
@@ -30,7 +30,7 @@ pub fn is_suspect(message: &RigInputs) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::messages::builtin_interfaces::Time;
+    use flexdrill_messages::builtin_interfaces::Time;
 
     fn message(stamp: i64, quality: u8) -> RigInputs {
         let mut message = RigInputs {

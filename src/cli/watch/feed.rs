@@ -6,8 +6,8 @@ use super::board::Board;
 use crate::dds::network::Network;
 use crate::messages::topics;
 use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
-use crate::ros::NodeError;
 use crate::ros::subscriber::{Listener, ListenerBuilder, TopicReader};
+use flexdrill_ros2::JoinError;
 
 pub(super) struct Feed {
     status: TopicReader<TwinStatus>,
@@ -22,7 +22,7 @@ pub(super) struct Feed {
 }
 
 impl Feed {
-    pub(super) fn new(network: &Network, namespace: &str) -> Result<Self, NodeError> {
+    pub(super) fn new(network: &Network, namespace: &str) -> Result<Self, JoinError> {
         let mut listener = ListenerBuilder::new(network, namespace, "flexdrill_watch")?;
         Ok(Self {
             status: listener.subscribe(&topics::STATUS)?,

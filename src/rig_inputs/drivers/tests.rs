@@ -1,4 +1,4 @@
-//! Who drives, by policy, over time.
+//! Which publisher drives, by policy, over time.
 
 use super::*;
 use InputKind::{RotarySpeed, WeightOnBit};
@@ -22,7 +22,7 @@ const A: u8 = 0xa;
 const B: u8 = 0xb;
 
 #[test]
-fn the_newest_drives_and_two_at_once_are_told() {
+fn the_newest_drives_and_two_at_once_are_reported() {
     let mut drivers = drivers(DriverPolicy::Newest, &[]);
     drivers.describe(Driver {
         id: id(A, 1),
@@ -85,7 +85,7 @@ fn the_first_drives_until_it_falls_silent() {
         "{said}"
     );
     drivers.offer(RotarySpeed, Plain, id(A, 1), 2.0, 41.0).unwrap();
-    // What is no number keeps nobody at the wheel.
+    // NaN does not keep a publisher in charge.
     drivers.offer(RotarySpeed, Plain, id(A, 1), 6.0, f64::NAN).unwrap();
     assert!(drivers.offer(RotarySpeed, Plain, id(B, 2), 6.9, 60.0).is_err());
     drivers.offer(RotarySpeed, Plain, id(B, 2), 7.0, 60.0).unwrap();
@@ -145,9 +145,9 @@ fn a_flood_of_publishers_is_bounded_and_a_name_cannot_act_on_a_terminal() {
             .unwrap();
     }
     let summary = drivers.summary(RotarySpeed, 0.3);
-    assert_eq!(summary.heard.len(), MOST_SHOWN + 1);
+    assert_eq!(summary.heard.len(), MOST_NAMED + 1);
     assert!(summary.driving.starts_with("/\\u{1b}[2J @"), "{summary:?}");
-    assert!(drivers.known.len() <= MOST_KNOWN && drivers.channels[0].heard.len() <= MOST_HEARD);
+    assert!(drivers.known.len() <= MOST_KNOWN && drivers.channels[0].heard.len() <= MOST_PUBLISHERS);
 }
 
 #[test]

@@ -1,0 +1,189 @@
+//! Replies that are too long to send: what is sent in their place, so that no client waits for nothing.
+
+use ros2_client::parameters::raw;
+use ros2_client::rcl_interfaces::{
+    DescribeParametersResponse, GetParameterTypesResponse, GetParametersResponse, ListParametersResponse,
+    ListParametersResult, SetParametersAtomicallyResponse, SetParametersResponse,
+};
+use serde::Serialize;
+
+use flexdrill_messages::lifecycle_msgs::{
+    ChangeStateResponse, GetAvailableStatesResponse, GetAvailableTransitionsResponse, GetStateResponse,
+};
+use flexdrill_messages::rcl_interfaces::{GetLoggerLevelsResponse, SetLoggerLevelsResponse, SetLoggerLevelsResult};
+use flexdrill_messages::std_srvs::{SetBoolResponse, TriggerResponse};
+use flexdrill_messages::type_description_interfaces::GetTypeDescriptionResponse;
+use flexdrill_messages::{AcknowledgeAlarmResponse, ShelveAlarmResponse, UnshelveAlarmResponse};
+
+/// Bytes that the reasons of a list of results share when they must be cut.
+const REASONS: usize = 30_000;
+/// Most results whose flags fit beside those reasons: 12 bytes each.
+const MOST_RESULTS: usize = 2_000;
+
+/// A reply that can be made short.
+pub trait Reply: Serialize {
+    /// What is sent in its place when it is too long. What was done stays told; `why` stands where the reply has a place
+    /// for words; where it has none, it is empty.
+    #[must_use]
+    fn shortened(self, why: &str) -> Self;
+}
+
+/// Replies that say whether it was done, and a text.
+macro_rules! flag_and_text {
+    ($($reply:ty),*) => {$(
+        impl Reply for $reply {
+            fn shortened(self, why: &str) -> Self {
+                Self { message: why.to_owned(), ..self }
+            }
+        }
+    )*};
+}
+flag_and_text!(
+    TriggerResponse,
+    SetBoolResponse,
+    AcknowledgeAlarmResponse,
+    ShelveAlarmResponse,
+    UnshelveAlarmResponse
+);
+
+/// Replies that are lists without a place for words.
+macro_rules! list {
+    ($($reply:ty { $field:ident }),*) => {$(
+        impl Reply for $reply {
+            fn shortened(self, _why: &str) -> Self {
+                Self { $field: Vec::new() }
+            }
+        }
+    )*};
+}
+list!(
+    GetParametersResponse { values },
+    GetParameterTypesResponse { values },
+    DescribeParametersResponse { values },
+    GetLoggerLevelsResponse { levels },
+    GetAvailableStatesResponse { available_states },
+    GetAvailableTransitionsResponse { available_transitions }
+);
+
+/// Replies that are never long.
+macro_rules! short {
+    ($($reply:ty),*) => {$(
+        impl Reply for $reply {
+            fn shortened(self, _why: &str) -> Self {
+                self
+            }
+        }
+    )*};
+}
+short!(ChangeStateResponse, GetStateResponse);
+
+impl Reply for ListParametersResponse {
+    fn shortened(self, _why: &str) -> Self {
+        Self {
+            result: ListParametersResult {
+                names: Vec::new(),
+                prefixes: Vec::new(),
+            },
+        }
+    }
+}
+
+impl Reply for SetParametersAtomicallyResponse {
+    fn shortened(self, why: &str) -> Self {
+        Self {
+            result: raw::SetParametersResult {
+                reason: why.to_owned(),
+                ..self.result
+            },
+        }
+    }
+}
+
+impl Reply for SetParametersResponse {
+    fn shortened(mut self, why: &str) -> Self {
+        if self.results.len() > MOST_RESULTS {
+            let failed = Err(format!("{why}; what was set is on /parameter_events"));
+            self.results = vec![failed.into()];
+        }
+        let share = REASONS / self.results.len().max(1);
+        for result in &mut self.results {
+            cut(&mut result.reason, share);
+        }
+        self
+    }
+}
+
+impl Reply for SetLoggerLevelsResponse {
+    fn shortened(mut self, why: &str) -> Self {
+        if self.results.len() > MOST_RESULTS {
+            self.results = vec![SetLoggerLevelsResult {
+                successful: false,
+                reason: format!("{why}; ~/get_logger_levels tells what was set"),
+            }];
+        }
+        let share = REASONS / self.results.len().max(1);
+        for result in &mut self.results {
+            cut(&mut result.reason, share);
+        }
+        self
+    }
+}
+
+impl Reply for GetTypeDescriptionResponse {
+    fn shortened(self, why: &str) -> Self {
+        Self {
+            successful: false,
+            failure_reason: why.to_owned(),
+            ..Self::default()
+        }
+    }
+}
+
+/// Keeps at most so many bytes of a text, whole characters only.
+fn cut(text: &mut String, most: usize) {
+    let mut end = most.min(text.len());
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    text.truncate(end);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dds::plan::MOST_REPLY;
+    use flexdrill_messages::to_cdr_body;
+
+    fn set(count: usize, reason: &str) -> SetParametersResponse {
+        let result = |index| match index % 2 {
+            0 => Ok(()),
+            _ => Err(reason.to_owned()),
+        };
+        SetParametersResponse {
+            results: (0..count).map(|index| result(index).into()).collect(),
+        }
+    }
+
+    #[test]
+    fn what_was_done_stays_told() {
+        let reason = "\u{e4}".repeat(200);
+        let long = set(1500, &reason);
+        assert!(to_cdr_body(&long).unwrap().len() > MOST_REPLY);
+        let shortened = long.shortened("too long");
+        assert!(to_cdr_body(&shortened).unwrap().len() <= MOST_REPLY);
+        assert_eq!(shortened.results.len(), 1500);
+        for (index, result) in shortened.results.iter().enumerate() {
+            assert_eq!(result.successful, index % 2 == 0);
+            assert!(reason.starts_with(&result.reason) && result.reason.is_empty() == result.successful);
+        }
+        let shortened = set(20_000, "").shortened("too long");
+        assert_eq!(shortened.results.len(), 1);
+        assert!(shortened.results[0].reason.contains("/parameter_events"));
+        let done = TriggerResponse {
+            success: true,
+            message: "x".repeat(MOST_REPLY),
+        };
+        let shortened = done.shortened("too long");
+        assert!(shortened.success && shortened.message == "too long");
+    }
+}

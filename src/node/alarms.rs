@@ -1,0 +1,375 @@
+//! Alarms in the node: their conditions, requests by service, and their state over a restart.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender};
+use std::time::Duration;
+
+use tokio::sync::oneshot;
+
+use super::NodeError;
+use super::publish::{PublisherParts, Sinks};
+use crate::alarms::state_file::{self, StateError, StateWriter};
+use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use flexdrill_alarms::{Refusal, Saved, Time};
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::StepFailure;
+use flexdrill_core::inputs::InputKind;
+use flexdrill_core::twin::Snapshot;
+use flexdrill_messages::outputs::Encoded;
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::{
+    AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest,
+    ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse, words,
+};
+use flexdrill_realtime::PaceReading;
+use flexdrill_ros2::args::ArgsError;
+use flexdrill_ros2::dds::port::PortBuilder;
+use flexdrill_ros2::service::{ServiceMapping, ServiceServer, Task};
+
+/// Longest wait of a request until its effect is on the disk: shorter than a client waits for a reply.
+const DISK_PATIENCE: Duration = Duration::from_secs(2);
+
+/// A request on its way to the publisher's thread, which owns the alarms.
+pub struct AlarmRequest {
+    request: Request,
+    answer: oneshot::Sender<Result<Accepted, Refusal>>,
+}
+
+/// A request that was carried out.
+struct Accepted {
+    /// The effect, as a sentence.
+    text: String,
+    saved: Saving,
+}
+
+/// Whether the effect of a request survives a restart.
+enum Saving {
+    /// This node keeps no state, for a reason that was logged at its start.
+    Off,
+    /// The writer reports when the state is on the disk.
+    Pending(oneshot::Receiver<Result<(), String>>),
+}
+
+/// The alarms of a node, on the publisher's thread.
+pub struct AlarmDesk {
+    book: AlarmBook,
+    requests: Receiver<AlarmRequest>,
+    /// Writes the state to its file, with the number of the newest event that it was given.
+    writer: Option<(StateWriter, u64)>,
+}
+
+impl AlarmDesk {
+    /// Alarms with the state that an earlier run has left in `state_file`, or all normal. A problem of the file is logged.
+    pub fn new(config: Arc<Config>, state_file: Option<&Path>, requests: Receiver<AlarmRequest>, time: Time) -> Self {
+        let (saved, writer) = state_file.map(open).unwrap_or_default();
+        let book = AlarmBook::new(Arc::clone(&config), saved.as_ref(), time).unwrap_or_else(|error| {
+            tracing::warn!("{error}; all alarms begin as normal");
+            AlarmBook::fresh(config, time)
+        });
+        Self {
+            book,
+            requests,
+            writer: writer.map(|writer| (writer, 0)),
+        }
+    }
+
+    /// Adopts changed limits and rules.
+    pub fn reconfigure(&mut self, config: &Arc<Config>) {
+        self.book.reconfigure(config);
+    }
+
+    /// Judges the hazards of a snapshot, at its stamp.
+    pub fn observe_tool(&mut self, snapshot: &Snapshot, stamp: Time) {
+        self.book.observe_tool(snapshot, stamp);
+    }
+
+    /// Judges the node's own state, at the present time on the rig's clock.
+    pub fn observe_node(&mut self, state: &NodeState<'_>, time: Time) {
+        self.book.advance(time);
+        self.book.observe_node(state, time);
+    }
+
+    /// Answers all waiting requests, at the present time on the rig's clock.
+    pub fn answer(&mut self, time: impl Fn() -> Time) {
+        while let Ok(AlarmRequest { request, answer }) = self.requests.try_recv() {
+            let result = self.book.request(&request, time());
+            let result = result.map(|text| Accepted {
+                text,
+                saved: self.save(),
+            });
+            // The service may not wait any more.
+            let _ = answer.send(result);
+        }
+    }
+
+    /// Passes the state to the writer, which reports when it is on the disk. The publisher's thread does not wait for the
+    /// disk.
+    fn save(&mut self) -> Saving {
+        let Some((writer, written)) = &mut self.writer else {
+            return Saving::Off;
+        };
+        let (sender, saved) = oneshot::channel();
+        // The service may not wait any more.
+        let report = move |result| drop(sender.send(result));
+        writer.save_then(self.book.save(), Box::new(report));
+        *written = self.book.sequence();
+        Saving::Pending(saved)
+    }
+
+    /// Whether something is due for publication, at an instant of a steady clock (ns).
+    pub fn is_due(&self, clock: u64) -> bool {
+        self.book.is_due(clock as Time)
+    }
+
+    /// Publishes events and list, logs the alarms that call for an operator, and saves a changed state.
+    ///
+    /// # Errors
+    /// When a message cannot be encoded.
+    pub fn publish(
+        &mut self,
+        header: Header,
+        clock: u64,
+        send: impl FnMut(Encoded<'_>) -> Result<(), CdrError>,
+    ) -> Result<(), CdrError> {
+        let events = self.book.publish(header, clock as Time, send)?;
+        for event in &events {
+            log(event);
+        }
+        if let (Some(newest), Some((writer, written))) = (events.last(), &mut self.writer)
+            && newest.sequence > *written
+        {
+            writer.save(self.book.save());
+            *written = newest.sequence;
+        }
+        Ok(())
+    }
+
+    /// The present state of all alarms.
+    pub fn list(&self, header: Header) -> AlarmList {
+        self.book.list(header)
+    }
+}
+
+/// Judges the alarms of the node itself. They follow the wall clock, so that they work while the model stands still.
+pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure>, pace: PaceReading) {
+    let inputs = parts.inputs.snapshot();
+    let now = parts.clocks.age_time();
+    let state = NodeState {
+        conditioner: inputs.conditioner(),
+        dds: parts.dds.health(),
+        namesakes: parts.dds.namesakes().iter().map(ToString::to_string).collect(),
+        now,
+        drivers: InputKind::ALL.map(|kind| inputs.drivers(kind, now)),
+        run_state: parts.gauges.run_state(),
+        failure,
+        pace,
+        recording: parts.recording.as_ref().map(|recording| RecordingState {
+            error: recording.health().problem(),
+            notice: recording.health().past_problem(),
+            losses: recording.health().losses(),
+        }),
+    };
+    let time = parts.clocks.rig_time();
+    parts.alarms.observe_node(&state, time);
+}
+
+/// Publishes the events and the list that are due.
+pub(super) fn publish(parts: &mut PublisherParts, header: Header, clock: u64) {
+    let sinks = Sinks {
+        recording: parts.recording.as_ref(),
+        live: parts.live.as_ref(),
+    };
+    let publishers = &parts.publishers;
+    let sent = parts.alarms.publish(header, clock, |encoded| {
+        publishers.publish(encoded.topic, encoded.cdr);
+        sinks.write(encoded);
+        Ok(())
+    });
+    if let Err(error) = sent {
+        tracing::error!("an alarm could not be encoded: {error}");
+    }
+}
+
+/// The state of an earlier run and the writer for this one; neither where another node uses the file.
+fn open(path: &Path) -> (Option<Saved>, Option<StateWriter>) {
+    let logged = |error: StateError| tracing::warn!("{error}");
+    match StateWriter::start(path.to_owned()) {
+        Err(error @ StateError::Owned { .. }) => {
+            logged(error);
+            (None, None)
+        }
+        writer => {
+            let saved = state_file::read(path).unwrap_or_else(|error| {
+                logged(error);
+                None
+            });
+            (saved, writer.map_err(logged).ok())
+        }
+    }
+}
+
+fn log(event: &AlarmEvent) {
+    let priority = words::alarm_priority(event.priority);
+    let state = words::alarm_state(event.to_state);
+    let calls =
+        event.to_state == Alarm::ACTIVE_UNACKNOWLEDGED && (event.annunciates || event.change == AlarmEvent::RAISED);
+    if calls && event.priority >= Alarm::MEDIUM {
+        tracing::warn!(
+            "alarm {} ({priority}): {} {}",
+            event.id,
+            event.evidence,
+            event.what_to_do
+        );
+    } else if !event.operator_name.is_empty() {
+        tracing::info!("alarm {} is {state}: {}", event.id, requested_by(event));
+    } else {
+        tracing::debug!("alarm {} is {state}", event.id);
+    }
+}
+
+/// The operator who requested a change, with the reason if there is one.
+fn requested_by(event: &AlarmEvent) -> String {
+    let reason = event.reason.trim();
+    if reason.is_empty() {
+        format!("requested by {}", event.operator_name)
+    } else {
+        format!("requested by {} ({reason})", event.operator_name)
+    }
+}
+
+/// Creates `~/acknowledge_alarm`, `~/shelve_alarm` and `~/unshelve_alarm`; `name` makes a private name absolute.
+///
+/// # Errors
+/// When a remapped name is not allowed.
+pub fn serve(
+    port: &mut PortBuilder,
+    mapping: ServiceMapping,
+    desk: &Sender<AlarmRequest>,
+    name: impl Fn(&str) -> Result<String, ArgsError>,
+) -> Result<Vec<Task>, NodeError> {
+    let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
+        let kind = format!("flexdrill/srv/{kind}");
+        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
+    };
+    let (acknowledge, shelve, unshelve) = (desk.clone(), desk.clone(), desk.clone());
+    Ok(vec![
+        Box::pin(
+            server("~/acknowledge_alarm", "AcknowledgeAlarm")?.serve(move |request: AcknowledgeAlarmRequest| {
+                let answered = ask(acknowledge.clone(), Request::Acknowledge(request));
+                async move {
+                    let (success, message) = answered.await;
+                    AcknowledgeAlarmResponse { success, message }
+                }
+            }),
+        ),
+        Box::pin(
+            server("~/shelve_alarm", "ShelveAlarm")?.serve(move |request: ShelveAlarmRequest| {
+                let answered = ask(shelve.clone(), Request::Shelve(request));
+                async move {
+                    let (success, message) = answered.await;
+                    ShelveAlarmResponse { success, message }
+                }
+            }),
+        ),
+        Box::pin(
+            server("~/unshelve_alarm", "UnshelveAlarm")?.serve(move |request: UnshelveAlarmRequest| {
+                let answered = ask(unshelve.clone(), Request::Unshelve(request));
+                async move {
+                    let (success, message) = answered.await;
+                    UnshelveAlarmResponse { success, message }
+                }
+            }),
+        ),
+    ])
+}
+
+/// Passes a request to the publisher's thread and waits until its effect is on the disk. Returns whether both succeeded, and
+/// the text of the reply.
+async fn ask(desk: Sender<AlarmRequest>, request: Request) -> (bool, String) {
+    let (answer, answered) = oneshot::channel();
+    // Sending fails only where the publisher has ended; then the answer fails, too.
+    let _ = desk.send(AlarmRequest { request, answer });
+    match answered.await {
+        Ok(Ok(accepted)) => accepted.reply().await,
+        Ok(Err(refusal)) => (false, refusal.to_string()),
+        Err(_) => (false, "the node is ending".to_owned()),
+    }
+}
+
+impl Accepted {
+    async fn reply(self) -> (bool, String) {
+        let Self { text, saved } = self;
+        let Saving::Pending(saved) = saved else {
+            return (
+                true,
+                format!("{text}; for this run only, since the node keeps no state"),
+            );
+        };
+        let why = match tokio::time::timeout(DISK_PATIENCE, saved).await {
+            Ok(Ok(Ok(()))) => return (true, text),
+            Ok(Ok(Err(why))) => why,
+            Ok(Err(_)) => "the node is ending".to_owned(),
+            Err(_) => format!("the disk has not answered within {} s", DISK_PATIENCE.as_secs()),
+        };
+        (false, format!("{text} in this run, but not kept over a restart: {why}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_without_a_reason_has_no_empty_brackets() {
+        let by = |reason: &str| {
+            requested_by(&AlarmEvent {
+                operator_name: "ann".to_owned(),
+                reason: reason.to_owned(),
+                ..AlarmEvent::default()
+            })
+        };
+        assert_eq!(by(" "), "requested by ann");
+        assert_eq!(by("sensor replaced"), "requested by ann (sensor replaced)");
+    }
+
+    /// Shelves an alarm at a desk without a node, and returns the reply.
+    async fn shelved(desk: &mut AlarmDesk, sender: &Sender<AlarmRequest>) -> (bool, String) {
+        let request = Request::Shelve(ShelveAlarmRequest {
+            id: "shock".to_owned(),
+            one_shot: true,
+            duration: 0.0,
+            operator_name: "ann".to_owned(),
+            reason: "reaming".to_owned(),
+        });
+        let answered = tokio::spawn(ask(sender.clone(), request));
+        while !answered.is_finished() {
+            desk.answer(|| 5_000_000_000);
+            tokio::time::sleep(Duration::from_millis(1)).await;
+        }
+        answered.await.unwrap()
+    }
+
+    #[tokio::test]
+    async fn a_reply_says_success_only_when_the_state_is_on_the_disk() {
+        let config = Arc::new(Config::from_text("default.yaml", include_str!("../../config/default.yaml")).unwrap());
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("alarms.json");
+        let (sender, requests) = std::sync::mpsc::channel();
+        let mut desk = AlarmDesk::new(Arc::clone(&config), Some(&file), requests, 0);
+        let (success, message) = shelved(&mut desk, &sender).await;
+        assert!(success && message.contains("shock shelved"), "{message}");
+        let state = std::fs::read_to_string(&file).unwrap();
+        assert!(state.contains("\"one_shot\":true"), "{state}");
+        // A folder in the place of the file makes writing fail.
+        std::fs::remove_file(&file).unwrap();
+        std::fs::create_dir_all(file.join("in the path")).unwrap();
+        let (success, message) = shelved(&mut desk, &sender).await;
+        assert!(!success && message.contains("not kept over a restart"), "{message}");
+        // This desk has no file.
+        let (sender, requests) = std::sync::mpsc::channel();
+        let mut desk = AlarmDesk::new(config, None, requests, 0);
+        let (success, message) = shelved(&mut desk, &sender).await;
+        assert!(success && message.contains("for this run only"), "{message}");
+    }
+}

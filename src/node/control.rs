@@ -1,0 +1,483 @@
+//! Requests of clients that change the run: parameters, reset, pause, checkpoint.
+
+use std::fs::File;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Sender, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::NodeError;
+use super::inputs::RigInputs;
+use super::parameters::{reconfigured, refresh_ranges};
+use flexdrill_config::{Config, HardBounds, Rates};
+use flexdrill_core::twin::CheckpointError;
+use flexdrill_messages::outputs::{self, ParameterChange};
+use flexdrill_messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
+use flexdrill_realtime::link::{Command, Gauges, RunState, Settings};
+use flexdrill_ros2::args::ArgsError;
+use flexdrill_ros2::dds::port::PortBuilder;
+use flexdrill_ros2::parameters::{Parameter, ParameterStore, ParameterValue, Refusal};
+use flexdrill_ros2::service::{ServiceMapping, ServiceServer, Task, asked_by, at_once, shared};
+
+/// Least time between two checkpoints: each one delays the solver for a moment.
+const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(1);
+/// Longest wait for the solver's state.
+const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
+
+/// Parameters that changed together, on their way to the publisher.
+#[derive(Debug)]
+pub struct ParameterUpdate {
+    /// Number of the command with which they act: the solver counts the commands that it has carried out.
+    pub command: u64,
+    /// Names, values and requesters.
+    pub values: Vec<ParameterChange>,
+    /// The configuration with these values.
+    pub config: Arc<Config>,
+}
+
+struct Commands {
+    sender: rtrb::Producer<Command>,
+    sent: u64,
+}
+
+/// Why a service could not carry out a request.
+#[derive(Debug, thiserror::Error)]
+pub enum ControlError {
+    /// The ring of commands is full.
+    #[error("the solver's queue of commands is full; a step may be taking very long")]
+    Busy,
+    /// The model has no state yet.
+    #[error("the model is still being built")]
+    Starting,
+    /// A managed node runs the model in one state only.
+    #[error(
+        "the node is managed and {state}: model time runs in the state active only; \
+         configure and activate it first (ros2 lifecycle set)"
+    )]
+    NotActive {
+        /// Its state in a word.
+        state: &'static str,
+    },
+    /// The solver is in a step that takes too long.
+    #[error("the solver did not answer in time")]
+    NoAnswer,
+    /// Another checkpoint was requested a moment ago.
+    #[error("the last checkpoint was requested {0:.1} s ago; wait {seconds} s between checkpoints", seconds = CHECKPOINT_INTERVAL.as_secs())]
+    TooOften(f64),
+    /// The state could not be encoded.
+    #[error(transparent)]
+    State(#[from] CheckpointError),
+    /// The file could not be written.
+    #[error("{}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The error of the system.
+        source: std::io::Error,
+    },
+    /// The task that wrote the file was ended.
+    #[error(transparent)]
+    Ended(#[from] tokio::task::JoinError),
+}
+
+/// Sends commands to the solver.
+pub struct Control {
+    commands: Mutex<Commands>,
+    config: Mutex<Arc<Config>>,
+    updates: Sender<ParameterUpdate>,
+    rig_inputs: RigInputs,
+    gauges: Arc<Gauges>,
+    hard_bounds: HardBounds,
+    /// Publishing rates at the start. Recordings keep them.
+    initial_rates: Rates,
+    /// When the last checkpoint was requested.
+    checkpoint: Mutex<Option<Instant>>,
+    /// The state of a managed node that is not active. Model time stands still in it.
+    inactive: Mutex<Option<&'static str>>,
+}
+
+/// The part of a configuration that may change while the solver runs.
+fn settings(config: &Config, initial_rates: &Rates) -> Settings {
+    let simulation = config.simulation();
+    Settings {
+        live: config.live(),
+        slew: [simulation.rotary_speed_slew, simulation.weight_on_bit_slew],
+        whirl: config.whirl_settings(),
+        schedule: outputs::schedule(config, initial_rates),
+    }
+}
+
+impl Control {
+    /// The control of a solver; `updates` go to the publisher.
+    pub fn new(
+        sender: rtrb::Producer<Command>,
+        config: Arc<Config>,
+        updates: Sender<ParameterUpdate>,
+        rig_inputs: RigInputs,
+        gauges: Arc<Gauges>,
+    ) -> Arc<Self> {
+        Arc::new(Self {
+            hard_bounds: HardBounds::of(&config),
+            initial_rates: config.outputs.rates,
+            commands: Mutex::new(Commands { sender, sent: 0 }),
+            config: Mutex::new(config),
+            updates,
+            rig_inputs,
+            gauges,
+            checkpoint: Mutex::default(),
+            inactive: Mutex::default(),
+        })
+    }
+
+    fn config(&self) -> Arc<Config> {
+        Arc::clone(&self.config.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Sends a command and returns its number.
+    fn send(&self, command: Command) -> Result<u64, ControlError> {
+        self.send_with(command, |_| ())
+    }
+
+    /// Sends a command. `before` is called with its number before the solver can carry it out, and only if the queue has
+    /// room.
+    fn send_with(&self, command: Command, before: impl FnOnce(u64)) -> Result<u64, ControlError> {
+        let mut commands = self.commands.lock().unwrap_or_else(PoisonError::into_inner);
+        // The lock makes this the only sender, so that the room cannot be lost before the push.
+        if commands.sender.is_full() {
+            return Err(ControlError::Busy);
+        }
+        let number = commands.sent + 1;
+        before(number);
+        commands.sender.push(command).map_err(|_| ControlError::Busy)?;
+        commands.sent = number;
+        Ok(number)
+    }
+
+    /// Applies changed parameters together, as one command, or refuses them and changes nothing. `candidate` is the store
+    /// with the new values; the recording names the `requester`.
+    ///
+    /// # Errors
+    /// When the configuration is not valid with the values, a value exceeds a hard limit, or the solver's queue is full.
+    pub fn apply(&self, candidate: &mut ParameterStore, changed: &[Parameter], requester: &str) -> Result<(), Refusal> {
+        let config = reconfigured(&self.config(), changed)?;
+        self.hard_bounds.check(&config)?;
+        let config = Arc::new(config);
+        let values = changed
+            .iter()
+            .filter_map(|parameter| {
+                Some(ParameterChange {
+                    name: parameter.name.clone(),
+                    value: number(&parameter.value)?,
+                    asked_by: requester.to_owned(),
+                })
+            })
+            .collect();
+        let publish = |command| {
+            let config = Arc::clone(&config);
+            // Sending fails only where the publisher has ended, and the node ends with it.
+            let _ = self.updates.send(ParameterUpdate {
+                command,
+                values,
+                config,
+            });
+        };
+        self.send_with(Command::Settings(settings(&config, &self.initial_rates)), publish)
+            .map_err(|why| Refusal::NotPassedOn { why: why.to_string() })?;
+        *self.config.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&config);
+        refresh_ranges(candidate, &config, &self.hard_bounds);
+        self.rig_inputs.set_rules(&config.inputs);
+        Ok(())
+    }
+
+    /// Resets the model to its state after the start.
+    ///
+    /// # Errors
+    /// When the solver's queue of commands is full.
+    pub fn reset(&self) -> Result<(), ControlError> {
+        tracing::info!("reset: the model returns to its state after the start{}", asked_by());
+        self.send(Command::Reset).map(drop)
+    }
+
+    /// Pauses or resumes model time.
+    ///
+    /// # Errors
+    /// As [`Control::reset`]; [`ControlError::NotActive`] where a managed node that is not active is to resume.
+    pub fn pause(&self, pause: bool) -> Result<(), ControlError> {
+        // The lock is held until the command is sent, so that no transition comes in between.
+        let inactive = self.inactive.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(state) = inactive.filter(|_| !pause) {
+            return Err(ControlError::NotActive { state });
+        }
+        self.send(Command::Pause(pause))?;
+        tracing::info!("{}{}", if pause { "paused" } else { "resumed" }, asked_by());
+        Ok(())
+    }
+
+    /// Resumes the model time of a managed node that becomes active, or stops it for a state other than active.
+    ///
+    /// # Errors
+    /// As [`Control::reset`]; then nothing has changed.
+    pub fn set_inactive(&self, inactive: Option<&'static str>) -> Result<(), ControlError> {
+        let mut state = self.inactive.lock().unwrap_or_else(PoisonError::into_inner);
+        self.send(Command::Pause(inactive.is_some()))?;
+        *state = inactive;
+        Ok(())
+    }
+
+    fn answer_reset(&self) -> TriggerResponse {
+        let done = self.reset();
+        answer(done.map(|()| "the model returns to its state after the start".to_owned()))
+    }
+
+    fn answer_pause(&self, pause: bool) -> SetBoolResponse {
+        let state = if pause { "paused" } else { "running" };
+        let TriggerResponse { success, message } = answer(self.pause(pause).map(|()| state.to_owned()));
+        SetBoolResponse { success, message }
+    }
+
+    async fn save_checkpoint(self: Arc<Self>) -> TriggerResponse {
+        if self.gauges.run_state() == RunState::Starting {
+            return answer(Err(ControlError::Starting));
+        }
+        {
+            let mut last = self.checkpoint.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(passed) = last
+                .map(|at: Instant| at.elapsed())
+                .filter(|passed| *passed < CHECKPOINT_INTERVAL)
+            {
+                return answer(Err(ControlError::TooOften(passed.as_secs_f64())));
+            }
+            *last = Some(Instant::now());
+        }
+        let saved = tokio::task::spawn_blocking(move || {
+            let (sender, receiver) = sync_channel(1);
+            self.send(Command::Checkpoint(sender))?;
+            let bytes = receiver
+                .recv_timeout(CHECKPOINT_WAIT)
+                .map_err(|_| ControlError::NoAnswer)??;
+            let step = self.gauges.step.load(Ordering::Relaxed);
+            let path = PathBuf::from(format!(
+                "flexdrill_{}_step{step}.checkpoint",
+                &self.config().hash()[..12]
+            ));
+            if let Err(source) = write_whole(&path, &bytes) {
+                return Err(ControlError::Write { path, source });
+            }
+            let absolute = std::path::absolute(&path).unwrap_or(path);
+            Ok(format!("{} ({} bytes)", absolute.display(), bytes.len()))
+        });
+        let result = saved.await.unwrap_or_else(|error| Err(error.into()));
+        match &result {
+            Ok(message) => tracing::info!("checkpoint saved: {message}"),
+            Err(why) => tracing::warn!("no checkpoint: {why}"),
+        }
+        answer(result)
+    }
+}
+
+/// Writes a file completely or not at all. The file is on the disk when this returns.
+fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let temporary = path.with_extension("checkpoint.part");
+    let written = File::create(&temporary)
+        .and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.sync_all()
+        })
+        .and_then(|()| std::fs::rename(&temporary, path));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    written
+}
+
+fn number(value: &ParameterValue) -> Option<f64> {
+    match value {
+        ParameterValue::Double(value) => Some(*value),
+        ParameterValue::Integer(value) => Some(*value as f64),
+        _ => None,
+    }
+}
+
+fn answer(result: Result<String, ControlError>) -> TriggerResponse {
+    match result {
+        Ok(message) => TriggerResponse { success: true, message },
+        Err(error) => TriggerResponse {
+            success: false,
+            message: error.to_string(),
+        },
+    }
+}
+
+/// Creates `~/reset`, `~/pause` and `~/save_checkpoint`; `name` makes a private name absolute.
+///
+/// # Errors
+/// When a remapped name is not allowed.
+pub fn serve(
+    port: &mut PortBuilder,
+    mapping: ServiceMapping,
+    control: &Arc<Control>,
+    name: impl Fn(&str) -> Result<String, ArgsError>,
+) -> Result<Vec<Task>, NodeError> {
+    let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
+        let kind = format!("std_srvs/srv/{kind}");
+        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
+    };
+    let (reset, pause) = (Arc::clone(control), Arc::clone(control));
+    Ok(vec![
+        Box::pin(server("~/reset", "Trigger")?.serve(at_once(move |_: TriggerRequest| reset.answer_reset()))),
+        Box::pin(
+            server("~/pause", "SetBool")?
+                .serve(at_once(move |request: SetBoolRequest| pause.answer_pause(request.data))),
+        ),
+        Box::pin(
+            server("~/save_checkpoint", "Trigger")?.serve(shared(Arc::clone(control), |control, _: TriggerRequest| {
+                control.save_checkpoint()
+            })),
+        ),
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::node::clocks::Clocks;
+    use crate::node::parameters::declare;
+    use flexdrill_realtime::link::{LoopEnd, PublisherEnd, Targets, link};
+    use std::sync::mpsc::{Receiver, channel};
+
+    struct Bench {
+        control: Arc<Control>,
+        store: ParameterStore,
+        updates: Receiver<ParameterUpdate>,
+        _solver: (LoopEnd, PublisherEnd),
+    }
+
+    /// A control whose solver reads no commands, as during the build of the model.
+    fn bench() -> Bench {
+        let text = include_str!("../../config/default.yaml");
+        let config = Arc::new(Config::from_text("default.yaml", text).unwrap());
+        let gauges = Arc::new(Gauges::default());
+        let targets = Targets::new(config.simulation().initial_inputs);
+        let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
+        let (sender, updates) = channel();
+        let rig_inputs = RigInputs::new(&config.inputs, targets, Clocks::new(true));
+        Bench {
+            store: declare(&config, "default.yaml", false),
+            control: Control::new(commands, config, sender, rig_inputs, gauges),
+            updates,
+            _solver: (loop_end, publisher_end),
+        }
+    }
+
+    fn set(bench: &mut Bench, key: &str, value: f64) -> Result<Vec<Parameter>, Refusal> {
+        let parameter = Parameter {
+            name: key.into(),
+            value: ParameterValue::Double(value),
+        };
+        let control = Arc::clone(&bench.control);
+        bench
+            .store
+            .set_atomically(&[parameter], |store, changed| control.apply(store, changed, "a test"))
+    }
+
+    #[test]
+    fn a_managed_node_resumes_in_the_active_state_only() {
+        let control = bench().control;
+        let sent = || control.commands.lock().unwrap().sent;
+        for (commands, state) in [(1, "unconfigured"), (2, "inactive")] {
+            control.set_inactive(Some(state)).unwrap();
+            let refused = control.answer_pause(false);
+            assert!(
+                !refused.success && refused.message.contains(state) && refused.message.contains("activate"),
+                "{}",
+                refused.message
+            );
+            assert_eq!(sent(), commands, "a refused request reaches the solver");
+        }
+        assert!(control.answer_pause(true).success, "an inactive node may be paused");
+        control.set_inactive(None).unwrap();
+        assert!(control.answer_pause(true).success && control.answer_pause(false).success);
+        assert_eq!(sent(), 6);
+    }
+
+    /// A set that the queue has no room for is refused and changes nothing, since "successful" means that the values act.
+    #[test]
+    fn what_cannot_be_passed_on_is_refused_and_changes_nothing() {
+        let mut bench = bench();
+        let key = "contact.inner.friction_axial";
+        let friction = |number: u32| 0.2 + 1e-4 * f64::from(number);
+        let mut accepted = 0;
+        let refusal = loop {
+            match set(&mut bench, key, friction(accepted + 1)) {
+                Ok(_) => accepted += 1,
+                Err(refusal) => break refusal.to_string(),
+            }
+        };
+        // One command per set.
+        assert!(accepted >= 120, "{accepted}");
+        assert!(
+            refusal.contains("cannot be passed on") && refusal.contains("nothing was changed"),
+            "{refusal}"
+        );
+        assert_eq!(bench.store.number(key), Some(friction(accepted)));
+        assert_eq!(bench.control.config().contact.inner.friction_axial, friction(accepted));
+        let updates: Vec<ParameterUpdate> = bench.updates.try_iter().collect();
+        assert_eq!(updates.len(), accepted as usize);
+        for (number, change) in (1..).zip(&updates) {
+            assert_eq!(change.command, number);
+            let expected = ParameterChange {
+                name: key.to_owned(),
+                value: friction(number as u32),
+                asked_by: "a test".to_owned(),
+            };
+            assert_eq!(change.values, [expected]);
+        }
+    }
+
+    /// One call must not empty the recording, nor make the model of a silent rig rotate.
+    #[test]
+    fn no_parameter_takes_an_output_out_of_the_recording() {
+        use flexdrill_core::twin::Output;
+        let mut bench = bench();
+        for key in ["outputs.rates.status", "outputs.rates.diagnostics"] {
+            let refusal = set(&mut bench, key, 0.0).unwrap_err().to_string();
+            assert!(refusal.contains("must be 1 to 1000 Hz"), "{refusal}");
+        }
+        for (key, value) in [
+            ("inputs.rotary_speed.safe_rpm", 120.0),
+            ("inputs.weight_on_bit.safe_kn", 60.0),
+        ] {
+            let refusal = set(&mut bench, key, value).unwrap_err().to_string();
+            assert!(refusal.contains("must be at most 0"), "{refusal}");
+        }
+        for (key, output, rate) in [
+            ("outputs.rates.contact_forces", Output::ContactForces, 50.0),
+            ("outputs.rates.whirl", Output::Whirl, 10.0),
+        ] {
+            // The recording keeps its rate where the output is switched off or slowed down, and follows a higher rate.
+            for (live, recorded) in [(0.0, rate), (1.0, rate), (100.0, 100.0)] {
+                set(&mut bench, key, live).unwrap();
+                let sent = settings(&bench.control.config(), &bench.control.initial_rates);
+                assert_eq!(sent.schedule.rate(output, 0.5e-3), recorded, "{key} = {live} Hz");
+            }
+        }
+    }
+
+    #[test]
+    fn hard_limits_hold_for_every_client() {
+        let mut bench = bench();
+        let key = "inputs.rotary_speed.max_rpm";
+        let refusal = set(&mut bench, key, 1000.0).unwrap_err().to_string();
+        assert!(refusal.contains("inputs.hard_limits.max_rpm"), "{refusal}");
+        // The limit holds for several changes, too.
+        set(&mut bench, key, 300.0).unwrap();
+        let refusal = set(&mut bench, key, 300.5).unwrap_err().to_string();
+        assert!(refusal.contains("at most 300 r/min"), "{refusal}");
+        assert_eq!(bench.store.number(key), Some(300.0));
+        assert_eq!(bench.store.describe(key).floating_point_range[0].to_value, 300.0);
+        assert_eq!(bench.updates.try_iter().count(), 1);
+    }
+}

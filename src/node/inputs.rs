@@ -1,0 +1,138 @@
+//! The rig's inputs in the node: one owner of their state, which the receiving tasks and the publisher share.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::clocks::Clocks;
+use crate::rig_inputs::{Driver, DriverId, Intake, RigSample, SafeValueEvent, SampleRefused, SampleSource, stamped};
+use flexdrill_config::InputsConfig;
+use flexdrill_core::inputs::{InputKind, Stamp};
+use flexdrill_messages::RigInputs as RigInputsMessage;
+use flexdrill_realtime::link::Targets;
+
+/// Characters of a message's source that are kept, since every status carries them.
+const LONGEST_SOURCE: usize = 64;
+
+/// Conditions the samples of the rig into the targets of the solver. Its lock is held for moments only, and the solver
+/// never takes it.
+#[derive(Clone)]
+pub struct RigInputs {
+    intake: Arc<Mutex<Intake>>,
+    targets: Arc<Targets>,
+    clocks: Clocks,
+    max_skew: f64,
+}
+
+impl RigInputs {
+    /// Inputs that follow the rules of a configuration.
+    pub fn new(inputs: &InputsConfig, targets: Arc<Targets>, clocks: Clocks) -> Self {
+        Self {
+            intake: Arc::new(Mutex::new(Intake::new(inputs))),
+            targets,
+            clocks,
+            max_skew: inputs.stamp.max_skew,
+        }
+    }
+
+    /// A copy of the state of both inputs.
+    pub fn snapshot(&self) -> Intake {
+        self.locked().clone()
+    }
+
+    /// Adopts changed limits, ages and safe values.
+    pub fn set_rules(&self, inputs: &InputsConfig) {
+        self.locked().set_rules(inputs, self.clocks.age_time());
+    }
+
+    /// Adds what is known of a publisher.
+    pub fn describe(&self, driver: Driver) {
+        self.locked().describe(driver);
+    }
+
+    /// Whether node and host of a publisher are known.
+    pub fn is_described(&self, id: DriverId) -> bool {
+        self.locked().is_described(id)
+    }
+
+    /// Counts samples whose bytes are no message of their type.
+    pub fn count_unreadable(&self, kinds: &[InputKind]) {
+        self.locked().count_unreadable(kinds);
+    }
+
+    /// Counts samples that were dropped unread.
+    pub fn count_overrun(&self, kinds: &[InputKind], samples: u64) {
+        self.locked().count_overrun(kinds, samples);
+    }
+
+    /// Sets the solver's targets to the inputs of the present time.
+    pub fn update_targets(&self) {
+        let now = self.clocks.age_time();
+        let (inputs, quality) = {
+            let intake = self.locked();
+            (intake.conditioner().targets(now), intake.conditioner().quality(now))
+        };
+        self.targets.set(inputs, quality as u8);
+    }
+
+    /// Restarts the ages of the inputs, after the clock was set.
+    pub fn clock_set(&self) {
+        self.locked().clock_set(self.clocks.age_time());
+    }
+
+    /// Accepts a plain number of a publisher, or returns the refusal.
+    pub fn accept_plain(&self, kind: InputKind, value: f64, id: DriverId) -> Vec<SampleRefused> {
+        self.accept([(kind, value, None)], id)
+    }
+
+    /// Accepts a message with a stamp, and returns the refusals of its values.
+    pub fn accept_stamped(&self, message: &RigInputsMessage, id: DriverId) -> Vec<SampleRefused> {
+        let source = SampleSource {
+            name: message.source.chars().take(LONGEST_SOURCE).collect(),
+            suspect: stamped::is_suspect(message),
+        };
+        let values = stamped::values(message, self.clocks.stamp_time(), self.max_skew);
+        let samples = InputKind::ALL.into_iter().zip(values);
+        self.accept(
+            samples
+                .filter_map(|(kind, value)| value.map(|(value, stamp)| (kind, value, Some((stamp, source.clone()))))),
+            id,
+        )
+    }
+
+    fn accept(
+        &self,
+        samples: impl IntoIterator<Item = (InputKind, f64, Option<(Stamp, SampleSource)>)>,
+        id: DriverId,
+    ) -> Vec<SampleRefused> {
+        let time = self.clocks.age_time();
+        let refused = {
+            let mut intake = self.locked();
+            let samples = samples.into_iter().map(|(kind, value, stamp)| RigSample {
+                kind,
+                value,
+                id,
+                time,
+                stamp,
+            });
+            samples.filter_map(|sample| intake.accept(&sample).err()).collect()
+        };
+        self.update_targets();
+        refused
+    }
+
+    /// Logs the begin and the end of each input's ramp to its safe value.
+    pub fn log_safe_values(&self) {
+        let now = self.clocks.age_time();
+        for kind in InputKind::ALL {
+            let event = self.locked().safe_value_event(kind, now);
+            match event {
+                Some(SafeValueEvent::RampBegan(text)) => tracing::warn!("{text}"),
+                Some(SafeValueEvent::Recovered(text)) => tracing::info!("{text}"),
+                None => {}
+            }
+        }
+    }
+
+    fn locked(&self) -> MutexGuard<'_, Intake> {
+        self.intake.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

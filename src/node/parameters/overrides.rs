@@ -1,0 +1,171 @@
+//! Parameters that are given at the start, by `-p` or a parameter file.
+
+use flexdrill_ros2::parameters::ParameterValue;
+
+use super::configured::to_json;
+use super::live::{CONFIG_FILE, USE_SIM_TIME};
+use flexdrill_config::{Config, ConfigError};
+use flexdrill_ros2::args::Override;
+use flexdrill_ros2::args::value::show;
+
+/// Why a parameter given at the start is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum OverrideError {
+    /// No such parameter.
+    #[error(
+        "{origin}: there is no parameter '{name}'; the parameters are the keys of the configuration (`flexdrill check CONFIG --full`) and use_sim_time"
+    )]
+    Unknown {
+        /// Dotted name of the parameter.
+        name: String,
+        /// Where it was given.
+        origin: String,
+    },
+    /// Wrong type.
+    #[error("{origin}: '{name}' = {value}: {why}")]
+    Value {
+        /// Dotted name of the parameter.
+        name: String,
+        /// Value, as it was given.
+        value: String,
+        /// Where it was given.
+        origin: String,
+        /// What is wrong.
+        why: String,
+    },
+    /// The configuration does not make sense with it.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+}
+
+/// What the start's overrides come to.
+#[derive(Debug)]
+pub struct Started {
+    /// The configuration with the overrides.
+    pub config: Config,
+    /// Whether `/clock` paces the model.
+    pub use_sim_time: bool,
+}
+
+/// The configuration that the overrides of a node name, with where they do.
+///
+/// # Errors
+/// When it is no path.
+pub fn config_file(overrides: &[Override]) -> Result<Option<(&str, &str)>, OverrideError> {
+    let Some(given) = overrides.iter().find(|given| given.name == CONFIG_FILE) else {
+        return Ok(None);
+    };
+    match &given.value {
+        ParameterValue::String(path) if !path.is_empty() => Ok(Some((path, &given.origin))),
+        other => Err(OverrideError::Value {
+            name: given.name.clone(),
+            value: show(other),
+            origin: given.origin.clone(),
+            why: "give the path of a configuration (YAML)".to_owned(),
+        }),
+    }
+}
+
+/// Applies the overrides of a node to a configuration, all at once.
+///
+/// # Errors
+/// When a parameter does not exist, has the wrong type, or the configuration does not make sense with it.
+pub fn apply_overrides(config: &Config, overrides: &[Override]) -> Result<Started, OverrideError> {
+    let mut use_sim_time = false;
+    let mut values = Vec::new();
+    for Override {
+        name, value, origin, ..
+    } in overrides
+    {
+        let wrong = |why: &str| OverrideError::Value {
+            name: name.clone(),
+            value: show(value),
+            origin: origin.clone(),
+            why: why.to_owned(),
+        };
+        match (name.as_str(), value) {
+            (USE_SIM_TIME, ParameterValue::Boolean(on)) => use_sim_time = *on,
+            (USE_SIM_TIME, _) => return Err(wrong("use true or false")),
+            // The configuration was read from it: see `config_file`.
+            (CONFIG_FILE, _) => {}
+            // rclcpp's own are in every file that `ros2 param dump` writes.
+            (name, _) if name.starts_with("qos_overrides.") || name == "start_type_description_service" => {}
+            (key, value) => values.push((
+                key.to_owned(),
+                to_json(value).ok_or_else(|| wrong("this type is not used"))?,
+            )),
+        }
+    }
+    for (key, _) in &values {
+        if !config.has(key) {
+            let origin = overrides
+                .iter()
+                .find(|o| o.name == *key)
+                .map(|o| o.origin.clone())
+                .unwrap_or_default();
+            return Err(OverrideError::Unknown {
+                name: key.clone(),
+                origin,
+            });
+        }
+    }
+    Ok(Started {
+        config: config.with_values("parameters", values)?,
+        use_sim_time,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn config() -> Config {
+        Config::from_text("default.yaml", include_str!("../../../config/default.yaml")).unwrap()
+    }
+
+    fn over(name: &str, value: ParameterValue) -> Override {
+        Override {
+            node: "/**".into(),
+            name: name.into(),
+            value,
+            origin: format!("-p {name}"),
+        }
+    }
+
+    #[test]
+    fn the_start_takes_any_key_of_the_configuration() {
+        let overrides = [
+            over("tool.links", ParameterValue::Integer(20)),
+            over("inputs.rotary_speed.initial_rpm", ParameterValue::Integer(40)),
+            over("use_sim_time", ParameterValue::Boolean(true)),
+            over("qos_overrides./clock.depth", ParameterValue::Integer(1)),
+            over("config_file", ParameterValue::String("rig_7.yaml".into())),
+        ];
+        assert_eq!(config_file(&overrides).unwrap(), Some(("rig_7.yaml", "-p config_file")));
+        let started = apply_overrides(&config(), &overrides).unwrap();
+        assert_eq!(started.config.tool.links, 20);
+        assert_eq!(started.config.inputs.rotary_speed.initial_rpm, 40.0);
+        assert!(started.use_sim_time);
+        assert_ne!(started.config.hash(), config().hash());
+    }
+
+    #[test]
+    fn wrong_overrides_are_explained() {
+        let error = |name: &str, value| {
+            apply_overrides(&config(), &[over(name, value)])
+                .unwrap_err()
+                .to_string()
+        };
+        let number = [over("config_file", ParameterValue::Integer(3))];
+        let refused = config_file(&number).unwrap_err().to_string();
+        assert!(refused.contains("'config_file' = 3"), "{refused}");
+        assert!(error("tool.link", ParameterValue::Integer(3)).contains("'tool.link'"));
+        assert!(error("tool.links", ParameterValue::String("many".into())).contains("must be a number"));
+        assert!(error("tool.links", ParameterValue::Double(2.5)).contains("2.5"));
+        assert!(error("use_sim_time", ParameterValue::Integer(1)).contains("true or false"));
+        assert!(
+            error("contact.inner.friction_axial", ParameterValue::Double(-1.0))
+                .contains("contact.inner.friction_axial = -1")
+        );
+    }
+}

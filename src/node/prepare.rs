@@ -1,0 +1,345 @@
+//! The first stages of a run: a node is prepared, then started.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc::{Receiver, channel};
+
+use tokio::sync::{Notify, oneshot};
+use tokio::task::JoinSet;
+
+use super::alarms::{self, AlarmDesk, AlarmRequest};
+use super::clocks::Clocks;
+use super::control::{self, Control, ParameterUpdate};
+use super::inputs::RigInputs;
+use super::publish::{Publisher, PublisherParts};
+use super::publishers::Publishers;
+use super::receive::{self, SampleReceiver};
+use super::received::{self, ReceivedQueue, ReceivedSender};
+use super::running::RunningNode;
+use super::viewers::{self, Viewers};
+use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters};
+use crate::bag::{RecordingThread, Topic};
+use crate::live::{Hub, LiveServer, Steering};
+use crate::rig_inputs::Driver;
+use flexdrill_config::Config;
+use flexdrill_core::inputs::InputKind;
+use flexdrill_core::twin::{BuildError, Run, Simulation};
+use flexdrill_messages::outputs;
+use flexdrill_messages::topics::{self, TopicInfo};
+use flexdrill_realtime::clock::{SimulatedClock, WallClock};
+use flexdrill_realtime::link::{Gauges, LoopEnd, PublisherEnd, Targets, link};
+use flexdrill_realtime::{INPUT_PERIOD, RealTimeLoop, monotonic};
+use flexdrill_ros2::dds::port::{Inbox, PortBuilder, Sample};
+use flexdrill_ros2::parameters::Parameters;
+use flexdrill_ros2::service::Task;
+use flexdrill_ros2::{loggers, logging, type_description};
+
+/// A node whose names and files are checked and whose endpoints are declared. Nothing runs yet, and nothing is on the
+/// network or the disk.
+pub(super) struct PreparedNode {
+    setup: NodeSetup,
+    config: Arc<Config>,
+    port: PortBuilder,
+    publishers: Publishers,
+    clocks: Clocks,
+    gauges: Arc<Gauges>,
+    loop_end: LoopEnd,
+    publisher_end: PublisherEnd,
+    inputs: RigInputs,
+    parameters: Arc<Parameters>,
+    parameter_updates: Receiver<ParameterUpdate>,
+    alarm_requests: Receiver<AlarmRequest>,
+    /// Services and `/clock`.
+    tasks: Vec<Task>,
+    plain_samples: [(InputKind, Arc<Inbox<Sample>>); 2],
+    stamped_samples: Arc<Inbox<Sample>>,
+    received: (ReceivedSender, ReceivedQueue),
+    /// What viewers may steer; none without viewers.
+    viewers: Option<Arc<Viewers>>,
+    checkpoint: Option<Vec<u8>>,
+    /// Notified when a managed node is shut down by its service.
+    shut_down: Arc<Notify>,
+}
+
+impl PreparedNode {
+    /// Prepares a node.
+    ///
+    /// # Errors
+    /// When a name is not allowed or the checkpoint cannot be read.
+    pub(super) fn new(setup: NodeSetup) -> Result<Self, NodeError> {
+        let checkpoint = setup.checkpoint.as_ref().map(read_checkpoint).transpose()?;
+        let config = Arc::new(setup.config.clone());
+        let node_name = setup.identity.full_name();
+        let mut port = PortBuilder::new(&setup.network, &setup.identity.namespace, &setup.identity.name);
+        if setup.rosout {
+            logging::connect(&mut port, &node_name);
+        }
+        let publishers = Publishers::new(&mut port, &config, &setup.identity, &setup.remapping)?;
+
+        let clocks = Clocks::new(setup.use_sim_time);
+        let targets = Targets::new(config.simulation().initial_inputs);
+        let gauges = Arc::new(Gauges::default());
+        let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
+        let inputs = RigInputs::new(&config.inputs, targets, clocks.clone());
+
+        let (update_sender, parameter_updates) = channel();
+        let control = Control::new(
+            commands,
+            Arc::clone(&config),
+            update_sender,
+            inputs.clone(),
+            Arc::clone(&gauges),
+        );
+        let applying = Arc::clone(&control);
+        let parameters = Parameters::new(
+            &mut port,
+            node_name.clone(),
+            parameters::declare(&config, &setup.config_file, setup.use_sim_time),
+            Box::new(move |candidate, changed, requester| applying.apply(candidate, changed, requester)),
+            |client| Driver::from(client).to_string(),
+        );
+
+        let mapping = setup.mapping;
+        let service_name = |name: &str| setup.service_name(name);
+        let mut tasks = flexdrill_ros2::parameters::serve(&mut port, mapping, &parameters);
+        tasks.extend(loggers::serve(&mut port, mapping, &node_name));
+        tasks.push(Box::pin(type_description::serve(&mut port, mapping, &node_name)));
+        tasks.extend(control::serve(&mut port, mapping, &control, service_name)?);
+        let (request_sender, alarm_requests) = channel();
+        tasks.extend(alarms::serve(&mut port, mapping, &request_sender, service_name)?);
+        let shut_down = Arc::new(Notify::new());
+        if setup.lifecycle {
+            tasks.extend(lifecycle::serve(
+                &mut port,
+                mapping,
+                &control,
+                &shut_down,
+                service_name,
+            )?);
+        }
+
+        let mut subscribe = |topic: &TopicInfo| -> Result<(String, Arc<Inbox<Sample>>), NodeError> {
+            let name = setup.topic_name(topic)?;
+            let samples = port.subscription(&name, topic.kind.dds_type, false);
+            Ok((name, samples))
+        };
+        let (speed_name, speed) = subscribe(&topics::ROTARY_SPEED_RPM)?;
+        let (weight_name, weight) = subscribe(&topics::WEIGHT_ON_BIT_KN)?;
+        let (stamped_name, stamped) = subscribe(&topics::RIG_INPUTS)?;
+        if let Some(newest) = clocks.simulated() {
+            let (_, ticks) = subscribe(&topics::CLOCK)?;
+            tasks.push(Box::pin(clock_topic::follow(inputs.clone(), ticks, Arc::clone(newest))));
+        }
+        let viewers = setup.live.is_some().then(|| {
+            let steered = vec![
+                viewers::input(&topics::ROTARY_SPEED_RPM, speed_name, &speed),
+                viewers::input(&topics::WEIGHT_ON_BIT_KN, weight_name, &weight),
+                viewers::input(&topics::RIG_INPUTS, stamped_name, &stamped),
+            ];
+            Viewers::new(&port, &parameters, &inputs, steered)
+        });
+        Ok(Self {
+            config,
+            port,
+            publishers,
+            clocks,
+            gauges,
+            loop_end,
+            publisher_end,
+            inputs,
+            parameters,
+            parameter_updates,
+            alarm_requests,
+            tasks,
+            plain_samples: [(InputKind::RotarySpeed, speed), (InputKind::WeightOnBit, weight)],
+            stamped_samples: stamped,
+            received: received::queue(),
+            viewers,
+            checkpoint,
+            shut_down,
+            setup,
+        })
+    }
+
+    /// Starts the recording, the live server, DDS, the tasks, the publisher and, last, the solver, which needs all of
+    /// them.
+    ///
+    /// # Errors
+    /// When one of them cannot be started.
+    pub(super) async fn start(self) -> Result<RunningNode, NodeError> {
+        let setup = self.setup;
+        let topic_name = |topic: &TopicInfo| topic_name(&setup, topic);
+        let recording = match &setup.record {
+            Some(path) => Some(RecordingThread::start(path, topic_name)?),
+            None => None,
+        };
+        let live = match (&setup.live, self.viewers) {
+            (Some(at), Some(viewers)) => Some(start_live(at, topic_name, viewers)?),
+            _ => None,
+        };
+        let port = self.port;
+        let port = tokio::task::spawn_blocking(move || port.start())
+            .await
+            .map_err(|error| NodeError::Stopped(error.to_string()))??;
+
+        let mut tasks = JoinSet::new();
+        for task in self.tasks {
+            tasks.spawn(task);
+        }
+        let (record, received) = self.received;
+        let receiver = || SampleReceiver {
+            inputs: self.inputs.clone(),
+            dds: port.monitor(),
+            record: (recording.is_some() || live.is_some()).then(|| record.clone()),
+        };
+        for (kind, samples) in self.plain_samples {
+            tasks.spawn(receive::receive_plain(receiver(), kind, samples));
+        }
+        tasks.spawn(receive::receive_stamped(receiver(), self.stamped_samples));
+        tasks.spawn(receive::update_targets(self.inputs.clone()));
+
+        let finish = Arc::new(AtomicBool::new(false));
+        let alarms = AlarmDesk::new(
+            Arc::clone(&self.config),
+            setup.alarm_state.as_deref(),
+            self.alarm_requests,
+            self.clocks.rig_time(),
+        );
+        let publisher = Publisher::new(PublisherParts {
+            end: self.publisher_end,
+            publishers: self.publishers,
+            recording,
+            live,
+            received,
+            parameter_updates: self.parameter_updates,
+            config: Arc::clone(&self.config),
+            gauges: Arc::clone(&self.gauges),
+            alarms,
+            inputs: self.inputs,
+            clocks: self.clocks.clone(),
+            dds: port.monitor(),
+            node_name: setup.identity.full_name(),
+            finish: Arc::clone(&finish),
+        })
+        .map_err(|error| NodeError::Stopped(error.to_string()))?;
+        let publisher_thread = spawn("publisher", move || publisher.run())?;
+
+        let (built_sender, built) = oneshot::channel();
+        let time_step = self.config.solver.time_step;
+        let solver = Solver {
+            config: self.config,
+            checkpoint: self.checkpoint,
+            clocks: self.clocks,
+            loop_end: self.loop_end,
+        };
+        let solver_thread = spawn("solver", move || solver.run(built_sender))?;
+        Ok(RunningNode {
+            port,
+            tasks,
+            parameters: self.parameters,
+            gauges: self.gauges,
+            publisher_thread,
+            solver_thread,
+            built: Some(built),
+            finish,
+            shut_down: self.shut_down,
+            time_step,
+            duration: setup.duration,
+        })
+    }
+}
+
+/// The name of a topic. [`Publishers::new`] and the subscriptions have refused every wrong one before.
+fn topic_name(setup: &NodeSetup, topic: &TopicInfo) -> String {
+    setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned())
+}
+
+fn read_checkpoint(path: &PathBuf) -> Result<Vec<u8>, NodeError> {
+    std::fs::read(path).map_err(|source| NodeError::Checkpoint {
+        path: path.clone(),
+        why: source.to_string(),
+    })
+}
+
+/// Starts the server for viewers; those with the token may steer.
+fn start_live(
+    at: &LiveAddress,
+    topic_name: impl Fn(&TopicInfo) -> String,
+    viewers: Arc<Viewers>,
+) -> Result<LiveServer, NodeError> {
+    let offered: Vec<Topic> = topics::ALL
+        .iter()
+        .map(|topic| Topic::new(topic_name(topic), &topic.kind, topic.qos))
+        .collect();
+    let hub = Hub::new(&offered);
+    let steering = at.token.as_ref().map(|token| {
+        let steering = Steering::new(Arc::clone(&viewers) as _);
+        viewers.publish_changes(&steering);
+        (token.clone(), steering)
+    });
+    let steers = steering.is_some();
+    let live = LiveServer::start("--foxglove", at.address, hub, &at.origins, steering)?;
+    tracing::info!("live at ws://{} for Foxglove and Lichtblick", live.address());
+    if steers && !live.address().ip().is_loopback() {
+        tracing::warn!(
+            "--foxglove {} --allow-control: every client with the token can steer from any machine that reaches this \
+             address, and the token is sent unencrypted; put a proxy with TLS in front",
+            live.address()
+        );
+    }
+    Ok(live)
+}
+
+/// What the solver's thread runs.
+struct Solver {
+    config: Arc<Config>,
+    checkpoint: Option<Vec<u8>>,
+    clocks: Clocks,
+    loop_end: LoopEnd,
+}
+
+impl Solver {
+    /// Builds the model, reports whether that succeeded, and runs it until it is stopped.
+    fn run(self, built: oneshot::Sender<Result<(), BuildError>>) {
+        let run = match self.build() {
+            Ok(run) => run,
+            Err(error) => return drop(built.send(Err(error))),
+        };
+        // Nobody waits for the result where the node ends during the build.
+        let _ = built.send(Ok(()));
+        let steps_per_period = (INPUT_PERIOD / self.config.solver.time_step).round().max(1.0) as u64;
+        match self.clocks.simulated() {
+            Some(newest) => {
+                let clock = SimulatedClock::new(Arc::clone(newest));
+                RealTimeLoop::new(run, clock, self.loop_end, steps_per_period).run();
+            }
+            None => RealTimeLoop::new(run, WallClock, self.loop_end, steps_per_period).run(),
+        }
+    }
+
+    fn build(&self) -> Result<Run, BuildError> {
+        let began = std::time::Instant::now();
+        let mut simulation = Simulation::new(&self.config.tool(), &self.config.simulation())?;
+        if let Some(bytes) = &self.checkpoint {
+            simulation.restore(bytes)?;
+        }
+        simulation.set_clock(monotonic::now);
+        tracing::info!(
+            "the tool is at its start after {:.1} s; model time runs",
+            began.elapsed().as_secs_f64()
+        );
+        let schedule = outputs::schedule(&self.config, &self.config.outputs.rates);
+        Ok(Run::new(simulation, schedule))
+    }
+}
+
+fn spawn<T: Send + 'static>(
+    name: &str,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Result<std::thread::JoinHandle<T>, NodeError> {
+    std::thread::Builder::new()
+        .name(name.to_owned())
+        .spawn(work)
+        .map_err(|error| NodeError::Stopped(format!("the {name}'s thread could not be started: {error}")))
+}

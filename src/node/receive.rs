@@ -1,0 +1,186 @@
+//! The tasks that receive the rig's samples. How samples are judged is [`crate::rig_inputs`].
+
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::inputs::RigInputs;
+use super::received::{Received, ReceivedSender, plain_topic};
+use crate::rig_inputs::{Driver, DriverId, SampleRefused};
+use flexdrill_core::inputs::InputKind;
+use flexdrill_messages::std_msgs::Float64;
+use flexdrill_messages::topics::{self, TopicInfo};
+use flexdrill_messages::{Message, from_cdr_body};
+use flexdrill_realtime::monotonic;
+use flexdrill_ros2::dds::frames::Peer;
+use flexdrill_ros2::dds::plan::Guid;
+use flexdrill_ros2::dds::port::{Inbox, Monitor, Sample};
+use flexdrill_text::{Throttle, Throttles};
+
+/// How often the targets follow the ages of the inputs.
+const UPDATE_INTERVAL: Duration = Duration::from_millis(10);
+/// Least time between two log lines about samples of one input (s).
+const LOG_INTERVAL: f64 = 2.0;
+/// Least time between two questions to discovery about a publisher that it does not fully know (s): the announcement may
+/// come after the first sample.
+const QUERY_INTERVAL: f64 = 1.0;
+/// Most publishers for which the time of the last question is kept.
+const MOST_QUERIED: usize = 64;
+
+/// Receives samples: their path from a topic to the inputs and the recording.
+pub struct SampleReceiver {
+    /// The inputs.
+    pub inputs: RigInputs,
+    /// Discovery, which knows the publishers.
+    pub dds: Monitor,
+    /// The queue to the recording and the viewers, if there are any.
+    pub record: Option<ReceivedSender>,
+}
+
+impl SampleReceiver {
+    /// Asks discovery about a publisher whose node or host is not known yet.
+    fn query_publisher(&self, id: DriverId, queried: &mut HashMap<DriverId, f64>) {
+        let now = monotonic::now() as f64 * 1e-9;
+        if self.inputs.is_described(id) || queried.get(&id).is_some_and(|last| now - last < QUERY_INTERVAL) {
+            return;
+        }
+        if queried.len() > MOST_QUERIED {
+            queried.clear();
+        }
+        queried.insert(id, now);
+        let peer = self.dds.writers().into_iter().flatten().find(|peer| peer.id == id.0);
+        self.inputs
+            .describe(peer.map_or_else(|| Driver::unknown(id), Driver::from));
+    }
+
+    fn record(&self, received: Received) {
+        if let Some(record) = &self.record {
+            record.send(received);
+        }
+    }
+
+    fn count_overrun(&self, topic: &TopicInfo, kinds: &[InputKind], samples: u64) {
+        self.inputs.count_overrun(kinds, samples);
+        if let Some(record) = &self.record {
+            record.miss(topic, samples);
+        }
+    }
+}
+
+impl From<Peer> for Driver {
+    fn from(peer: Peer) -> Self {
+        Self {
+            id: DriverId(peer.id),
+            node: peer.node,
+            host: peer.address,
+        }
+    }
+}
+
+/// Receives the samples of one topic for as long as it is polled. `accept` judges a message and returns the refusals;
+/// `kinds` are the inputs that the topic carries.
+async fn receive<M: Message>(
+    receiver: SampleReceiver,
+    topic: &'static TopicInfo,
+    kinds: &'static [InputKind],
+    samples: &Inbox<Sample>,
+    accept: impl Fn(&SampleReceiver, M, DriverId) -> Vec<SampleRefused>,
+) {
+    let mut refused_lines = Throttles::new(LOG_INTERVAL);
+    let mut unreadable_lines = Throttle::new(LOG_INTERVAL);
+    let mut overrun_lines = Throttle::new(LOG_INTERVAL);
+    let mut queried = HashMap::new();
+    let mut dropped = 0;
+    loop {
+        let sample = samples.next().await;
+        let clock = monotonic::now() as f64 * 1e-9;
+        let before = std::mem::replace(&mut dropped, samples.dropped());
+        if dropped > before {
+            receiver.count_overrun(topic, kinds, dropped - before);
+            if let Some(more) = overrun_lines.ending(clock) {
+                tracing::warn!(
+                    "{}: {} samples came faster than the node reads them and were dropped; check whether a publisher floods \
+                     the topic{more}",
+                    topic.name,
+                    dropped - before
+                );
+            }
+        }
+        let (message, id) = match decode(sample) {
+            Ok((message, writer)) => (message, DriverId(writer)),
+            Err(error) => {
+                receiver.inputs.count_unreadable(kinds);
+                if let Some(more) = unreadable_lines.ending(clock) {
+                    tracing::warn!("{}: a sample could not be read: {error}{more}", topic.name);
+                }
+                continue;
+            }
+        };
+        receiver.query_publisher(id, &mut queried);
+        for refused in accept(&receiver, message, id) {
+            let cause = match &refused {
+                SampleRefused::Driver(_) => usize::MAX,
+                SampleRefused::Value(rejection) => rejection.reason.index(),
+            };
+            if let Some(more) = refused_lines.ending(cause, clock) {
+                tracing::warn!("{refused}{more}");
+            }
+        }
+    }
+}
+
+/// The message of a sample, and its writer.
+pub(super) fn decode<M: Message>(sample: Sample) -> Result<(M, Guid), String> {
+    match sample {
+        Sample::Body { writer, body } => from_cdr_body(&body)
+            .map(|(message, _)| (message, writer))
+            .map_err(|error| error.to_string()),
+        Sample::Unreadable(why) => Err(why),
+    }
+}
+
+/// Receives the plain numbers of one input for as long as it is polled.
+pub async fn receive_plain(receiver: SampleReceiver, kind: InputKind, samples: Arc<Inbox<Sample>>) {
+    let kinds = match kind {
+        InputKind::RotarySpeed => &InputKind::ALL[..1],
+        InputKind::WeightOnBit => &InputKind::ALL[1..],
+    };
+    receive(
+        receiver,
+        plain_topic(kind),
+        kinds,
+        &samples,
+        move |receiver, Float64 { data: value }, id| {
+            receiver.record(Received::Plain { kind, value });
+            receiver.inputs.accept_plain(kind, value, id)
+        },
+    )
+    .await;
+}
+
+/// Receives the messages on `rig/inputs` for as long as it is polled.
+pub async fn receive_stamped(receiver: SampleReceiver, samples: Arc<Inbox<Sample>>) {
+    receive(
+        receiver,
+        &topics::RIG_INPUTS,
+        &InputKind::ALL,
+        &samples,
+        |receiver, message, id| {
+            let refused = receiver.inputs.accept_stamped(&message, id);
+            receiver.record(Received::Stamped(message));
+            refused
+        },
+    )
+    .await;
+}
+
+/// Updates the targets also while no sample comes, so that inputs age, hold and ramp to their safe values.
+pub async fn update_targets(inputs: RigInputs) {
+    let mut tick = tokio::time::interval(UPDATE_INTERVAL);
+    tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    loop {
+        tick.tick().await;
+        inputs.update_targets();
+        inputs.log_safe_values();
+    }
+}
