@@ -73,7 +73,7 @@ fn a_client_is_served_once_per_call_whatever_restarts() {
         let reply = client.call("/flexdrill/reset", "std_srvs/srv/Trigger", json!({}));
         assert_eq!(reply["success"], true, "{reply}");
     };
-    let resets = |twin: &mut Program| twin.said().matches("reset: the model goes back").count();
+    let resets = |twin: &mut Program| twin.said().matches("reset: the model returns").count();
     reset(&mut client);
     for restarts in 1..=2 {
         signal_id(twin.dds_process(), "KILL");

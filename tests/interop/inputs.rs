@@ -223,7 +223,7 @@ fn samples_that_come_faster_than_they_are_taken_are_counted_and_told() {
     );
     assert_eq!(received(&status).map(f64::round), Some(40.0), "the newest acts");
     assert_eq!(status["dds_restarts"], 0, "{}", status["dds_restart_cause"]);
-    let line = twin.wait_for("came faster than they were taken");
+    let line = twin.wait_for("came faster than the node reads them");
     assert!(line.contains("rig/rotary_speed_rpm: "), "{line}");
     let deadline = Instant::now() + Duration::from_secs(10);
     loop {

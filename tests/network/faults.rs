@@ -118,7 +118,7 @@ fn requests_are_carried_out_once_whatever_restarts() {
     let Some(network) = Network::new() else { return };
     let Some(mut peer) = network.peer() else { return };
     let start = || {
-        let mut twin = network.twin(&["--ros-args", "--log-level", "flexdrill::dds:=debug"]);
+        let mut twin = network.twin(&["--ros-args", "--log-level", "flexdrill_ros2::dds:=debug"]);
         twin.wait_for("model time runs");
         twin
     };
@@ -126,7 +126,7 @@ fn requests_are_carried_out_once_whatever_restarts() {
         let reply = peer.call_as_rmw_cyclone("/flexdrill/reset", "std_srvs/srv/Trigger", json!({}));
         assert_eq!(reply["success"], true, "{reply}");
     };
-    let resets = |twin: &mut Program| twin.said().matches("reset: the model goes back").count();
+    let resets = |twin: &mut Program| twin.said().matches("reset: the model returns").count();
     let mut twin = start();
     peer.subscribe(STATUS.0, STATUS.1, "reliable");
     back_after(&mut peer, 0);

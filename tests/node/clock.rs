@@ -112,7 +112,7 @@ fn a_forged_clock_moves_no_stamp_and_one_that_was_believed_is_left_again() {
     assert!((BEGIN..=time).contains(&stamp(&status)), "{} at {time}", stamp(&status));
     assert_eq!(status["steps_skipped"], 0, "{status}");
     assert!(
-        twin.said().contains("is ignored until only such have come"),
+        twin.said().contains("is ignored until all messages agree on it"),
         "{}",
         twin.said()
     );
