@@ -4,21 +4,18 @@
 //! joins it to the rig.
 //!
 //! # Layout
-//! What touches the world. Each folder may use those below it; never those above.
+//! Each room may use those below it, never those above.
 //!
 //! - [`cli`]: the subcommands, a file or folder each.
-//! - [`dashboard`]: the page at the rig, its server, and steering from it.
-//! - [`ros`]: the node, its parameters and services, in the message types of ros2-client.
-//! - [`health`]: status and diagnostics of the node. [`alarms`]: what the motion and the node's state mean for an operator.
-//! - [`live`]: what is published, over WebSocket in Foxglove's protocol, from the node or a bag. [`report`]: a recording as
-//!   one page.
-//! - [`bag`]: recordings; the only module that knows MCAP and SQLite. [`field_log`]: CSV logs of a rig.
-//! - [`rig_inputs`]: who sends the rig's inputs, when they were measured, and what is refused.
-//! - [`dds`]: RustDDS and ros2-client's DDS side, in a process of their own.
+//! - [`dashboard`]: the rig page's server, and steering from the page.
+//! - [`node`]: the ROS 2 node: its stages, threads, services and parameters.
+//! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for an
+//!   operator.
+//! - [`rig_inputs`]: publishers, age and validity of the rig's inputs.
 //!
-//! Below them, as crates of their own: [`flexdrill_messages`] (the ROS 2 messages, here also as `messages`),
-//! [`flexdrill_text`], `flexdrill-paper`, `flexdrill-plot`, `flexdrill-verify`, `flexdrill-alarms`,
-//! [`flexdrill_config`], [`flexdrill_realtime`] and [`flexdrill_core`], the mechanics. `docs/architecture.md` draws the house.
+//! Below them are crates, some of them also under a short name here: [`flexdrill_report`], [`flexdrill_live`],
+//! [`flexdrill_bag`], [`flexdrill_field_log`], [`flexdrill_ros2`], [`flexdrill_messages`], [`flexdrill_text`], and the
+//! mechanics with what surrounds it. `docs/architecture.md` draws the house.
 
 pub mod alarms;
 pub mod cli;
