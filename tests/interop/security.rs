@@ -89,7 +89,7 @@ fn who_has_keys_reads_and_drives_and_others_do_neither() {
     assert!(heard.status.success(), "{}", String::from_utf8_lossy(&heard.stderr));
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
-    assert!(!twin.said().contains("DDS is started again"), "{}", twin.said());
+    assert!(!twin.said().contains("DDS is restarted"), "{}", twin.said());
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn dds_stopped_killed_or_interrupted_is_back_and_nothing_is_missing() {
     let (status, seconds) = back_after(&mut peer, 2);
     assert!(seconds < BACK, "back after {seconds} s");
     let cause = status["dds_restart_cause"].as_str().unwrap();
-    assert!(cause.contains("has said nothing for"), "{cause}");
+    assert!(cause.contains("has not reported for"), "{cause}");
 
     // Killed.
     signal_id(twin.dds_process(), "KILL");
@@ -107,7 +107,7 @@ fn dds_stopped_killed_or_interrupted_is_back_and_nothing_is_missing() {
     let seconds = began.elapsed().as_secs_f64();
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
-    assert!(twin.said().contains("DDS is started again"));
+    assert!(twin.said().contains("DDS is restarted"));
     is_complete(&recording, seconds - 1.0);
 }
 

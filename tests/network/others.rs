@@ -132,7 +132,7 @@ fn on_this_machine_alone_and_without_multicast_it_stays_up() {
     std::thread::sleep(Duration::from_secs(8));
     let heard = local(&["watch", "--plain", "--duration", "2"]).output().unwrap();
     assert!(heard.status.success(), "{}", String::from_utf8_lossy(&heard.stderr));
-    assert!(!twin.said().contains("DDS is started again"), "{}", twin.said());
+    assert!(!twin.said().contains("DDS is restarted"), "{}", twin.said());
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
 }

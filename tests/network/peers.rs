@@ -79,7 +79,7 @@ fn end(mut twin: Program) {
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
     let said = twin.said();
-    assert!(!said.contains("DDS is started again"), "{said}");
+    assert!(!said.contains("DDS is restarted"), "{said}");
 }
 
 #[test]

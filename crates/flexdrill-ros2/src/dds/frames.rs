@@ -1,4 +1,5 @@
-//! What goes over the socket between the node and its DDS process: a length of four bytes, then a value as postcard.
+//! The protocol on the socket between the node and its DDS process. A frame is a length of four bytes and a value as
+//! postcard.
 
 use std::io::{self, Read, Write};
 
@@ -13,7 +14,7 @@ pub const MOST_BYTES: usize = 16 << 20;
 /// To the DDS process.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum ToSide {
-    /// Set this up; the first frame.
+    /// Create these endpoints. This is the first frame.
     Begin(Plan),
     /// Publish a CDR body.
     Publish {
@@ -27,13 +28,13 @@ pub enum ToSide {
     Reply {
         /// Number of the service in the plan.
         service: u16,
-        /// As it came with the request.
+        /// The ticket of the request.
         ticket: u64,
         /// Without the CDR header.
         #[serde(with = "serde_bytes")]
         body: Vec<u8>,
     },
-    /// Leave the network in order, and end.
+    /// Leave the network, and end.
     End,
 }
 
@@ -42,97 +43,97 @@ pub enum ToSide {
 pub enum FromSide {
     /// All endpoints exist.
     Up(GuidPrefix),
-    /// It ends, and why.
+    /// The process ends, for this reason.
     Failed(String),
     /// A sample was received.
     Sample {
         /// Number of the reader in the plan.
         reader: u16,
-        /// Who wrote it.
+        /// Its writer.
         writer: Guid,
         /// The CDR body, as little endian.
         #[serde(with = "serde_bytes")]
         body: Vec<u8>,
     },
-    /// A sample was received that is no sample.
+    /// A sample was received that cannot be decoded.
     Unreadable {
         /// Number of the reader in the plan.
         reader: u16,
-        /// Why.
+        /// The reason.
         why: String,
     },
     /// A request was received.
     Request {
         /// Number of the service in the plan.
         service: u16,
-        /// Goes back with the reply.
+        /// Returned with the reply.
         ticket: u64,
-        /// Who asks.
+        /// The client.
         client: Peer,
         /// Number of the request among all of its writer's.
         sequence: i64,
-        /// When it was sent, by the client's clock (ns since 1970); none where the client does not say.
+        /// When it was sent, by the client's clock (ns since 1970); none where the request does not state it.
         sent: Option<i64>,
         /// The CDR body.
         #[serde(with = "serde_bytes")]
         body: Vec<u8>,
     },
-    /// DDS itself is alive: a sample has just gone through it.
+    /// DDS works: a sample has just passed through it.
     Beat(Beat),
-    /// Who is out there has changed.
+    /// The endpoints of other programs have changed.
     Peers(Peers),
     /// A line for the log.
     Log {
-        /// How bad.
+        /// Its severity.
         level: LogLevel,
-        /// What.
+        /// Its text.
         text: String,
     },
-    /// Readers do not take what they asked for; their topic was offered anew.
+    /// Reliable readers do not acknowledge samples; the writer of their topic was replaced.
     Stalled(Stall),
 }
 
 /// Severity of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LogLevel {
-    /// Something does not work.
+    /// A function has failed.
     Error,
-    /// Something may not work as meant.
+    /// A function may not work as intended.
     Warning,
-    /// Good to know.
+    /// Information.
     Info,
-    /// For who looks for a cause.
+    /// Details for the search of a cause.
     Debug,
 }
 
-/// What the DDS process has done since it was started.
+/// The work of the DDS process since it was started.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Beat {
-    /// Per writer: samples taken by DDS, and samples refused.
+    /// Per writer: samples accepted by DDS, and samples refused.
     pub written: Vec<(u64, u64)>,
     /// Resident memory (bytes).
     pub memory: u64,
 }
 
-/// Other endpoints on the topics of the node.
+/// The endpoints of other programs on the topics of the node.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Peers {
-    /// Per reader of the plan: who writes.
+    /// Per reader of the plan: its writers.
     pub writers: Vec<Vec<Peer>>,
-    /// Per writer of the plan: how many read.
+    /// Per writer of the plan: the number of its readers.
     pub readers: Vec<u32>,
-    /// Other nodes with the very name of ours.
+    /// Other nodes with the name of this one.
     pub namesakes: Vec<Peer>,
 }
 
-/// An endpoint of somebody else.
+/// An endpoint of another program.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Peer {
-    /// Its id on the network.
+    /// Its GUID.
     pub id: Guid,
-    /// The ROS 2 node that it belongs to, where that is known: an absolute name. What is no node says what it is.
+    /// Absolute name of its ROS 2 node, where known. A client that is no node has a description instead.
     pub node: Option<String>,
-    /// Where it can be reached, as `192.168.1.7`.
+    /// Its address, such as `192.168.1.7`.
     pub address: Option<String>,
 }
 
@@ -154,18 +155,18 @@ impl std::fmt::Display for Peer {
     }
 }
 
-/// A topic whose readers did not take.
+/// A topic whose readers did not acknowledge samples.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stall {
     /// Its absolute name.
     pub topic: String,
-    /// Who did not take; where that could not be told, all who asked for every sample.
+    /// The stalled readers, or all reliable readers where these could not be identified.
     pub readers: Vec<Peer>,
-    /// Whether `readers` are those, or those it is one of.
+    /// Whether all of `readers` are stalled, or at least one of them.
     pub is_certain: bool,
 }
 
-/// A value as a frame.
+/// Encodes a value as a frame.
 ///
 /// # Errors
 /// When it cannot be encoded or is longer than [`MOST_BYTES`].
@@ -186,7 +187,7 @@ pub fn encode<T: Serialize>(value: &T) -> io::Result<Vec<u8>> {
 /// Writes a value as a frame.
 ///
 /// # Errors
-/// When it cannot be encoded, is too long, or the other side has gone.
+/// When it cannot be encoded, is too long, or the other process has closed the socket.
 pub fn write<T: Serialize>(to: &mut impl Write, value: &T) -> io::Result<()> {
     to.write_all(&encode(value)?)
 }
@@ -218,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frames_come_out_as_they_went_in_and_long_ones_do_not_go() {
+    fn frames_are_read_as_written_and_long_ones_are_refused() {
         let mut pipe = Vec::new();
         for body in [vec![], vec![7; 1000], vec![9; 100_000]] {
             write(&mut pipe, &ToSide::Publish { writer: 3, body }).unwrap();
@@ -241,14 +242,14 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_an_error() {
+    fn wrong_bytes_are_an_error() {
         assert!(read::<ToSide>(&mut [255, 255, 255, 255, 0].as_slice()).is_err());
         assert!(read::<ToSide>(&mut [4, 0, 0, 0, 1].as_slice()).is_err());
         assert!(read::<ToSide>(&mut [1, 0, 0, 0, 200].as_slice()).is_err());
     }
 
     #[test]
-    fn a_peer_is_named_by_what_is_known() {
+    fn a_peer_shows_what_is_known() {
         let peer = Peer {
             id: [1; 16],
             node: Some("/plot".into()),

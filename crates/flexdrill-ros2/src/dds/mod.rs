@@ -1,13 +1,13 @@
 //! DDS in a process of its own.
 //!
-//! Any packet from the network, a signal at the wrong moment or a clock that is set can end the DDS library. The twin must
-//! not end with it. So DDS lives in a child process ([`side`]), which knows names, qualities of service and bytes, and
-//! nothing else; this process holds a [`port`] to it: bounded queues, a watch over its life, and the newest state of every
-//! latched topic, to be told again when it is started anew.
+//! A packet from the network, a signal at the wrong moment or a change of the system's clock can end the DDS library. The
+//! program must survive that. Therefore DDS runs in a child process ([`side`]), which handles names, qualities of service
+//! and bytes, and nothing else. This process holds a [`port`] to it: bounded queues, supervision of the child, and the
+//! newest state of every latched topic, which a restarted child publishes again.
 //!
-//! - [`network`]: which part of the network it talks to; [`plan`]: what the child is to set up;
-//! - [`frames`]: what goes over the socket between the two;
-//! - [`port`]: this side of it; [`side`]: the child.
+//! - [`network`]: the domain and the reach; [`plan`]: the endpoints that the child creates;
+//! - [`frames`]: the protocol on the socket between the two processes;
+//! - [`port`]: the parent's end; [`side`]: the child.
 
 pub mod frames;
 pub mod network;

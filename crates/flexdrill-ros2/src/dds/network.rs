@@ -1,4 +1,4 @@
-//! Which part of the network the node talks to: domain and reach, from options and ROS 2's environment variables.
+//! The part of the network that the node uses: domain and reach, from options and ROS 2's environment variables.
 
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// Highest domain whose UDP ports fit (7400 + 250 x domain + ...).
 const MAX_DOMAIN: u16 = 232;
 
-/// How far discovery goes.
+/// The range of discovery.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reach {
     /// All interfaces, multicast within the subnet.
@@ -24,13 +24,13 @@ pub enum Reach {
 pub struct Network {
     /// DDS domain, 0 to 232.
     pub domain_id: u16,
-    /// How far discovery goes.
+    /// The range of discovery.
     pub reach: Reach,
     /// Addresses of the interfaces to use; all if there are none.
     pub interfaces: Vec<IpAddr>,
     /// Machines that multicast does not reach, by name or IPv4 address.
     pub peers: Vec<String>,
-    /// Folder with the keys, certificates and permissions of DDS Security; without one anybody may read and write.
+    /// Folder with the keys, certificates and permissions of DDS Security; without one any program may read and write.
     pub keys: Option<PathBuf>,
 }
 
@@ -45,32 +45,32 @@ pub enum NetworkError {
         /// Value, as it was given.
         value: String,
     },
-    /// Not a word that ROS 2 knows.
+    /// A discovery range that ROS 2 does not know.
     #[error("ROS_AUTOMATIC_DISCOVERY_RANGE is '{0}'; use SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT")]
     Range(String),
-    /// No name of a machine.
+    /// A peer that is no host name or address.
     #[error(
         "ROS_STATIC_PEERS has '{0}'; give names of machines or IPv4 addresses without ports, with semicolons between them"
     )]
     Peer(String),
-    /// Other machines are named, and DDS is kept on this one.
+    /// Peers are configured, and DDS is restricted to this machine.
     #[error(
         "network.peers in the configuration names {0}, and ROS_AUTOMATIC_DISCOVERY_RANGE or ROS_LOCALHOST_ONLY keeps \
          DDS on this machine; set network.reach: subnet, or leave network.peers out"
     )]
     PeersKeptOut(String),
-    /// DDS Security is asked for, and it is not said with which keys.
+    /// DDS Security is enabled without a keystore.
     #[error("ROS_SECURITY_ENABLE is true and ROS_SECURITY_KEYSTORE is not set; set it to the folder of the keystore")]
     NoKeystore,
-    /// DDS Security is asked for, and this program cannot do it.
+    /// DDS Security is enabled, and this program was built without it.
     #[error(
         "ROS_SECURITY_ENABLE is true, and this flexdrill was built without DDS Security; build it with \
-         `cargo build --release --features security`, or unset the variable to run where anybody may read and drive"
+         `cargo build --release --features security`, or unset the variable to run without access control"
     )]
     NoSecurity,
     /// DDS did not start.
     #[error(
-        "DDS did not start in domain {domain_id}: {source}. Is a network interface up (`ip link`), and is another participant limit reached?"
+        "DDS did not start in domain {domain_id}: {source}; check that a network interface is up (`ip link`) and that fewer than 120 participants run on this machine"
     )]
     Participant {
         /// Domain.
@@ -81,8 +81,8 @@ pub enum NetworkError {
 }
 
 impl Network {
-    /// Reads the settings. `domain` is the command line's and wins over ROS_DOMAIN_ID. The second result says, in
-    /// sentences, which of ROS 2's settings cannot be followed.
+    /// Reads the settings. `domain` is the option of the command line, which has precedence over ROS_DOMAIN_ID. The second
+    /// result has a sentence for each of ROS 2's settings that is not supported.
     ///
     /// # Errors
     /// When a variable or the option has a value that ROS 2 does not know.
@@ -107,7 +107,7 @@ impl Network {
             None | Some("SUBNET" | "SYSTEM_DEFAULT") => Reach::Subnet,
             Some("LOCALHOST") => Reach::Localhost,
             Some("OFF") => {
-                notes.push("ROS_AUTOMATIC_DISCOVERY_RANGE=OFF cannot be followed (RustDDS has no way to switch discovery off); the node stays on this machine, as with LOCALHOST".into());
+                notes.push("ROS_AUTOMATIC_DISCOVERY_RANGE=OFF is not supported (RustDDS cannot switch discovery off); the node stays on this machine, as with LOCALHOST".into());
                 Reach::Localhost
             }
             Some(other) => return Err(NetworkError::Range(other.to_owned())),
@@ -121,7 +121,7 @@ impl Network {
             peers.clear();
         }
         if variable("ROS_DISCOVERY_SERVER").is_some() {
-            notes.push("ROS_DISCOVERY_SERVER is ignored: it belongs to Fast DDS".into());
+            notes.push("ROS_DISCOVERY_SERVER is ignored: it is a feature of Fast DDS".into());
         }
         let network = Self {
             domain_id,
@@ -133,10 +133,10 @@ impl Network {
         Ok((network, notes))
     }
 
-    /// As the configuration restricts or widens it.
+    /// The network with the settings of the configuration.
     ///
     /// # Errors
-    /// When it names other machines, and ROS 2's variables keep DDS on this one.
+    /// When the configuration has peers, and ROS 2's variables restrict DDS to this machine.
     pub fn configured(mut self, network: &flexdrill_config::Network) -> Result<Self, NetworkError> {
         match network.reach {
             flexdrill_config::Reach::Environment => {}
@@ -148,7 +148,7 @@ impl Network {
             self.peers.clone_from(&network.peers);
         }
         if self.reach == Reach::Localhost {
-            // Those of the environment would have been told of.
+            // Ignored peers of the environment have a note from `read`.
             if !network.peers.is_empty() {
                 return Err(NetworkError::PeersKeptOut(self.peers.join(", ")));
             }
@@ -157,26 +157,26 @@ impl Network {
         Ok(self)
     }
 
-    /// Who can reach the node, and what that means.
+    /// A sentence on which machines can reach the node, and what they may do.
     pub fn describe(&self) -> String {
         let domain = self.domain_id;
         if self.reach == Reach::Localhost {
             return format!("domain {domain}, this machine only{}", self.security());
         }
-        let mut places = if self.interfaces.is_empty() {
+        let mut reached = if self.interfaces.is_empty() {
             "all interfaces".to_owned()
         } else {
-            let shown: Vec<String> = self.interfaces.iter().map(ToString::to_string).collect();
-            shown.join(", ")
+            let addresses: Vec<String> = self.interfaces.iter().map(ToString::to_string).collect();
+            addresses.join(", ")
         };
         if !self.peers.is_empty() {
-            places += &format!(" and the peers {}", self.peers.join(", "));
+            reached += &format!(" and the peers {}", self.peers.join(", "));
         }
         if self.keys.is_some() {
-            return format!("domain {domain}, {places}{}", self.security());
+            return format!("domain {domain}, {reached}{}", self.security());
         }
         format!(
-            "domain {domain}, {places}: any machine there can read the outputs, send inputs and set parameters \
+            "domain {domain}, {reached}: any machine there can read the outputs, send inputs and set parameters \
              (network.reach: localhost keeps it on this machine)"
         )
     }
@@ -185,7 +185,7 @@ impl Network {
         let keys = self.keys.as_ref();
         keys.map_or_else(String::new, |keys| {
             format!(
-                ", with DDS Security: only who has keys of {} reads or drives, as its governance says",
+                ", with DDS Security: only programs with keys of {} may read or drive, as its governance states",
                 keys.display()
             )
         })
@@ -194,7 +194,7 @@ impl Network {
     /// Starts DDS in this process.
     ///
     /// # Errors
-    /// When no participant can be created, or it is to be a secured one and this program cannot make such.
+    /// When the participant cannot be created, or DDS Security is enabled in a program that was built without it.
     pub fn start(&self) -> Result<DomainParticipant, NetworkError> {
         let failed = |source| NetworkError::Participant {
             domain_id: self.domain_id,

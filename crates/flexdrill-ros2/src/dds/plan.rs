@@ -1,13 +1,14 @@
-//! What the DDS process is to set up: names, types and qualities of service.
+//! The endpoints that the DDS process creates: names, types and qualities of service.
 
 use serde::{Deserialize, Serialize};
 
 use crate::dds::network::Network;
 
-/// Time that a reader may stall before writes are refused (s): longer than the lease after which DDS drops a dead one.
+/// Time for which a reader may stall before writes are refused (s): longer than the lease after which DDS drops a dead
+/// reader.
 const STALL_TIME: f64 = 15.0;
 
-/// Longest reply of a service (bytes): the library breaks those that need more than one datagram.
+/// Longest reply of a service (bytes): the library corrupts replies of more than one datagram.
 pub const MOST_REPLY: usize = 60_000;
 
 /// Bytes of the prefix that all endpoints of a participant share.
@@ -30,31 +31,31 @@ pub struct Plan {
     pub readers: Vec<ReaderPlan>,
     /// Services to serve.
     pub services: Vec<ServicePlan>,
-    /// Participants that were ours before and may still be known to others.
+    /// Earlier participants of this node, which other programs may not have dropped yet.
     pub former: Vec<GuidPrefix>,
 }
 
-/// A topic that is written.
+/// A topic to write.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WriterPlan {
     /// Absolute name.
     pub topic: String,
-    /// As `std_msgs::msg::dds_::Float64_`.
+    /// DDS type, such as `std_msgs::msg::dds_::Float64_`.
     pub dds_type: String,
-    /// How it is offered.
+    /// Its qualities of service.
     pub offer: Offer,
 }
 
-/// A topic that is read.
+/// A topic to read.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReaderPlan {
     /// Absolute name.
     pub topic: String,
-    /// As `std_msgs::msg::dds_::Float64_`.
+    /// DDS type, such as `std_msgs::msg::dds_::Float64_`.
     pub dds_type: String,
-    /// Asks for what was written before, and for what was lost.
+    /// Requests the samples written before, and lost samples again.
     pub latched: bool,
-    /// Asks for what was lost.
+    /// Requests lost samples again.
     pub reliable: bool,
 }
 
@@ -63,22 +64,22 @@ pub struct ReaderPlan {
 pub struct ServicePlan {
     /// Absolute name.
     pub name: String,
-    /// As `std_srvs/srv/Trigger`.
+    /// Type, such as `std_srvs/srv/Trigger`.
     pub ros_type: String,
 }
 
-/// How a topic is offered.
+/// The qualities of service that a writer offers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Offer {
-    /// Resend what was lost.
+    /// Sends lost samples again.
     pub reliable: bool,
-    /// Keep the last sample for those who come later.
+    /// Keeps the last samples for readers that come later.
     pub latched: bool,
     /// History depth as announced to readers.
     pub depth: i32,
     /// Highest rate of publication (Hz), for the size of the history.
     pub rate: f64,
-    /// How long a sample is worth receiving (s). Default: for ever.
+    /// How long a sample is valid (s); none: for ever.
     pub lifespan: Option<f64>,
 }
 
@@ -86,21 +87,21 @@ impl Offer {
     /// Most samples kept for readers that have not acknowledged.
     pub fn max_samples(&self) -> i32 {
         if self.latched {
-            // Late joiners are given all that is kept, so keep no more than is meant.
+            // A late reader receives all samples in the history, so that it must not be longer than the depth.
             self.depth.max(1)
         } else {
             ((self.rate * STALL_TIME).ceil() as i32).clamp(32, 8192)
         }
     }
 
-    /// Whether its newest sample is a state that a new start must tell again.
+    /// Whether its newest sample is a state that a restarted process must publish again.
     pub fn is_state(&self) -> bool {
         self.latched && self.depth == 1
     }
 }
 
-/// The DDS name of an absolute ROS topic: `/a/b` is `rt/a/b`. What does not begin with a slash is a DDS name already, such as
-/// those of a service ([`service_topics`]).
+/// The DDS name of an absolute ROS topic: `/a/b` is `rt/a/b`. A name without a leading slash is a DDS name already, such as
+/// those of [`service_topics`].
 pub fn dds_topic_name(topic: &str) -> String {
     match topic.strip_prefix('/') {
         Some(_) => format!("rt{topic}"),

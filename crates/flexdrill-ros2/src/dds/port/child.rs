@@ -1,4 +1,4 @@
-//! One life of the DDS process.
+//! The DDS process, from its start to its end.
 
 use std::io::{self, BufReader, Write};
 use std::os::fd::OwnedFd;
@@ -18,27 +18,27 @@ use crate::dds::plan::{GuidPrefix, Plan};
 use crate::dds::side::{LAST_REPLIES, SUBCOMMAND};
 use flexdrill_realtime::monotonic;
 
-/// Longest a write may take before it is looked whether the process still lives.
+/// Longest write before the state of the process is checked.
 const WRITE: Duration = Duration::from_millis(100);
-/// How long it may take to leave the network: it waits for its last replies, and then says that it goes.
+/// Longest time for leaving the network: the process waits for its last replies, then announces that it leaves.
 const LEAVE: Duration = LAST_REPLIES.saturating_add(Duration::from_secs(2));
 
-/// The process and the thread that hears it.
+/// The process, and the thread that reads from it.
 pub(super) struct Child {
     process: std::process::Child,
     socket: UnixStream,
-    heard: Arc<Heard>,
+    state: Arc<ChildState>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// What the process has said.
+/// The state that the process has reported.
 #[derive(Default)]
-pub(super) struct Heard {
-    /// It has joined the network, as this participant.
+pub(super) struct ChildState {
+    /// The participant as which the process has joined the network.
     up: Mutex<Option<GuidPrefix>>,
-    /// When it was last well (ns of the monotonic clock).
+    /// The latest report of its health (ns of the monotonic clock).
     beat: AtomicU64,
-    /// It says nothing any more.
+    /// The socket is closed.
     ended: AtomicBool,
     failure: Mutex<Option<String>>,
     written: Mutex<Vec<(u64, u64)>>,
@@ -46,13 +46,13 @@ pub(super) struct Heard {
 }
 
 impl Child {
-    /// Starts it.
+    /// Starts the process.
     ///
     /// # Errors
     /// When the system does not start another process of this program.
-    pub(super) fn start(plan: &Plan, life: u64, shared: &Arc<Shared>, told: &Told) -> io::Result<Self> {
+    pub(super) fn start(plan: &Plan, life: u64, shared: &Arc<Shared>, report: &StartReport) -> io::Result<Self> {
         let (socket, theirs) = UnixStream::pair()?;
-        // A program that was replaced on disk meanwhile still finds itself here.
+        // This path leads to the running program also where its file was replaced meanwhile.
         let program = if cfg!(target_os = "linux") {
             "/proc/self/exe".into()
         } else {
@@ -61,46 +61,46 @@ impl Child {
         let process = Command::new(program)
             .arg0("flexdrill")
             .arg(SUBCOMMAND)
-            // The backtrace of a refused allocation tells what its line in the log does.
+            // The backtrace of a refused allocation would repeat its line in the log.
             .env("RUST_BACKTRACE", "0")
             .stdin(Stdio::from(OwnedFd::from(theirs)))
             .stdout(Stdio::null())
-            // Ctrl-C in a terminal is for the node, which then ends this one in order.
+            // Ctrl-C in a terminal must reach the node only, which then ends this process in order.
             .process_group(0)
             .spawn()?;
         socket.set_write_timeout(Some(WRITE))?;
-        let heard = Arc::new(Heard {
+        let state = Arc::new(ChildState {
             written: Mutex::new(vec![(0, 0); shared.writers.len()]),
             published: Mutex::new(vec![0; shared.writers.len()]),
-            ..Heard::default()
+            ..ChildState::default()
         });
-        let hearing = Hearing {
+        let reader = ChildReader {
             life,
-            heard: Arc::clone(&heard),
+            state: Arc::clone(&state),
             shared: Arc::clone(shared),
-            told: told.clone(),
+            report: report.clone(),
         };
         let from = BufReader::new(socket.try_clone()?);
         let thread = std::thread::Builder::new()
             .name("from dds".into())
-            .spawn(move || hearing.run(from))?;
+            .spawn(move || reader.run(from))?;
         let mut child = Self {
             process,
             socket,
-            heard,
+            state,
             thread: Some(thread),
         };
         child.send(&ToSide::Begin(plan.clone()))?;
         Ok(child)
     }
 
-    /// Sends a frame; waits while the process takes it slowly.
+    /// Sends a frame; waits while the process reads slowly.
     ///
     /// # Errors
-    /// When it has ended, or takes nothing for longer than it may be silent.
+    /// When the process has ended, or reads nothing for longer than [`SILENCE`](super::keeper::SILENCE).
     pub(super) fn send(&mut self, frame: &ToSide) -> io::Result<()> {
         if let ToSide::Publish { writer, .. } = frame {
-            let mut published = self.heard.published.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut published = self.state.published.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(count) = published.get_mut(usize::from(*writer)) {
                 *count += 1;
             }
@@ -126,39 +126,40 @@ impl Child {
 
     /// The participant as which it has joined the network.
     pub(super) fn up(&self) -> Option<GuidPrefix> {
-        *self.heard.up.lock().unwrap_or_else(PoisonError::into_inner)
+        *self.state.up.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// How long it has not said that it is well.
+    /// Time since the latest report of its health.
     pub(super) fn silent(&self) -> Duration {
-        let beat = self.heard.beat.load(Ordering::Acquire);
+        let beat = self.state.beat.load(Ordering::Acquire);
         Duration::from_nanos(monotonic::now().saturating_sub(beat))
     }
 
-    /// The silence so far is forgiven: this process itself stood still.
-    pub(super) fn forgive(&self) {
-        self.heard.beat.store(monotonic::now(), Ordering::Release);
+    /// Restarts the count of its silence, because this process itself stood still.
+    pub(super) fn restart_silence(&self) {
+        self.state.beat.store(monotonic::now(), Ordering::Release);
     }
 
-    /// Whether it has ended or says nothing any more.
+    /// Whether the process has ended or closed its socket.
     pub(super) fn has_ended(&mut self) -> bool {
-        self.heard.ended.load(Ordering::Acquire) || matches!(self.process.try_wait(), Ok(Some(_)) | Err(_))
+        self.state.ended.load(Ordering::Acquire) || matches!(self.process.try_wait(), Ok(Some(_)) | Err(_))
     }
 
-    /// Has it leave the network, and ends it.
+    /// Makes the process leave the network, and ends it.
     pub(super) fn leave(mut self) {
         if self.send(&ToSide::End).is_ok() {
             let deadline = Instant::now() + LEAVE;
             while !self.has_ended() && Instant::now() < deadline {
                 std::thread::sleep(Duration::from_millis(2));
             }
-            // It closes its end just before it ends.
+            // The process closes its socket just before it ends.
             std::thread::sleep(Duration::from_millis(2));
         }
         self.end(&[]);
     }
 
-    /// Ends it. What it did not get through to DDS is counted as dropped; why it ended, as far as it or the system says.
+    /// Ends the process, and counts the samples that did not reach DDS as dropped. Returns the cause of its end, where the
+    /// process or the system states one.
     pub(super) fn end(mut self, counters: &[Arc<TopicCounters>]) -> Option<String> {
         let ended = self.process.try_wait().ok().flatten();
         let _ = self.process.kill();
@@ -167,13 +168,13 @@ impl Child {
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
-        let published = self.heard.published.lock().unwrap_or_else(PoisonError::into_inner);
-        let written = self.heard.written.lock().unwrap_or_else(PoisonError::into_inner);
+        let published = self.state.published.lock().unwrap_or_else(PoisonError::into_inner);
+        let written = self.state.written.lock().unwrap_or_else(PoisonError::into_inner);
         for ((counter, published), (sent, dropped)) in counters.iter().zip(published.iter()).zip(written.iter()) {
             let lost = published.saturating_sub(sent + dropped);
             counter.dropped.fetch_add(lost, Ordering::Relaxed);
         }
-        let failure = self.heard.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let failure = self.state.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
         failure.or_else(|| ended.and_then(describe))
     }
 }
@@ -181,7 +182,7 @@ impl Child {
 fn describe(status: ExitStatus) -> Option<String> {
     match (status.signal(), status.code()) {
         (Some(6), _) => Some(
-            "it ended with signal 6 (abort), as it does when a packet makes it ask for more memory than it may have"
+            "it ended with signal 6 (abort), as after a packet that makes it allocate more memory than its limit"
                 .into(),
         ),
         (Some(signal), _) => Some(format!("it was ended by signal {signal}")),
@@ -190,43 +191,43 @@ fn describe(status: ExitStatus) -> Option<String> {
     }
 }
 
-/// Tells whoever waits for the first start how that went.
+/// Reports the result of the first start.
 #[derive(Clone)]
-pub(super) struct Told(pub(super) Sender<Result<(), String>>);
+pub(super) struct StartReport(pub(super) Sender<Result<(), String>>);
 
-/// The thread that hears the process.
-struct Hearing {
+/// Reads the frames of the process, on a thread of its own.
+struct ChildReader {
     life: u64,
-    heard: Arc<Heard>,
+    state: Arc<ChildState>,
     shared: Arc<Shared>,
-    told: Told,
+    report: StartReport,
 }
 
-impl Hearing {
+impl ChildReader {
     fn run(self, mut from: BufReader<UnixStream>) {
-        self.heard.beat.store(monotonic::now(), Ordering::Release);
+        self.state.beat.store(monotonic::now(), Ordering::Release);
         while let Ok(Some(frame)) = frames::read(&mut from) {
-            self.take(frame);
+            self.handle(frame);
         }
-        self.heard.ended.store(true, Ordering::Release);
+        self.state.ended.store(true, Ordering::Release);
         self.shared.outbox.wake();
     }
 
-    fn take(&self, frame: FromSide) {
+    fn handle(&self, frame: FromSide) {
         match frame {
             FromSide::Up(prefix) => {
-                *self.heard.up.lock().unwrap_or_else(PoisonError::into_inner) = Some(prefix);
-                self.heard.beat.store(monotonic::now(), Ordering::Release);
+                *self.state.up.lock().unwrap_or_else(PoisonError::into_inner) = Some(prefix);
+                self.state.beat.store(monotonic::now(), Ordering::Release);
                 {
                     let mut health = self.shared.health();
                     (health.is_up, health.participant) = (true, Some(prefix));
                 }
                 self.shared.outbox.open(self.life);
-                // Who waited for that may have gone.
-                let _ = self.told.0.send(Ok(()));
+                // The receiver may have given up waiting.
+                let _ = self.report.0.send(Ok(()));
             }
             FromSide::Failed(why) => {
-                *self.heard.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(why);
+                *self.state.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(why);
             }
             FromSide::Sample { reader, writer, body } => self.sample(reader, Sample::Body { writer, body }),
             FromSide::Unreadable { reader, why } => self.sample(reader, Sample::Unreadable(why)),
@@ -238,9 +239,7 @@ impl Hearing {
                 sent,
                 body,
             } => {
-                if self
-                    .shared
-                    .is_to_be_taken(usize::from(service), &client, sequence, sent)
+                if self.shared.accepts(usize::from(service), &client, sequence, sent)
                     && let Some(inbox) = self.shared.services.get(usize::from(service))
                 {
                     let reply_to = ReplyTo::Dds {
@@ -269,9 +268,9 @@ impl Hearing {
     }
 
     fn beat(&self, beat: &Beat) {
-        self.heard.beat.store(monotonic::now(), Ordering::Release);
+        self.state.beat.store(monotonic::now(), Ordering::Release);
         self.shared.health().memory = beat.memory;
-        let mut before = self.heard.written.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut before = self.state.written.lock().unwrap_or_else(PoisonError::into_inner);
         for ((counters, now), before) in self.shared.writers.iter().zip(&beat.written).zip(before.iter_mut()) {
             counters
                 .sent
@@ -286,12 +285,13 @@ impl Hearing {
     fn stalled(&self, stall: &Stall) {
         let readers: Vec<String> = stall.readers.iter().map(ToString::to_string).collect();
         let who = match (readers.as_slice(), stall.is_certain) {
-            ([], _) => "a reader that has gone since".to_owned(),
+            ([], _) => "a reader that has left since".to_owned(),
             (readers, true) => readers.join(" and "),
             (readers, false) => format!("one of {}", readers.join(", ")),
         };
         let text = format!(
-            "{}: {who} asked for every sample and does not take them; what it left lying is given up so that others get theirs",
+            "{}: {who} requested every sample and does not acknowledge them; its pending samples are dropped so that other \
+             readers get theirs",
             stall.topic
         );
         tracing::warn!("{text}");

@@ -1,13 +1,13 @@
-//! Whether somebody set the system's clock.
+//! Detects that the system's clock was set.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use flexdrill_realtime::monotonic;
 
-/// Least step that counts (ns). A clock that is steered moves by half a millisecond per second at most.
-const LEAST: i128 = 200_000_000;
+/// Smallest step that counts (ns). NTP slews a clock by half a millisecond per second at most.
+const SMALLEST_STEP: i128 = 200_000_000;
 
-/// Follows the system's clock beside the monotonic one.
+/// Compares the system's clock with the monotonic clock.
 pub(super) struct ClockWatch {
     /// System time less monotonic time (ns).
     offset: i128,
@@ -22,12 +22,12 @@ impl ClockWatch {
         }
     }
 
-    /// The step (s) since it was last asked, if there was one.
+    /// The step since the last call (s), if there was one.
     pub(super) fn step(&mut self) -> Option<f64> {
         self.step_to(offset())
     }
 
-    /// All steps together (s).
+    /// The sum of all steps (s).
     pub(super) fn total(&self) -> f64 {
         self.total as f64 * 1e-9
     }
@@ -35,7 +35,7 @@ impl ClockWatch {
     fn step_to(&mut self, offset: i128) -> Option<f64> {
         let step = offset - self.offset;
         self.offset = offset;
-        (step.abs() >= LEAST).then(|| {
+        (step.abs() >= SMALLEST_STEP).then(|| {
             self.total += step;
             step as f64 * 1e-9
         })
@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn steps_count_and_steering_does_not() {
+    fn steps_count_and_slewing_does_not() {
         let mut watch = ClockWatch { offset: 0, total: 0 };
         for ms in 1..1000 {
             assert_eq!(watch.step_to(ms * 1_000_000), None);

@@ -1,4 +1,4 @@
-//! Keeps a DDS process: starts it, feeds it, and starts another when it is not well.
+//! Supervises the DDS process: starts it, sends it messages, and restarts it when it fails.
 
 use std::io;
 use std::sync::Arc;
@@ -7,23 +7,23 @@ use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
 use super::Shared;
-use super::child::{Child, Told};
+use super::child::{Child, StartReport};
 use super::clock_step::ClockWatch;
 use super::health::{Health, Restart};
 use crate::dds::plan::Plan;
 use flexdrill_realtime::monotonic;
 
-/// Longest time in which the process says nothing of its health, once it is up. It does five times a second.
+/// Longest silence of a process that is up. It reports its health five times a second.
 pub(super) const SILENCE: Duration = Duration::from_millis(1500);
-/// Longest time until it is up.
-const COMING_UP: Duration = Duration::from_secs(5);
-/// How often it is looked after while there is nothing to send.
-const LOOK: Duration = Duration::from_millis(50);
-/// A look that comes later than this stood still itself.
-const HELD_UP: Duration = Duration::from_millis(500);
-/// A life that was at least this long is followed by the next at once.
+/// Longest time until a process is up.
+const START_UP: Duration = Duration::from_secs(5);
+/// How often an idle process is checked.
+const CHECK_INTERVAL: Duration = Duration::from_millis(50);
+/// A longer time between two checks means that this process stood still itself.
+const OWN_DELAY: Duration = Duration::from_millis(500);
+/// After a life of at least this length the next process starts at once.
 const LONG_LIFE: Duration = Duration::from_secs(10);
-/// Waits before the next start when the lives before were short.
+/// Pauses before the next start, by the number of short lives in a row.
 const PAUSES: [Duration; 5] = [
     Duration::ZERO,
     Duration::from_millis(250),
@@ -31,10 +31,10 @@ const PAUSES: [Duration; 5] = [
     Duration::from_secs(1),
     Duration::from_secs(2),
 ];
-/// Former participants that others are told apart from.
+/// Most former participants that are kept.
 const MOST_FORMER: usize = 64;
 
-/// The thread that keeps the process.
+/// The supervisor of the process, on a thread of its own.
 pub(super) struct Keeper {
     plan: Plan,
     shared: Arc<Shared>,
@@ -45,10 +45,10 @@ pub(super) struct Keeper {
 
 /// How a life ended.
 enum End {
-    /// The node ends.
-    Wanted,
-    /// It has to be started again, for this reason.
-    Cause(String),
+    /// The port was dropped.
+    Requested,
+    /// The process must be restarted, for this reason.
+    Failed(String),
 }
 
 impl Keeper {
@@ -62,23 +62,23 @@ impl Keeper {
         }
     }
 
-    /// Runs until the port is dropped; tells how the first start went, and ends when that failed.
-    pub(super) fn run(mut self, told: &Sender<Result<(), String>>) {
+    /// Runs until the port is dropped. Reports the result of the first start, and ends where that failed.
+    pub(super) fn run(mut self, report: &Sender<Result<(), String>>) {
         let mut short_lives = 0;
         loop {
             let began = Instant::now();
             self.life += 1;
-            let cause = match self.live(&Told(told.clone())) {
-                End::Wanted => return,
-                End::Cause(cause) => cause,
+            let cause = match self.run_process(&StartReport(report.clone())) {
+                End::Requested => return,
+                End::Failed(cause) => cause,
             };
             if !self.has_been_up {
-                // Who waited for that may have gone.
-                let _ = told.send(Err(cause));
+                // The receiver may have given up waiting.
+                let _ = report.send(Err(cause));
                 return;
             }
-            self.note(cause.clone());
-            tracing::error!("DDS is started again: {cause}");
+            self.note_restart(cause.clone());
+            tracing::error!("DDS is restarted: {cause}");
             short_lives = if began.elapsed() >= LONG_LIFE {
                 0
             } else {
@@ -90,12 +90,12 @@ impl Keeper {
                 if self.shared.stop.load(Ordering::Acquire) {
                     return;
                 }
-                std::thread::sleep(LOOK.min(pause));
+                std::thread::sleep(CHECK_INTERVAL.min(pause));
             }
         }
     }
 
-    fn note(&self, cause: String) {
+    fn note_restart(&self, cause: String) {
         let mut health = self.shared.health();
         health.restarts += 1;
         if health.newest.len() == Health::KEPT {
@@ -107,17 +107,17 @@ impl Keeper {
         });
     }
 
-    /// One life of the process.
-    fn live(&mut self, told: &Told) -> End {
-        let mut child = match Child::start(&self.plan, self.life, &self.shared, told) {
+    /// Runs one process to its end.
+    fn run_process(&mut self, report: &StartReport) -> End {
+        let mut child = match Child::start(&self.plan, self.life, &self.shared, report) {
             Ok(child) => child,
-            Err(error) => return End::Cause(format!("its process could not be started: {error}")),
+            Err(error) => return End::Failed(format!("its process could not be started: {error}")),
         };
         let end = self.feed(&mut child);
         self.shared.outbox.close();
         self.shared.health().is_up = false;
         if let Some(prefix) = child.up() {
-            // It may have come up and ended between two looks.
+            // The process may have started and ended between two checks.
             self.has_been_up = true;
             if self.plan.former.len() == MOST_FORMER {
                 self.plan.former.remove(0);
@@ -125,63 +125,63 @@ impl Keeper {
             self.plan.former.push(prefix);
         }
         let end = match end {
-            End::Wanted => {
+            End::Requested => {
                 child.leave();
-                End::Wanted
+                End::Requested
             }
-            End::Cause(seen) => {
-                let said = child.end(&self.shared.writers);
-                End::Cause(said.unwrap_or(seen))
+            End::Failed(observed) => {
+                let reported = child.end(&self.shared.writers);
+                End::Failed(reported.unwrap_or(observed))
             }
         };
-        // It may have come up at the very end.
+        // The process may have opened the queue just before its end.
         self.shared.outbox.close();
         self.shared.health().is_up = false;
         end
     }
 
-    /// Feeds the process until it is not well or not wanted any more.
+    /// Sends queued messages to the process until it fails or the port is dropped.
     fn feed(&mut self, child: &mut Child) -> End {
         let began = Instant::now();
-        let mut looked = began;
+        let mut checked = began;
         loop {
-            let mut frames = self.shared.outbox.wait(LOOK);
+            let mut frames = self.shared.outbox.wait(CHECK_INTERVAL);
             let stop = self.shared.stop.load(Ordering::Acquire);
             if stop {
-                // What came between the two lines above was given before the end, such as the last reply.
+                // A message between the two lines above, such as the last reply, belongs to the run.
                 frames.extend(self.shared.outbox.wait(Duration::ZERO));
             }
             for frame in &frames {
                 match child.send(frame) {
                     Ok(()) => {}
-                    Err(error) if is_late(&error) => return End::Cause(silent(child)),
-                    Err(error) => return End::Cause(format!("its process takes nothing any more ({error})")),
+                    Err(error) if is_late(&error) => return End::Failed(silent(child)),
+                    Err(error) => return End::Failed(format!("its process does not read its socket ({error})")),
                 }
             }
             if stop {
-                return End::Wanted;
+                return End::Requested;
             }
             let now = Instant::now();
-            if now.duration_since(looked) > HELD_UP {
-                child.forgive();
+            if now.duration_since(checked) > OWN_DELAY {
+                child.restart_silence();
             }
-            looked = now;
+            checked = now;
             if child.has_ended() {
-                return End::Cause("its process has ended".to_owned());
+                return End::Failed("its process has ended".to_owned());
             }
             if let Some(step) = self.clock.step() {
                 self.shared.health().clock_set_by = self.clock.total();
-                return End::Cause(format!(
-                    "the system's clock was set by {step:+.1} s, and the DDS library orders samples by it; stamps keep to \
-                     the clock at the start"
+                return End::Failed(format!(
+                    "the system's clock was set by {step:+.1} s, and the DDS library orders samples by it; stamps keep the \
+                     clock of the start"
                 ));
             }
             if child.up().is_some() {
                 if child.silent() > SILENCE {
-                    return End::Cause(silent(child));
+                    return End::Failed(silent(child));
                 }
-            } else if began.elapsed() > COMING_UP {
-                return End::Cause(format!("its process did not come up within {} s", COMING_UP.as_secs()));
+            } else if began.elapsed() > START_UP {
+                return End::Failed(format!("its process did not start within {} s", START_UP.as_secs()));
             }
         }
     }
@@ -193,7 +193,7 @@ fn is_late(error: &io::Error) -> bool {
 
 fn silent(child: &Child) -> String {
     format!(
-        "its process has said nothing for {:.1} s: it is stopped, or starved",
+        "its process has not reported for {:.1} s: it is stopped, or gets no processor time",
         child.silent().as_secs_f64()
     )
 }

@@ -1,8 +1,8 @@
-//! The node's side of DDS: handles that outlive the process behind them.
+//! The parent's end of DDS: handles that outlive the process behind them.
 //!
-//! Endpoints are named to a [`PortBuilder`]; [`PortBuilder::start`] brings the process up. From then on a thread keeps it:
-//! whatever ends it, it is started again, told the newest state of every latched topic, and what happened is told in
-//! [`Health`], in the log and, through them, in diagnostics and alarms.
+//! A [`PortBuilder`] collects the endpoints, and [`PortBuilder::start`] starts the process. From then on a thread supervises
+//! it: it restarts an ended process, publishes the newest state of every latched topic again, and reports the cause in
+//! [`Health`] and in the log, from where it reaches diagnostics and alarms.
 
 mod child;
 mod clock_step;
@@ -10,7 +10,7 @@ mod health;
 mod inbox;
 mod keeper;
 mod outbox;
-mod taken;
+mod seen_requests;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -22,35 +22,35 @@ use self::inbox::ReplyTo;
 pub use self::inbox::{Inbox, Request, Sample};
 use self::keeper::Keeper;
 use self::outbox::Outbox;
-use self::taken::{Arrival, TakenRequests, Verdict};
+use self::seen_requests::{Arrival, SeenRequests, Verdict};
 use super::frames::{Peer, Peers, ToSide};
 use super::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan, service_topics};
 use crate::dds::network::Network;
 use flexdrill_realtime::monotonic;
 use flexdrill_text::Throttle;
 
-/// Samples that wait for a part of the node that is busy.
+/// Most samples that wait in an inbox.
 const SAMPLES: usize = 256;
-/// Requests that wait.
+/// Most requests that wait in an inbox.
 const REQUESTS: usize = 64;
 /// Longest wait for the first start.
 const START: Duration = Duration::from_secs(10);
 
-/// Why DDS could not be brought up.
+/// Why DDS could not be started.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct StartError(String);
 
-/// What became of the samples of one topic.
+/// Counts the samples of one topic.
 #[derive(Debug, Default)]
 pub struct TopicCounters {
-    /// Handed to DDS.
+    /// Passed to DDS.
     pub sent: AtomicU64,
     /// Refused because a reader stalls, or lost while the DDS process was down.
     pub dropped: AtomicU64,
 }
 
-/// What the handles, the keeper and the process's reader share.
+/// The state that the handles, the keeper and the reader of the process share.
 struct Shared {
     outbox: Outbox,
     writers: Vec<Arc<TopicCounters>>,
@@ -62,21 +62,21 @@ struct Shared {
     /// Names of the services.
     service_names: Vec<String>,
     /// Requests over all lives of the process.
-    taken: Mutex<Taken>,
+    request_filter: Mutex<RequestFilter>,
     /// Requests without an answer yet.
     open: Arc<AtomicU64>,
 }
 
-/// Requests that were taken, and how often refusals are logged.
-struct Taken {
-    requests: TakenRequests,
+/// Accepts each request once, and logs refusals.
+struct RequestFilter {
+    seen: SeenRequests,
     /// When the node was started (ns of the monotonic clock).
     began: u64,
-    refusals: Throttle,
+    refusal_lines: Throttle,
 }
 
-/// Least time between two lines on refused requests (s).
-const REFUSALS: f64 = 1.0;
+/// Least time between two lines about refused requests (s).
+const REFUSAL_INTERVAL: f64 = 1.0;
 
 impl Shared {
     fn health(&self) -> MutexGuard<'_, Health> {
@@ -87,9 +87,9 @@ impl Shared {
         self.peers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether a request is to be carried out: it is new, and not meant for a node before this one. Why not is logged.
-    fn is_to_be_taken(&self, service: usize, client: &Peer, sequence: i64, sent: Option<i64>) -> bool {
-        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+    /// Whether a request must be carried out: it is new, and was not sent to an earlier node. A refusal is logged.
+    fn accepts(&self, service: usize, client: &Peer, sequence: i64, sent: Option<i64>) -> bool {
+        let mut filter = self.request_filter.lock().unwrap_or_else(PoisonError::into_inner);
         let steady = monotonic::now();
         let now = SystemTime::now().duration_since(UNIX_EPOCH);
         let arrival = Arrival {
@@ -97,9 +97,9 @@ impl Shared {
             sequence,
             sent,
             now: now.map_or(0, |since| since.as_nanos() as i64),
-            up: steady.saturating_sub(taken.began),
+            up: steady.saturating_sub(filter.began),
         };
-        let why = match taken.requests.judge(&arrival) {
+        let why = match filter.seen.judge(&arrival) {
             Verdict::New => return true,
             Verdict::Repeated => {
                 tracing::debug!("request {sequence} of {client} arrived again and is not carried out again");
@@ -110,16 +110,16 @@ impl Shared {
                  differ: synchronise them"
             ),
             Verdict::WithoutTime => {
-                "it does not say when it was sent, so soon after the start it may be meant for a node before this one. Send \
-                 it again half a minute after the start"
+                "it does not state when it was sent, and so soon after the start it may have been sent to an earlier node. \
+                 Send it again half a minute after the start"
                     .to_owned()
             }
             Verdict::Forgotten => {
-                "it is older than what is remembered of so many clients, so it may have been carried out. Send it again"
+                "its client was forgotten among too many clients, so that it may have been carried out before. Send it again"
                     .to_owned()
             }
         };
-        if let Some(more) = taken.refusals.ending(steady as f64 * 1e-9) {
+        if let Some(more) = filter.refusal_lines.ending(steady as f64 * 1e-9) {
             let service = self.service_names.get(service).map_or("?", String::as_str);
             tracing::warn!("service {service}: a request of {client} is not carried out: {why}{more}");
         }
@@ -156,7 +156,7 @@ impl PortBuilder {
         }
     }
 
-    /// A topic to publish on: its absolute name, its type as `std_msgs::msg::dds_::Float64_`.
+    /// Adds a topic to publish on, by its absolute name and its DDS type, such as `std_msgs::msg::dds_::Float64_`.
     pub fn publisher(&mut self, topic: &str, dds_type: &str, offer: Offer) -> TopicPublisher {
         let counters = Arc::new(TopicCounters::default());
         let writer = self.plan.writers.len() as u16;
@@ -174,7 +174,7 @@ impl PortBuilder {
         }
     }
 
-    /// A topic to listen to. A latched one is asked for what was written before.
+    /// Adds a topic to read. A latched one also delivers the samples written before.
     pub fn subscription(&mut self, topic: &str, dds_type: &str, latched: bool) -> Arc<Inbox<Sample>> {
         self.read(ReaderPlan {
             topic: topic.to_owned(),
@@ -191,7 +191,7 @@ impl PortBuilder {
         inbox
     }
 
-    /// A service to serve: its absolute name, its type as `std_srvs/srv/Trigger`.
+    /// Adds a service to serve, by its absolute name and its type, such as `std_srvs/srv/Trigger`.
     pub fn service(&mut self, name: &str, ros_type: &str) -> Requests {
         let service = self.plan.services.len() as u16;
         self.plan.services.push(ServicePlan {
@@ -207,8 +207,8 @@ impl PortBuilder {
         }
     }
 
-    /// A service to call: its absolute name, its type as `std_srvs/srv/Trigger`. Requests go out on the publisher, replies to
-    /// all clients come to the inbox.
+    /// Adds a service to call, by its absolute name and its type, such as `std_srvs/srv/Trigger`. The publisher sends requests;
+    /// the inbox receives the replies to all clients.
     pub fn client(&mut self, name: &str, ros_type: &str) -> (TopicPublisher, Arc<Inbox<Sample>>) {
         let [requests, replies] = service_topics(name, ros_type);
         let offer = Offer {
@@ -228,24 +228,24 @@ impl PortBuilder {
         (publisher, inbox)
     }
 
-    /// The services so far, for who asks within this process: absolute name, type, and where requests are put.
+    /// The services so far, for clients within this process: absolute name, type, and inbox.
     pub fn services(&self) -> impl Iterator<Item = (&str, &str, &Arc<Inbox<Request>>)> {
         let named = self.plan.services.iter().zip(&self.services);
         named.map(|(plan, inbox)| (plan.name.as_str(), plan.ros_type.as_str(), inbox))
     }
 
-    /// Brings DDS up.
+    /// Starts DDS.
     ///
     /// # Errors
-    /// When the process cannot be started, or DDS in it.
+    /// When the process or DDS in it cannot be started.
     pub fn start(self) -> Result<Port, StartError> {
         let service_names = self.plan.services.iter().map(|service| service.name.clone()).collect();
         let shared = Arc::new(Shared {
             service_names,
-            taken: Mutex::new(Taken {
-                requests: TakenRequests::default(),
+            request_filter: Mutex::new(RequestFilter {
+                seen: SeenRequests::default(),
                 began: monotonic::now(),
-                refusals: Throttle::new(REFUSALS),
+                refusal_lines: Throttle::new(REFUSAL_INTERVAL),
             }),
             open: Arc::default(),
             outbox: self.outbox,
@@ -257,34 +257,34 @@ impl PortBuilder {
             stop: AtomicBool::new(false),
         });
         let keeper = Keeper::new(self.plan, Arc::clone(&shared));
-        let (told, first) = std::sync::mpsc::channel();
+        let (report, first_start) = std::sync::mpsc::channel();
         let thread = std::thread::Builder::new()
             .name("dds keeper".into())
-            .spawn(move || keeper.run(&told))
+            .spawn(move || keeper.run(&report))
             .map_err(|error| StartError(format!("the keeper's thread could not be started: {error}")))?;
         let port = Port {
             shared,
             thread: Some(thread),
         };
-        match first.recv_timeout(START) {
+        match first_start.recv_timeout(START) {
             Ok(Ok(())) => Ok(port),
             Ok(Err(why)) => Err(StartError(why)),
             Err(_) => Err(StartError(format!(
-                "the DDS process has said nothing for {} s",
+                "the DDS process did not answer within {} s",
                 START.as_secs()
             ))),
         }
     }
 }
 
-/// DDS while the node is up. Dropped, it leaves the network in order.
+/// DDS of a running node. Dropping it leaves the network in order.
 pub struct Port {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Port {
-    /// How DDS is.
+    /// The state of DDS.
     pub fn monitor(&self) -> Monitor {
         Monitor(Arc::clone(&self.shared))
     }
@@ -300,22 +300,22 @@ impl Drop for Port {
     }
 }
 
-/// Tells how DDS is and who is out there.
+/// Reports the state of DDS and the endpoints of other programs.
 #[derive(Clone)]
 pub struct Monitor(Arc<Shared>);
 
 impl Monitor {
-    /// How DDS is.
+    /// The state of DDS.
     pub fn health(&self) -> Health {
         self.0.health().clone()
     }
 
-    /// Who writes what the subscriptions read, one list per subscription in the order in which they were made.
+    /// The writers of each subscription, in the order in which the subscriptions were added.
     pub fn writers(&self) -> Vec<Vec<Peer>> {
         self.0.peers().writers.clone()
     }
 
-    /// Requests of clients that have no answer yet.
+    /// Number of requests over DDS that have no answer yet.
     pub fn open_requests(&self) -> u64 {
         self.0.open.load(Ordering::Acquire)
     }
@@ -325,7 +325,7 @@ impl Monitor {
         self.0.peers().namesakes.clone()
     }
 
-    /// How many readers a publisher has.
+    /// Number of readers of a publisher.
     pub fn readers(&self, publisher: &TopicPublisher) -> u32 {
         let peers = self.0.peers();
         peers.readers.get(usize::from(publisher.writer)).copied().unwrap_or(0)
@@ -341,12 +341,12 @@ pub struct TopicPublisher {
 }
 
 impl TopicPublisher {
-    /// Publishes a CDR body, without its header. Never waits; what there is no room for is counted as dropped.
+    /// Publishes a CDR body without its header. Never waits; a message that finds the queue full is counted as dropped.
     pub fn publish(&self, body: Vec<u8>) {
         self.outbox.publish(self.writer, body);
     }
 
-    /// What became of the samples so far.
+    /// The samples so far.
     pub fn counters(&self) -> &TopicCounters {
         &self.counters
     }
@@ -360,12 +360,12 @@ pub struct Requests {
 }
 
 impl Requests {
-    /// Waits for the next one.
+    /// Waits for the next request.
     pub async fn next(&self) -> Request {
         self.inbox.next().await
     }
 
-    /// Answers it with a CDR body. A request that came through a process that has ended meanwhile is not answered.
+    /// Answers a request with a CDR body. The reply is dropped where the process of the request has ended meanwhile.
     pub fn reply(&self, request: Request, body: Vec<u8>) {
         match request.reply_to {
             ReplyTo::Dds { life, ticket } => self.outbox.reply(
@@ -376,7 +376,7 @@ impl Requests {
                     body,
                 },
             ),
-            // Who asked may have gone.
+            // The client may not wait any more.
             ReplyTo::Local(answer) => drop(answer.send(body)),
         }
     }

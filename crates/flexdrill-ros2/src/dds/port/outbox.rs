@@ -1,4 +1,4 @@
-//! What is to go to the network, until the DDS process takes it.
+//! The queue of outgoing messages until the DDS process reads them.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::Ordering;
@@ -9,7 +9,7 @@ use super::TopicCounters;
 use crate::dds::frames::ToSide;
 use crate::dds::plan::Offer;
 
-/// Most bytes that wait: a second and more of all outputs of a tool of 200 stations.
+/// Most bytes in the queue: more than a second of all outputs of a tool with 200 stations.
 const MOST_BYTES: usize = 8 << 20;
 
 /// A bounded queue to the DDS process, and the newest state of every latched topic.
@@ -19,7 +19,7 @@ pub(super) struct Outbox(Arc<Inner>);
 #[derive(Default)]
 struct Inner {
     state: Mutex<State>,
-    came: Condvar,
+    added: Condvar,
 }
 
 #[derive(Default)]
@@ -27,7 +27,7 @@ struct State {
     topics: Vec<(Offer, Arc<TopicCounters>)>,
     waiting: VecDeque<ToSide>,
     bytes: usize,
-    /// Which life of the process it is for; none while there is no process.
+    /// Number of the process that reads the queue; none while there is no process.
     life: Option<u64>,
     latched: BTreeMap<u16, Vec<u8>>,
 }
@@ -48,7 +48,7 @@ impl Outbox {
         }
         if state.life.is_some() {
             state.push(ToSide::Publish { writer, body });
-            self.0.came.notify_one();
+            self.0.added.notify_one();
         } else if !is_state {
             counters.dropped.fetch_add(1, Ordering::Relaxed);
         }
@@ -58,11 +58,11 @@ impl Outbox {
         let mut state = self.lock();
         if state.life == Some(life) {
             state.push(reply);
-            self.0.came.notify_one();
+            self.0.added.notify_one();
         }
     }
 
-    /// A process is there: first it hears the newest states.
+    /// Opens the queue for a process. The newest states are its first messages.
     pub(super) fn open(&self, life: u64) {
         let mut state = self.lock();
         state.life = Some(life);
@@ -79,20 +79,20 @@ impl Outbox {
         }
     }
 
-    /// The process has gone, and what waits for it with it.
+    /// Closes the queue after the end of the process, and counts its messages as dropped.
     pub(super) fn close(&self) {
         let mut state = self.lock();
         state.life = None;
         while state.pop().is_some_and(|frame| state.count_dropped(&frame)) {}
     }
 
-    /// What waits, after at most so long.
-    pub(super) fn wait(&self, most: Duration) -> Vec<ToSide> {
+    /// All queued messages; waits for the first one, `longest` at most.
+    pub(super) fn wait(&self, longest: Duration) -> Vec<ToSide> {
         let state = self.lock();
         let (mut state, _) = self
             .0
-            .came
-            .wait_timeout_while(state, most, |state| state.waiting.is_empty())
+            .added
+            .wait_timeout_while(state, longest, |state| state.waiting.is_empty())
             .unwrap_or_else(PoisonError::into_inner);
         state.bytes = 0;
         state.waiting.drain(..).collect()
@@ -100,7 +100,7 @@ impl Outbox {
 
     /// Ends a wait.
     pub(super) fn wake(&self) {
-        self.0.came.notify_all();
+        self.0.added.notify_all();
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_process_hears_the_newest_states_and_nothing_old() {
+    fn a_new_process_gets_the_newest_states_and_nothing_old() {
         let (outbox, [stream, latched]) = outbox();
         outbox.publish(0, vec![0; 3]);
         outbox.publish(1, vec![0; 4]);
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn memory_is_bounded_and_the_oldest_go() {
+    fn memory_is_bounded_and_the_oldest_messages_are_dropped() {
         let (outbox, [stream, _]) = outbox();
         outbox.open(1);
         for _ in 0..20 {
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reply_does_not_go_to_another_process() {
+    fn a_reply_is_not_sent_to_another_process() {
         let (outbox, _) = outbox();
         outbox.open(2);
         let reply = || ToSide::Reply {

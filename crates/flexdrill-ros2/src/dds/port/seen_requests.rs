@@ -70,14 +70,14 @@ struct Client {
 
 /// The requests that were taken.
 #[derive(Default)]
-pub(super) struct TakenRequests {
+pub(super) struct SeenRequests {
     clients: BTreeMap<Guid, Client>,
     turn: u64,
     /// When the newest request of all writers that were forgotten was sent.
     forgotten: Option<i64>,
 }
 
-impl TakenRequests {
+impl SeenRequests {
     /// Judges a request, and notes it when it is new.
     pub(super) fn judge(&mut self, arrival: &Arrival) -> Verdict {
         let &Arrival {
@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn a_request_is_taken_once() {
-        let mut taken = TakenRequests::default();
+        let mut taken = SeenRequests::default();
         let request = |sequence: i64, now: i64| at(7, sequence, START + sequence * SECOND, START + now * SECOND);
         for sequence in [1, 2, 5] {
             assert_eq!(taken.judge(&request(sequence, 10)), Verdict::New);
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn requests_to_a_node_before_are_not_taken() {
-        let mut taken = TakenRequests::default();
+        let mut taken = SeenRequests::default();
         let Verdict::Older(by) = taken.judge(&at(7, 1, START - 3 * SECOND, START + SECOND)) else {
             panic!("it was taken");
         };
@@ -249,7 +249,7 @@ mod tests {
 
     #[test]
     fn a_request_without_its_time_is_judged_by_its_number_and_the_time_since_the_start() {
-        let mut taken = TakenRequests::default();
+        let mut taken = SeenRequests::default();
         let no_time = |client: u8, sequence: i64, after: i64| Arrival {
             sent: None,
             ..at(client, sequence, 0, START + after * SECOND)
@@ -275,7 +275,7 @@ mod tests {
     fn a_clock_that_is_set_does_not_matter() {
         let up = (60 * SECOND) as u64;
         for set_by in [-3600 * SECOND, 3600 * SECOND] {
-            let mut taken = TakenRequests::default();
+            let mut taken = SeenRequests::default();
             let now = START + 60 * SECOND + set_by;
             let fresh = Arrival {
                 up,
@@ -288,7 +288,7 @@ mod tests {
 
     #[test]
     fn a_client_that_comes_again_with_its_id_is_heard() {
-        let mut taken = TakenRequests::default();
+        let mut taken = SeenRequests::default();
         let now = START + 100 * SECOND;
         for sequence in 1..=9 {
             assert_eq!(taken.judge(&at(7, sequence, START + sequence, now)), Verdict::New);
@@ -300,7 +300,7 @@ mod tests {
 
     #[test]
     fn memory_is_bounded_and_what_was_forgotten_is_not_taken_again() {
-        let mut taken = TakenRequests::default();
+        let mut taken = SeenRequests::default();
         let now = START + 1_000_000;
         let from = |number: usize, sent: i64| {
             let mut arrival = at(0, 1, sent, now);
