@@ -4,10 +4,10 @@
     python3 docs/examples/count_turns.py read RECORDING.mcap...
     python3 docs/examples/count_turns.py run config/default.yaml --set tool.joint.limit_deg=8 --runs 3
 
-`run` makes the recordings by `flexdrill replay` at constant inputs, each with 1 N more for a tenth of a second than the
-one before, so that their differences show the scatter. To count turns, a recording needs twin/tool_shape at 20 Hz or
-more, which `run` sees to. Of others, such as those of the default configuration (10 Hz), `read` prints the rest. Figures
-are of the last three quarters, as in `flexdrill bench`.
+`run` makes the recordings with `flexdrill replay` at constant inputs. Each has 1 N more for a tenth of a second than the one
+before, so that their differences show the scatter. To count turns, a recording needs twin/tool_shape at 20 Hz or more,
+which `run` sets. For other recordings, such as those of the default configuration (10 Hz), `read` prints the other
+figures. All figures are of the last three quarters, as in `flexdrill bench`.
 """
 
 import argparse
@@ -68,14 +68,14 @@ def lateral(exaggeration, messages):
 
 
 def turns(path):
-    """Net turns about the origin, positive from y to z, the drive's sense; `path` is instant, place, (y, z)."""
+    """Net turns about the origin, positive from y to z, the drive's sense; `path` is instant, station, (y, z)."""
     before, after = path[:-1], path[1:]
     cross = before[..., 0] * after[..., 1] - before[..., 1] * after[..., 0]
     return np.arctan2(cross, (before * after).sum(-1)).sum(0) / (2 * np.pi)
 
 
 def measure(bag):
-    """What is counted in one recording."""
+    """The counts of one recording."""
     configuration, times, messages = read(bag)
     configuration = read_yaml(configuration)
     tool = configuration["tool"]
@@ -91,7 +91,7 @@ def measure(bag):
     depth = np.array(messages["contact"][0].measured_depth)
     link = depth[-1] / tool["links"]
     ends = pipe[:, np.r_[0, joints, -1]]
-    # A link of length L whose ends are moved apart by d across its chord reaches L - d^2 / (2 L) along it.
+    # A link of length L whose ends are displaced by d across its chord is L - d^2 / (2 L) long along the chord.
     shortening = (np.diff(ends, axis=1) ** 2).sum((1, 2)) / (2 * link)
     tilt = np.diff(ends, axis=1) / link
     tilt_rate = np.linalg.norm(np.diff(tilt, axis=0), axis=-1) / np.diff(times["shape"])[:, None]
@@ -157,7 +157,7 @@ def run(given):
     config = configured(given.flexdrill, given.config, given.set)
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        # JSON is YAML, and writes numbers so that they stay numbers.
+        # JSON is YAML, and keeps numbers as numbers.
         (folder / "config.yaml").write_text(json.dumps(config))
         (folder / "columns.yaml").write_text(json.dumps({
             "title": "constant inputs", "separator": ",",

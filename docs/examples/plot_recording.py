@@ -47,7 +47,7 @@ def main():
     if not contacts or not joints:
         raise SystemExit(f"{given.bag}: no twin/contact_forces or no twin/joint_deflections in it")
 
-    # Instant by place. Collisions are shorter than the publishing interval: the peaks are those within it.
+    # Instant by station. Collisions are shorter than the publishing interval: the peaks are those within it.
     depth = contacts[0].measured_depth
     inner = np.array([m.pipe_guide_normal_peak for m in contacts])
     outer = np.array([m.guide_wall_normal_peak for m in contacts])
@@ -55,7 +55,7 @@ def main():
         instant, station = np.unravel_index(force.argmax(), force.shape)
         print(f"largest force, {name}: {force.max():.6f} N at {depth[station]:.2f} m, {seconds(contacts)[instant]:.2f} s")
 
-    # The joints with the largest force beside them, and four seconds about it.
+    # The joints next to the largest force, and four seconds around it.
     joint_depth = joints[0].measured_depth
     lateral = np.array([[m.lateral_y, m.lateral_z] for m in joints])  # instant, axis, joint
     station_of = np.abs(depth[:, None] - joint_depth).argmin(axis=0)
