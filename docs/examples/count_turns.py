@@ -4,10 +4,10 @@
     python3 docs/examples/count_turns.py read RECORDING.mcap...
     python3 docs/examples/count_turns.py run config/default.yaml --set tool.joint.limit_deg=8 --runs 3
 
-`run` makes the recordings with `flexdrill replay` at constant inputs. Each has 1 N more for a tenth of a second than the
-one before, so that their differences show the scatter. To count turns, a recording needs twin/tool_shape at 20 Hz or
-more, which `run` sets. For other recordings, such as those of the default configuration (10 Hz), `read` prints the other
-figures. All figures are of the last three quarters, as in `flexdrill bench`.
+`run` makes the recordings with `flexdrill replay` at constant inputs. Each has 1 N more for a tenth of a second than
+the one before, so that their differences show the scatter. To count turns, a recording needs twin/tool_shape at 20 Hz
+or more, which `run` sets. For other recordings, such as those of the default configuration (10 Hz), `read` prints the
+other figures. All figures are of the last three quarters, as in `flexdrill bench`.
 """
 
 import argparse
