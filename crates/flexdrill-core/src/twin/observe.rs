@@ -273,7 +273,7 @@ impl Observer {
     /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
     pub(super) fn fill(&self, stepper: &Stepper, state: &State, applied: &Applied, out: &mut Snapshot) {
         let (model, forces) = (stepper.model(), stepper.interactions());
-        fill_joints((model, state), forces, &mut out.joints);
+        fill_joints(model, state, forces, &mut out.joints);
         let contacts = &mut out.contacts;
         fill_layer(&mut contacts.pipe_guide, &forces.inner, &self.inner, |s| {
             let station = &model.stations[s];
@@ -469,7 +469,7 @@ fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
     out.unbalance = forces.unbalance().into();
 }
 
-fn fill_joints((model, state): (&Model, &State), forces: &Interactions, out: &mut Joints) {
+fn fill_joints(model: &Model, state: &State, forces: &Interactions, out: &mut Joints) {
     for (to, stop) in out.stop_moment.iter_mut().zip(forces.joints.stops()) {
         *to = stop.moment;
     }

@@ -42,6 +42,25 @@ pub struct Forcing {
     pub weight_on_bit: [f64; 2],
 }
 
+/// A whole step, of which parts are taken.
+struct WholeStep {
+    /// Its size (s).
+    h: f64,
+    /// Time at its start (s).
+    time: f64,
+    /// Angle of the drive at its start (rad).
+    drive_angle: f64,
+    forcing: Forcing,
+}
+
+impl WholeStep {
+    /// Angle of the drive (rad) at a part of the step, 0 to 1: the speed changes linearly.
+    fn drive_angle_at(&self, part: f64) -> f64 {
+        let [speed_0, speed_1] = self.forcing.rotary_speed;
+        self.drive_angle + self.h * part * (speed_0 + 0.5 * (speed_1 - speed_0) * part)
+    }
+}
+
 /// Which linear solver to use.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum SolverKind {
@@ -412,7 +431,12 @@ impl Stepper {
     /// is halved and retried; when the smallest one fails, the state stays that before the step.
     pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
         self.prepare(h);
-        let start = (self.track.state.time, self.track.state.drive_angle);
+        let whole = WholeStep {
+            h,
+            time: self.track.state.time,
+            drive_angle: self.track.state.drive_angle,
+            forcing: *forcing,
+        };
         let audit_before = self.audit;
         let mut sub_steps = SubSteps::new(self.max_halvings, self.refinement);
         if self.refinement > 0 {
@@ -420,7 +444,7 @@ impl Stepper {
         }
         let mut iterations = 0;
         while let Some(part) = sub_steps.part() {
-            match self.sub_step(h, start, forcing, part) {
+            match self.sub_step(&whole, part) {
                 Ok(made) => {
                     iterations += made;
                     sub_steps.accept();
@@ -459,21 +483,12 @@ impl Stepper {
         }
     }
 
-    /// The sub-step between two parts (0 to 1) of a step of size `h` that begins at time `start` with the drive at
-    /// `start_angle`.
-    fn sub_step(
-        &mut self,
-        h: f64,
-        (start, start_angle): (f64, f64),
-        forcing: &Forcing,
-        (from, to): (f64, f64),
-    ) -> Result<u32, Rejected> {
-        let time = start + h * to;
-        let [load_0, load_1] = forcing.weight_on_bit;
-        let mut conditions = self.conditions(time, load_0 + (load_1 - load_0) * to);
-        let [speed_0, speed_1] = forcing.rotary_speed;
-        conditions.drive_angle = start_angle + h * to * (speed_0 + 0.5 * (speed_1 - speed_0) * to);
-        let step = h * (to - from);
+    /// The sub-step between two parts (0 to 1) of a whole step.
+    fn sub_step(&mut self, whole: &WholeStep, (from, to): (f64, f64)) -> Result<u32, Rejected> {
+        let [load_0, load_1] = whole.forcing.weight_on_bit;
+        let mut conditions = self.conditions(whole.time + whole.h * to, load_0 + (load_1 - load_0) * to);
+        conditions.drive_angle = whole.drive_angle_at(to);
+        let step = whole.h * (to - from);
         let stride = Stride {
             scheme: self.scheme,
             h: step,
