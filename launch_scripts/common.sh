@@ -1,5 +1,5 @@
 # Shared by the scripts in this folder; sourced, not run.
-# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build and local_dds.
+# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress and local_dds.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 name=$(basename "$0")
@@ -48,13 +48,61 @@ need_rust() {
     say "Rust $have"
 }
 
-# Builds the release binary and sets $flexdrill.
+# Builds the release binary and sets $flexdrill. Shows how much of the build is done and how long the rest takes.
 build() {
     need_packages build-essential
     need_rust
-    say "building (a few minutes the first time)"
-    (cd "$root" && cargo build --release --locked) || fail "the build failed; see above"
+    say "building; the first time takes several minutes"
+    # cargo draws its progress only when it is asked to: one line that it overwrites again and again.
+    (
+        cd "$root"
+        export CARGO_TERM_COLOR=never CARGO_TERM_PROGRESS_WHEN=always CARGO_TERM_PROGRESS_WIDTH=100
+        cargo build --release --locked 2>&1
+    ) | progress || fail "the build failed; see above"
     flexdrill="${CARGO_TARGET_DIR:-$root/target}/release/flexdrill"
+}
+
+# Reads what cargo writes and shows its progress: in a terminal as one line that changes, in a log as a line every half
+# minute. Warnings, errors and cargo's last line pass through.
+progress() {
+    local chunk line text first="" began=$SECONDS next=0 every=30 clear="" end=$'\n'
+    if [ -t 1 ]; then every=1 clear=$'\r\033[K' end=""; fi
+    # A chunk ends where cargo goes back to the beginning of its line; the last one ends with the output.
+    while IFS= read -r -d $'\r' chunk || [ -n "$chunk" ]; do
+        while IFS= read -r line; do
+            line=${line//$'\033[K'/}
+            if [[ $line =~ ^\ *Building\ \[.*\]\ ([0-9]+)/([0-9]+) ]]; then
+                # Steps that an earlier build has done take no time.
+                first=${first:-${BASH_REMATCH[1]}}
+                [ "$SECONDS" -ge "$next" ] || continue
+                next=$((SECONDS + every))
+                text=$(time_left "$first" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" $((SECONDS - began)))
+                printf '%s[%s] built %s of %s%s%s' "$clear" "$name" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" "$text" "$end"
+            elif [[ -n $line && ! $line =~ ^\ *(Compiling|Downloaded|Downloading|Fetch|Locking|Updating) ]]; then
+                printf '%s%s\n' "$clear" "$line"
+            fi
+        done <<<"$chunk"
+    done
+}
+
+# time_left FIRST DONE TOTAL SECONDS: ", about 5 minutes left" for a build that has done DONE of TOTAL steps in SECONDS,
+# FIRST of which took no time; nothing before there is something to go by. The large crates come last: `at` is the share
+# of the time that a share of the steps takes, as `cargo build --timings` shows it.
+time_left() {
+    awk -v first="$1" -v done="$2" -v total="$3" -v seconds="$4" '
+        function at(share, i) {
+            for (i = 2; i < count && share > x[i]; i++);
+            return y[i - 1] + (y[i] - y[i - 1]) * (share - x[i - 1]) / (x[i] - x[i - 1])
+        }
+        BEGIN {
+            count = split("0 0.3 0.5 0.7 0.85 0.95 1", x, " ")
+            split("0 0.15 0.3 0.45 0.6 0.75 1", y, " ")
+            spent = at(done / total) - at(first / total)
+            if (seconds < 10 || spent < 0.03) exit
+            minutes = seconds * (1 - at(done / total)) / spent / 60
+            if (minutes < 1) printf ", less than a minute left"
+            else printf ", about %.0f minute%s left", minutes, (minutes < 1.5 ? "" : "s")
+        }'
 }
 
 # DDS stays on this machine unless the caller has said otherwise. No multicast on the loopback interface is needed.

@@ -1,6 +1,12 @@
 //! Viewers of the default tool, whose messages are the largest and whose steps take most of their time. The test has a
 //! binary to itself: a test that ran at the same time would take the processor whose late steps are counted here.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod common;
 
 use std::time::Duration;

@@ -11,6 +11,9 @@
 )]
 
 mod bag_support;
+#[path = "../crates/flexdrill-core/tests/support/random.rs"]
+#[allow(dead_code, reason = "each test uses some of it")]
+mod random;
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
@@ -32,6 +35,7 @@ use flexdrill_core::twin::{Output, Run, Simulation};
 use flexdrill_realtime::clock::Clock;
 use flexdrill_realtime::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Settings, Targets, link};
 use flexdrill_realtime::{PaceReading, RealTimeLoop};
+use random::Random;
 
 const MS: u64 = 1_000_000;
 const SECOND: u64 = 1000 * MS;
@@ -62,28 +66,14 @@ outputs:
           joint_states: 0}
 "#;
 
-/// SplitMix64 (Steele, Lea, Flood 2014): a seed gives the same world on every machine.
-struct Chance(u64);
+/// Chances of a world.
+trait Chance {
+    fn one_in(&mut self, many: u64) -> bool;
+}
 
-impl Chance {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, most: u64) -> u64 {
-        self.next() % most
-    }
-
+impl Chance for Random {
     fn one_in(&mut self, many: u64) -> bool {
         self.below(many) == 0
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 
@@ -100,7 +90,7 @@ enum Happening {
 
 /// Everything but the solver's loop.
 struct World {
-    chance: Chance,
+    chance: Random,
     now: u64,
     next: BTreeMap<Happening, u64>,
     config: Arc<Config>,
@@ -496,7 +486,7 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         Happening::Network,
         Happening::Disk,
     ];
-    let mut chance = Chance(seed);
+    let mut chance = Random(seed);
     let next = happenings
         .into_iter()
         .map(|what| {

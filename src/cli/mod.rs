@@ -11,7 +11,6 @@ mod paper;
 mod progress;
 mod record_name;
 mod recover;
-mod reference;
 mod replay;
 mod report;
 mod rig;
@@ -56,7 +55,6 @@ enum Command {
     Bench(bench::BenchArgs),
     Completions(shell::CompletionsArgs),
     Man(shell::ManArgs),
-    Reference(reference::ReferenceArgs),
 }
 
 /// The command line is wrong: exit code 2.
@@ -233,10 +231,6 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
             Ok(())
         }
         Command::Man(args) => shell::man(&args),
-        Command::Reference(args) => {
-            reference::run(&args);
-            Ok(())
-        }
     }
 }
 

@@ -4,12 +4,6 @@
 //!
 //!     cargo test --release --test alarms advice:: -- --ignored --nocapture --test-threads 1
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::PathBuf;
 use std::sync::Arc;
 

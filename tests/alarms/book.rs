@@ -1,11 +1,5 @@
 //! From hazards and the node's state to alarms, their words, and what is kept over a restart; the alarms of a replay.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;

@@ -1,12 +1,6 @@
 //! The analysis on the real mechanics: a rotor that rolls in its clearance by physics, one that slides, and what
 //! doubtful inputs do to what is said of them.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use flexdrill::messages::WhirlWarning;
 use flexdrill::messages::fill;
 use flexdrill::messages::outputs::schedule;

@@ -1,12 +1,6 @@
 //! What alarms say: the worst moment while a level is held, numbers that were measured, advice that does not contradict
 //! itself at any speed and weight.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::PathBuf;
 use std::sync::Arc;
 

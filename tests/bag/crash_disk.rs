@@ -1,12 +1,6 @@
 //! A live recording on a disk that fails: at every single operation, for a while, or for ever. What was written stays
 //! readable, what was lost is counted, and who hands over messages never waits.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};

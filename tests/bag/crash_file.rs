@@ -1,11 +1,5 @@
 //! A recording that was cut: by a lost tail, a killed process, a full disk. What was flushed can be read and recovered.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};

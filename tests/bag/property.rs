@@ -1,11 +1,5 @@
 //! Whatever the bytes are, reading a bag ends in messages and errors, never in a panic.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::Path;
 use std::sync::OnceLock;
 

@@ -1,4 +1,10 @@
 //! The command line as a user meets it, and the figures of the paper.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod paper;
 mod usage;

@@ -1,12 +1,6 @@
 //! `flexdrill paper` on a small tool: every file is there and reads back, the same inputs give the same bytes, and what
 //! a short tool cannot agree with is said.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::Path;
 use std::process::Command;
 

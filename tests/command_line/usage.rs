@@ -1,12 +1,6 @@
 //! The command line as people meet it: the first start, words that are no commands, completions, man pages, the schema,
 //! and every command that the documents show.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -231,21 +225,6 @@ fn the_schema_that_is_checked_in_is_that_of_this_version() {
     // Editors find it from the file that people begin with.
     let config = std::fs::read_to_string(root().join("config/default.yaml")).unwrap();
     assert!(config.contains("# yaml-language-server: $schema=flexdrill.schema.json"));
-}
-
-/// Rewritten by: flexdrill reference PAGE > docs/PAGE.md
-#[test]
-fn the_reference_pages_that_are_checked_in_are_those_of_this_version() {
-    for page in ["topics", "configuration"] {
-        let (code, out, err) = said(&["reference", page]);
-        assert_eq!(code, Some(0), "{err}");
-        let path = root().join(format!("docs/{page}.md"));
-        assert!(
-            std::fs::read_to_string(&path).unwrap() == out,
-            "{} is old; flexdrill reference {page} > docs/{page}.md",
-            path.display()
-        );
-    }
 }
 
 /// Markdown files of the repository and the pages of the manual.

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use peak_alloc::PeakAlloc;
 
-use crate::mutator::{Random, mutate};
+use crate::mutator::{mutate, random};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
@@ -59,7 +59,7 @@ impl Target<'_> {
         let (began, mut accepted, mut seed) = (Instant::now(), 0_u64, first);
         while began.elapsed() < time {
             watch.at(seed);
-            let input = mutate(&self.seeds, self.words, &mut Random::new(seed));
+            let input = mutate(&self.seeds, self.words, &mut random(seed));
             let again = format!("FLEXDRILL_FUZZ_SEED={seed}");
             accepted += u64::from(self.execute(&input, &again, &mut largest));
             seed += 1;

@@ -13,6 +13,9 @@
 
 #[path = "../bag_support/mod.rs"]
 mod bag_support;
+#[path = "../../crates/flexdrill-core/tests/support/random.rs"]
+#[allow(dead_code, reason = "each test uses some of it")]
+mod random;
 
 mod bags;
 mod engine;

@@ -1,38 +1,38 @@
 //! Bytes made from seeds, by a few changes that a format may not have thought of.
 
+use crate::random::Random;
+
 /// Longest input (bytes), unless the seed is longer.
 const LONGEST: usize = 64 << 10;
 
-/// Numbers from a seed: SplitMix64.
-pub struct Random(u64);
+/// The generator of an execution, which is a function of its number.
+pub fn random(execution: u64) -> Random {
+    Random(execution.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+}
 
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15))
-    }
+/// Choices that change bytes.
+trait Choices {
+    /// An index below a bound; 0 for 0.
+    fn index(&mut self, bound: usize) -> usize;
+    /// One of a list.
+    fn of<'a, T: ?Sized>(&mut self, list: &[&'a T]) -> Option<&'a T>;
+    /// A range within so many bytes, short ones more often.
+    fn range(&mut self, length: usize) -> std::ops::Range<usize>;
+}
 
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Below a bound; 0 for 0.
-    pub fn below(&mut self, bound: usize) -> usize {
-        (self.next() % bound.max(1) as u64) as usize
+impl Choices for Random {
+    fn index(&mut self, bound: usize) -> usize {
+        self.below(bound as u64) as usize
     }
 
     fn of<'a, T: ?Sized>(&mut self, list: &[&'a T]) -> Option<&'a T> {
-        list.get(self.below(list.len())).copied()
+        list.get(self.index(list.len())).copied()
     }
 
-    /// A range within so many bytes, short ones more often.
     fn range(&mut self, length: usize) -> std::ops::Range<usize> {
-        let begin = self.below(length + 1);
-        let most = 1 << self.below(11);
-        begin..length.min(begin + self.below(most + 1))
+        let begin = self.index(length + 1);
+        let most = 1 << self.index(11);
+        begin..length.min(begin + self.index(most + 1))
     }
 }
 
@@ -85,36 +85,36 @@ const NUMBERS: [&str; 22] = [
 
 /// A seed with one to some changes.
 pub fn mutate(seeds: &[Vec<u8>], words: &[&str], random: &mut Random) -> Vec<u8> {
-    let mut bytes = seeds.get(random.below(seeds.len())).cloned().unwrap_or_default();
+    let mut bytes = seeds.get(random.index(seeds.len())).cloned().unwrap_or_default();
     let longest = bytes.len().max(LONGEST);
     loop {
         change(&mut bytes, seeds, words, random);
         bytes.truncate(longest);
-        if random.below(3) == 0 {
+        if random.index(3) == 0 {
             return bytes;
         }
     }
 }
 
 fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], words: &[&str], random: &mut Random) {
-    let place = random.below(bytes.len());
-    match random.below(14) {
+    let place = random.index(bytes.len());
+    match random.index(14) {
         0 => {
             if let Some(byte) = bytes.get_mut(place) {
-                *byte ^= 1 << random.below(8);
+                *byte ^= 1 << random.index(8);
             }
         }
         1 => {
             if let Some(byte) = bytes.get_mut(place) {
-                *byte = random.next() as u8;
+                *byte = random.next_u64() as u8;
             }
         }
         // A number of 1 to 8 bytes at its limits, or one beside it.
         2 | 3 => {
-            let width = 1 << random.below(4);
-            let limit = LIMITS[random.below(LIMITS.len())].wrapping_add((random.below(3) as u64).wrapping_sub(1));
+            let width = 1 << random.index(4);
+            let limit = LIMITS[random.index(LIMITS.len())].wrapping_add((random.index(3) as u64).wrapping_sub(1));
             let mut value = limit.to_le_bytes()[..width].to_vec();
-            if random.below(4) == 0 {
+            if random.index(4) == 0 {
                 value.reverse();
             }
             overwrite(bytes, place, &value);
@@ -126,18 +126,18 @@ fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], words: &[&str], random: &mut R
         // The same again, up to a thousand times.
         6 => {
             let range = random.range(bytes.len());
-            let times = 1 << random.below(11);
+            let times = 1 << random.index(11);
             let times = times.min(LONGEST / range.len().max(1));
             let again = bytes[range.clone()].repeat(times);
             bytes.splice(range.end..range.end, again);
         }
         7 => {
-            let fresh: Vec<u8> = (0..random.below(16)).map(|_| random.next() as u8).collect();
+            let fresh: Vec<u8> = (0..random.index(16)).map(|_| random.next_u64() as u8).collect();
             bytes.splice(place..place, fresh);
         }
         // A part of another one.
         8 => {
-            let other = &seeds[random.below(seeds.len())];
+            let other = &seeds[random.index(seeds.len())];
             let part = other[random.range(other.len())].to_vec();
             let range = random.range(bytes.len());
             bytes.splice(range, part);
@@ -174,7 +174,7 @@ fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], words: &[&str], random: &mut R
             };
             let Some(begin) = end(place) else { return };
             let line = bytes[begin..end(begin).unwrap_or(bytes.len())].to_vec();
-            let Some(to) = end(random.below(bytes.len())) else {
+            let Some(to) = end(random.index(bytes.len())) else {
                 return;
             };
             bytes.splice(to..to, line);

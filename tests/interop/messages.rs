@@ -1,11 +1,5 @@
 //! The hashes of all messages, and the bytes of those with content, held against the Python package rosbags.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use flexdrill::messages::generated::TYPES;

@@ -1,7 +1,5 @@
 //! The layouts of `config/layouts/` name topics and fields that there are.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
-
 use flexdrill::messages::topics;
 use serde_json::Value;
 

@@ -1,11 +1,5 @@
 //! What the network, a signal or another program does to DDS, and what it must not do to the twin.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::Path;
 use std::time::{Duration, Instant};
 

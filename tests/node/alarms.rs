@@ -1,12 +1,6 @@
 //! The node's alarms over DDS: a late joiner sees them, an operator acknowledges and shelves, a restart keeps that, and
 //! the journal is in the bag.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::Path;
 use std::time::{Duration, Instant};
 

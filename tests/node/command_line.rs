@@ -1,11 +1,5 @@
 //! The command line of `run`, `rig` and `replay`: exit codes and what is said.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::process::{Command, Output};
 
 use crate::common::{Network, Program, root};

@@ -1,5 +1,11 @@
 //! The node as a process: its command line, clock, alarms and recording.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 #[path = "../common/mod.rs"]
 mod common;
 

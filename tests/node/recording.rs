@@ -1,11 +1,5 @@
 //! A live recording is finished on SIGTERM, foreign programs read it, and its replay gives the same bytes.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;

@@ -1,11 +1,5 @@
 //! Field logs: what is read, what is reported with which row, and that nothing makes the reader panic.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

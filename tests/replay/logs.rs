@@ -1,11 +1,5 @@
 //! Two minutes of a drilling log through the model: the generated log always, the real one where it is there.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,5 +1,11 @@
 //! Recordings and field logs through the model, and the page made of them.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 #[path = "../common/mod.rs"]
 mod common;
 

@@ -1,11 +1,5 @@
 //! The page of a recording: what stands on it is what is in the bag, and what is not in the bag is said.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "helpers of tests fail by panicking"
-)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

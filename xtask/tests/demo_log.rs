@@ -1,5 +1,11 @@
 //! The checked-in log of the demonstration is what its generator writes.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 #[test]
 fn the_demo_log_is_what_its_generator_writes() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../config/field_logs/demo.csv");

@@ -1,5 +1,11 @@
 //! Documents keep to their width, words and figures, and the files, links and functions that they name exist.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

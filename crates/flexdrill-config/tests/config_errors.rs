@@ -1,5 +1,11 @@
 //! A wrong configuration is refused with file, line, key, value, bound and unit.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_config::{Config, ConfigError, HardBounds, TimeScheme};
 use flexdrill_core::dynamics::Scheme;
 use proptest::prelude::*;

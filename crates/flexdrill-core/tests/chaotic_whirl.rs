@@ -1,6 +1,12 @@
 //! Thrown motion on the whole tool: what much friction throws about is called in time, what is ordinary is not, and the
 //! advice ends it.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::motion::{DriveState, HazardKind, Severity};
 use flexdrill_core::tool::ToolDescription;

@@ -1,6 +1,12 @@
 //! A checkpoint goes back only to the tool and settings that it was made with, and only whole. Each of these was
 //! restored silently before checkpoints carried an identity and a checksum.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::dynamics::Scheme;

@@ -1,6 +1,12 @@
 //! What the speed of the drive does to the alarms of the tool, on the whole tool: a swing that comes in by the drive is
 //! stick-slip, a change of the set speed is not.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::f64::consts::TAU;
 
 use flexdrill_core::inputs::Inputs;

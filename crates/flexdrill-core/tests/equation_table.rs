@@ -1,6 +1,12 @@
 //! `docs/equations.md` has every numbered equation of the paper and both tables once, and every file and item it names
 //! is there.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,12 @@
 //! Bodies on nodes in the whole chain: an unbalance turns with the pipe, its account of energy closes, and the bit's
 //! inertia slows what the bit does.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::dynamics::Scheme;

@@ -1,5 +1,11 @@
 //! Same build, configuration and inputs, same bits; a checkpoint goes on bit for bit; a failed step changes nothing.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::dynamics::StepOutcome;

@@ -1,6 +1,12 @@
 //! Every way in which a step or a start can fail, provoked from outside, is reported with its cause and changes
 //! nothing.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::dynamics::{FailureCause, StartError, StepFailure, StepOutcome};

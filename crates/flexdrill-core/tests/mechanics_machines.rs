@@ -1,6 +1,12 @@
 //! A machine with AVX2 and one with AVX-512 compute the same to the bit, so that a bag recorded on one replays on the
 //! other.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::Instructions;

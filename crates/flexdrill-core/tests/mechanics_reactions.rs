@@ -1,6 +1,12 @@
 //! The published forces from outside balance: at rest among themselves, in motion with inertia and damping, however the
 //! tool is solved.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::Instructions;

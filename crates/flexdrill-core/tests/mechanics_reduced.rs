@@ -1,5 +1,11 @@
 //! The chain of nodes moves as the tool over all stations does.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::Instructions;

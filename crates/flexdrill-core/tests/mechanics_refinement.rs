@@ -1,5 +1,11 @@
 //! Steps in parts: the same motion as that of shorter steps, no jump where the parts change, the same bits from a checkpoint.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_core::dynamics::{MOST_REFINEMENT, StepOutcome};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{Body, ToolDescription};

@@ -1,5 +1,11 @@
 //! A tool that is given as turning under weight begins as a far shorter step says it does.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::inputs::Inputs;

@@ -1,5 +1,11 @@
 //! What whirl costs, in counts: the steps of a pipe that is thrown round its guide converge like those of a calm one.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::ToolDescription;

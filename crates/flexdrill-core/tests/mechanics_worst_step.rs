@@ -1,5 +1,11 @@
 //! The worst step is bounded: what Newton and halving can cost at most, and what is left when even that does not help.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::dynamics::State;

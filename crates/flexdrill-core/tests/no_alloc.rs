@@ -1,5 +1,10 @@
 //! Once the tool is built, advancing it and looking at it allocate nothing.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
 #![allow(unsafe_code)] // the allocator that counts
 
 mod support;

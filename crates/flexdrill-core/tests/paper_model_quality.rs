@@ -1,6 +1,12 @@
 //! The model's word on its own motion: good for the paper's tool at the default step, poor where an eighth of the step
 //! shows another motion (`docs/measurements.md`).
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Simulation, SimulationSettings, Snapshot};

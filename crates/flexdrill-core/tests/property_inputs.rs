@@ -1,5 +1,11 @@
 //! Input conditioning: what it refuses, how states age, and that its targets are always within the limits.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRule, InputState, RejectionReason, Stamp};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use proptest::prelude::*;

@@ -1,6 +1,12 @@
 //! Whatever number a field of the description or the settings is set to: it is refused with the field's name, or the
 //! twin runs or says why it cannot. Nothing panics.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 
 use flexdrill_core::dynamics::Scheme;

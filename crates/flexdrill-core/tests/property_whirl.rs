@@ -1,5 +1,11 @@
 //! Whirl analysis on orbits with known answers.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 mod support;
 mod synthetic_orbits;
 

@@ -1,5 +1,11 @@
 //! Every closed-form case of `flexdrill verify` is within its limit.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_verify::{Bench, CASES, Row};
 
 #[test]

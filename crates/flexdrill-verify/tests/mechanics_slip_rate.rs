@@ -1,5 +1,11 @@
 //! The smallest slip rate of the bit that a configuration may have carries the tool through a bit that sticks.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::Simulation;

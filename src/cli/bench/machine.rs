@@ -1,7 +1,6 @@
 //! Where and when something was measured.
 
 use std::process::Command;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 /// One sentence: processor, system, date, version, commit.
 pub(super) fn describe() -> String {
@@ -14,7 +13,7 @@ pub(super) fn describe() -> String {
         "{}, {processors} for this program, {}; {}; flexdrill {}{commit}.",
         processor().unwrap_or_else(|| "unknown processor".to_owned()),
         system().unwrap_or_else(|| std::env::consts::OS.to_owned()),
-        date(SystemTime::now()),
+        jiff::Timestamp::now().strftime("%Y-%m-%d %H:%M UTC"),
         env!("CARGO_PKG_VERSION"),
     )
 }
@@ -57,46 +56,4 @@ fn commit() -> Option<String> {
         .ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     (output.status.success() && !text.trim().is_empty()).then(|| text.trim().to_owned())
-}
-
-/// Day and minute, UTC.
-fn date(time: SystemTime) -> String {
-    let seconds = time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
-    let (mut day, mut year) = (seconds / 86_400, 1970);
-    let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
-    while day >= 365 + u64::from(leap(year)) {
-        day -= 365 + u64::from(leap(year));
-        year += 1;
-    }
-    let mut month = 1;
-    for length in [31, 28 + u64::from(leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30] {
-        if day < length {
-            break;
-        }
-        day -= length;
-        month += 1;
-    }
-    format!(
-        "{year}-{month:02}-{:02} {:02}:{:02} UTC",
-        day + 1,
-        seconds / 3600 % 24,
-        seconds / 60 % 60
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use std::time::Duration;
-
-    use super::*;
-
-    #[test]
-    fn dates_are_those_of_the_calendar() {
-        let at = |seconds| date(UNIX_EPOCH + Duration::from_secs(seconds));
-        assert_eq!(at(0), "1970-01-01 00:00 UTC");
-        // `date -u -d @...` of coreutils.
-        assert_eq!(at(951_782_400), "2000-02-29 00:00 UTC");
-        assert_eq!(at(1_735_689_599), "2024-12-31 23:59 UTC");
-        assert_eq!(at(1_735_689_600), "2025-01-01 00:00 UTC");
-    }
 }

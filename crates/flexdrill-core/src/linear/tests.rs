@@ -4,22 +4,11 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::{BlockLu, BlockSystem, Layout, LinearSolver, SparseReference};
 use crate::simd::Instructions;
+use crate::support::Random;
 
-/// Deterministic values in -1..1.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 33) as f64 / f64::from(1_u32 << 31) * 2.0 - 1.0
-    }
-
-    fn frame(&mut self) -> Matrix3<f64> {
-        *Rotation3::new(Vector3::new(self.next(), self.next(), self.next())).matrix()
-    }
+/// Any rotation.
+fn frame(random: &mut Random) -> Matrix3<f64> {
+    *Rotation3::new(Vector3::new(random.next(), random.next(), random.next())).matrix()
 }
 
 /// What stands at a large station.
@@ -58,7 +47,7 @@ fn system(joints: &[Option<Joint>], seed: u64) -> BlockSystem {
             both(18, 0, 7.0);
             both(18, 6, -7.0);
         } else if joint.is_some() {
-            let (a, b) = (random.frame() * 7.0, random.frame() * -7.0);
+            let (a, b) = (frame(&mut random) * 7.0, frame(&mut random) * -7.0);
             for i in 0..3 {
                 for j in 0..3 {
                     both(18 + i, j, a[(i, j)]);

@@ -77,7 +77,7 @@ impl Instructions {
     #[inline]
     pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            Level::Portable => kernel.run::<Portable>(),
+            Level::Portable => with_portable(kernel),
             #[cfg(target_arch = "x86_64")]
             #[expect(unsafe_code, reason = "the one place where vector instructions are entered")]
             // SAFETY: `self` was made by `available`, which found the processor to have AVX2 and FMA.
@@ -113,15 +113,25 @@ pub(crate) trait Kernel {
     fn run<V: Vector>(self) -> Self::Output;
 }
 
+/// Not inlined, so that a kernel that is called from several others is compiled once.
+#[inline(never)]
+pub(super) fn with_portable<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Portable>()
+}
+
+/// As [`with_portable`].
 #[cfg(target_arch = "x86_64")]
+#[inline(never)]
 #[target_feature(enable = "avx2,fma")]
-fn with_avx2<K: Kernel>(kernel: K) -> K::Output {
+pub(super) fn with_avx2<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Avx2>()
 }
 
+/// As [`with_portable`].
 #[cfg(target_arch = "x86_64")]
+#[inline(never)]
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-fn with_avx512<K: Kernel>(kernel: K) -> K::Output {
+pub(super) fn with_avx512<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Avx512>()
 }
 

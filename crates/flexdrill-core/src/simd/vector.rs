@@ -4,6 +4,7 @@
 //! of vector carry the `target_feature` that it needs. The compiler's own vectors of such code were tried and are
 //! several times slower: it takes the lanes apart.
 
+use super::instructions::{Kernel, with_portable};
 use super::single::{PortableSingle, Single};
 
 /// Eight lanes of f64, one per unknown, column or joint as the kernel says.
@@ -12,6 +13,10 @@ pub(crate) trait Vector: Copy {
     type Single: Single;
     /// Whether [`Vector::plus_product`] rounds once: what scalar code beside these vectors then does too.
     const FUSED: bool;
+
+    /// Runs `kernel` with these vectors in a function of its own, which is not inlined into the caller: a large kernel
+    /// that several callers share is compiled once.
+    fn call<K: Kernel>(kernel: K) -> K::Output;
 
     /// The same in every lane.
     fn splat(x: f64) -> Self;
@@ -75,6 +80,10 @@ impl Vector for Portable {
     type Single = PortableSingle;
     const FUSED: bool = false;
 
+    #[inline(always)]
+    fn call<K: Kernel>(kernel: K) -> K::Output {
+        with_portable(kernel)
+    }
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self([x; 8])

@@ -6,6 +6,7 @@
 
 use std::arch::x86_64::*;
 
+use super::instructions::{Kernel, with_avx2, with_avx512};
 use super::single::Single;
 use super::vector::Vector;
 
@@ -33,6 +34,10 @@ impl Vector for Avx2 {
     type Single = Avx2Single;
     const FUSED: bool = true;
 
+    #[inline(always)]
+    fn call<K: Kernel>(kernel: K) -> K::Output {
+        unsafe { with_avx2(kernel) }
+    }
     #[inline(always)]
     fn splat(x: f64) -> Self {
         unsafe { Self(_mm256_set1_pd(x), _mm256_set1_pd(x)) }
@@ -127,6 +132,10 @@ impl Vector for Avx512 {
     type Single = Avx512Single;
     const FUSED: bool = true;
 
+    #[inline(always)]
+    fn call<K: Kernel>(kernel: K) -> K::Output {
+        unsafe { with_avx512(kernel) }
+    }
     #[inline(always)]
     fn splat(x: f64) -> Self {
         unsafe { Self(_mm512_set1_pd(x)) }

@@ -1,12 +1,15 @@
 //! What several tests need: tools, settings, a random generator, a clock.
 
-#![allow(dead_code)] // every test takes what it needs
+#![allow(dead_code, unused_imports)] // every test takes what it needs
+
+mod random;
 
 use std::sync::OnceLock;
 use std::time::Instant;
 
 use flexdrill_core::tool::{GapDescription, HingeAngle, JointKind, ToolDescription, Tube, WellSection};
 use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
+pub use random::Random;
 
 /// The paper's case with two elements per link: a third of the work.
 pub fn coarse() -> ToolDescription {
@@ -75,40 +78,6 @@ pub fn hard_settings(max_iterations: u32, max_halvings: u32) -> SimulationSettin
         max_iterations,
         max_halvings,
         ..SimulationSettings::default()
-    }
-}
-
-/// A small deterministic generator (splitmix64), so that a test is the same everywhere.
-#[derive(Debug, Clone)]
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn next_u64(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Evenly in `from..to`.
-    pub fn within(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Evenly in -1..1.
-    pub fn next(&mut self) -> f64 {
-        self.within(-1.0, 1.0)
-    }
-
-    pub fn sign(&mut self) -> f64 {
-        if self.next_u64() & 1 == 0 { 1.0 } else { -1.0 }
-    }
-
-    /// Standard normal (Box-Muller).
-    pub fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * self.within(1e-12, 1.0).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.within(0.0, 1.0)).cos()
     }
 }
 

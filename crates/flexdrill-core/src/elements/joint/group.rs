@@ -3,6 +3,7 @@
 use super::Joint;
 use super::law::{JointLaw, RotationFunction, tangent};
 use super::stop::Stop;
+use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
@@ -59,14 +60,7 @@ impl JointGroup {
     /// Linearises rows and stops at rotations `q` and rates `rate`.
     #[inline(always)]
     pub fn linearise<V: Vector>(&mut self, q: &[Lane; 6], rate: &[Lane; 6]) {
-        self.rate = *rate;
-        let (q, rate): ([Eight<V>; 6], [Eight<V>; 6]) = (load(q), load(rate));
-        self.law.rows(&q, &mut self.rows);
-        let was_shut = self.shut;
-        self.shut = self.law.has_stop() && self.law.stop(&q, &rate, &mut self.stop);
-        if was_shut && !self.shut {
-            (self.stop.moment, self.stop.energy, self.stop.dissipation) = Default::default();
-        }
+        V::call(Linearise { group: self, q, rate });
     }
 
     /// The stops as linearised last, if some of them are shut.
@@ -77,10 +71,59 @@ impl JointGroup {
     /// Derivative of the moments in rotations and rates, by columns; see [`tangent`].
     #[inline(always)]
     pub fn tangent<V: Vector>(&self, lambda: &[Lane; 2], stiffness: f64, damping: f64, out: &mut [[Lane; 6]; 6]) {
+        V::call(Derive {
+            group: self,
+            lambda,
+            stiffness,
+            damping,
+            out,
+        });
+    }
+}
+
+/// [`JointGroup::linearise`] for one kind of vectors.
+struct Linearise<'a> {
+    group: &'a mut JointGroup,
+    q: &'a [Lane; 6],
+    rate: &'a [Lane; 6],
+}
+
+impl Kernel for Linearise<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { group, q, rate } = self;
+        group.rate = *rate;
+        let (q, rate): ([Eight<V>; 6], [Eight<V>; 6]) = (load(q), load(rate));
+        group.law.rows(&q, &mut group.rows);
+        let was_shut = group.shut;
+        group.shut = group.law.has_stop() && group.law.stop(&q, &rate, &mut group.stop);
+        if was_shut && !group.shut {
+            (group.stop.moment, group.stop.energy, group.stop.dissipation) = Default::default();
+        }
+    }
+}
+
+/// [`JointGroup::tangent`] for one kind of vectors.
+struct Derive<'a> {
+    group: &'a JointGroup,
+    lambda: &'a [Lane; 2],
+    stiffness: f64,
+    damping: f64,
+    out: &'a mut [[Lane; 6]; 6],
+}
+
+impl Kernel for Derive<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { group, lambda, out, .. } = self;
         let lambda = load::<V, 2>(lambda);
-        let stop = self.shut.then_some((&self.stop, &self.rate));
-        let rows = &self.rows[..self.count];
-        tangent(rows, &lambda[..self.count], stop, stiffness, damping, out);
+        let stop = group.shut.then_some((&group.stop, &group.rate));
+        let rows = &group.rows[..group.count];
+        tangent(rows, &lambda[..group.count], stop, self.stiffness, self.damping, out);
     }
 }
 

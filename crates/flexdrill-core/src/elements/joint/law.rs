@@ -125,12 +125,11 @@ impl<M> JointLaw<M> {
     #[inline(always)]
     pub fn rows<T: Number<Memory = M>>(&self, q: &[T; 6], rows: &mut [RotationFunction<M>; 2]) {
         match self.kind {
-            JointKind::Universal => self.cross_row(q, &mut rows[0]),
             JointKind::BallCage => self.equal_spin_row(q, &mut rows[0]),
-            JointKind::Revolute => {
-                self.cross_row(q, &mut rows[0]);
-                self.hinge_row(q, &mut rows[1]);
-            }
+            JointKind::Universal | JointKind::Revolute => self.cross_row(q, &mut rows[0]),
+        }
+        if self.kind == JointKind::Revolute {
+            self.hinge_row(q, &mut rows[1]);
         }
     }
 

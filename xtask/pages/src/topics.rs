@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::cell;
-use crate::messages::TypeInfo;
-use crate::messages::topics::{self, Cadence, Qos, TopicInfo};
+use flexdrill_messages::TypeInfo;
+use flexdrill_messages::topics::{self, Cadence, Qos, TopicInfo};
+
+use crate::cell;
 
 /// Units as they stand in the comments, the longer before those that they begin with.
 const UNITS: [&str; 19] = [
@@ -22,10 +23,11 @@ struct Entry<'a> {
     comment: String,
 }
 
-pub(super) fn page() -> String {
+/// Every topic with its type, rate and quality of service, and every field with its unit.
+pub fn page() -> String {
     let mut out = String::from(
         "# Topics and messages\n\n\
-         Written by `flexdrill reference topics`. Names are relative to the node's namespace unless they begin with `/`; all\n\
+         Written by `cargo xtask reference topics`. Names are relative to the node's namespace unless they begin with `/`; all\n\
          can be remapped. Messages are SI; the two plain inputs carry the driller's unit in their names. Every message of the\n\
          twin begins with a header: stamp = model time on the rig's clock, frame = the tool ([frames](frames.md)).\n\n\
          ## All topics\n\

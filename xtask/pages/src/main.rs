@@ -1,0 +1,29 @@
+//! Prints a reference page; `cargo xtask reference` starts this program.
+
+use std::io::Write as _;
+
+use clap::{Parser, ValueEnum};
+
+/// Prints a reference page of the manual (Markdown).
+#[derive(Debug, Parser)]
+#[command(name = "flexdrill-pages")]
+struct Arguments {
+    /// Which page.
+    page: Page,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Page {
+    /// Topics, message types, fields with their units.
+    Topics,
+    /// Keys with type, default, bounds and meaning.
+    Configuration,
+}
+
+fn main() -> std::io::Result<()> {
+    let page = match Arguments::parse().page {
+        Page::Topics => flexdrill_pages::topics(),
+        Page::Configuration => flexdrill_pages::configuration(),
+    };
+    std::io::stdout().write_all(page.as_bytes())
+}
