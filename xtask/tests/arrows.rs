@@ -1,5 +1,11 @@
 //! Crates that wrap a foreign library are the only ones that depend on it.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::path::{Path, PathBuf};
 
 /// A foreign crate, and the crate of the workspace that may use it.
