@@ -12,7 +12,7 @@ pub fn page() -> String {
     let mut out = String::from(
         "# Configuration reference\n\n\
          Written by `cargo xtask reference configuration`. A file is YAML; units are SI, and a key with another unit carries it\n\
-         in its name. Only `well` and `tool` must be given, unknown keys are refused, and `flexdrill check FILE` says what is wrong\n\
+         in its name. Only `well` and `tool` must be given, unknown keys are refused, and `flexdrill check FILE` reports errors\n\
          with file, line, key, value, bound and unit. `config/default.yaml` gives every value with its reason.\n\n\
          Editors complete keys and show these texts by the JSON Schema `config/flexdrill.schema.json`\n\
          (`flexdrill check --schema`): the first line of `config/default.yaml` points to it for editors with a YAML language\n\
