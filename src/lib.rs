@@ -7,24 +7,23 @@
 //! Each room may use those below it, never those above.
 //!
 //! - [`cli`]: the subcommands, a file or folder each.
-//! - [`dashboard`]: the rig page's server, and steering from the page.
 //! - [`node`]: the ROS 2 node: its stages, threads, services and parameters.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for an
 //!   operator.
 //! - [`rig_inputs`]: publishers, age and validity of the rig's inputs.
 //!
-//! Below them are crates, some of them also under a short name here: [`flexdrill_report`], [`flexdrill_live`],
-//! [`flexdrill_bag`], [`flexdrill_field_log`], [`flexdrill_ros2`], [`flexdrill_messages`], [`flexdrill_text`], and the
-//! mechanics with what surrounds it. `docs/architecture.md` draws the house.
+//! Below them are crates, most of them also under a short name here: [`flexdrill_dashboard`], [`flexdrill_report`],
+//! [`flexdrill_live`], [`flexdrill_bag`], [`flexdrill_field_log`], [`flexdrill_ros2`], [`flexdrill_messages`],
+//! [`flexdrill_text`], and the mechanics with the crates around it. `docs/architecture.md` draws the house.
 
 pub mod alarms;
 pub mod cli;
-pub mod dashboard;
 pub mod health;
 pub mod node;
 pub mod rig_inputs;
 
 pub use flexdrill_bag as bag;
+pub use flexdrill_dashboard as dashboard;
 pub use flexdrill_field_log as field_log;
 pub use flexdrill_live as live;
 pub use flexdrill_messages as messages;

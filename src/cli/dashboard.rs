@@ -87,7 +87,7 @@ pub(super) fn run(args: &DashboardArgs) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {
         let shutdown = signals::shutdown(false)?;
-        dashboard.run(ready, shutdown).await
+        Ok(dashboard.run(ready, shutdown).await?)
     })
 }
 

@@ -133,7 +133,7 @@ fn steering_needs_the_token_and_that_nobody_else_drives() {
     assert_eq!(naked["code"], 401);
     server
         .program
-        .wait_for("offered a wrong token and was refused; 1 from this address so far");
+        .wait_for("sent a wrong token and was refused; 1 from this address so far");
     assert_eq!(server.body("/api/control")["driving"], false);
     // A page of a server that has ended moves nothing either; its own page does.
     let instance = server.body("/api/pulse")["instance"].as_str().unwrap().to_owned();
@@ -174,7 +174,7 @@ fn steering_needs_the_token_and_that_nobody_else_drives() {
     let control = server.body("/api/control");
     assert_eq!(
         (&control["driving"], &control["ended"]),
-        (&json!(false), &json!("the page of Kim has said nothing for 3 s"))
+        (&json!(false), &json!("the page of Kim has not responded for 3 s"))
     );
     peer.status_with(STATUS.0, |status| {
         status["input_state"] == json!([3, 3]) && status["input_safe"] == json!([true, true])

@@ -9,12 +9,15 @@
 use std::path::{Path, PathBuf};
 
 /// A foreign crate, and the crate of the workspace that may use it.
-const OWNERS: [(&str, &str); 6] = [
+const OWNERS: [(&str, &str); 9] = [
     ("rustdds", "flexdrill-ros2"),
     ("ros2-client", "flexdrill-ros2"),
     ("foxglove", "flexdrill-live"),
+    ("tokio-tungstenite", "flexdrill-live"),
     ("mcap", "flexdrill-bag"),
     ("rusqlite", "flexdrill-bag"),
+    ("csv-core", "flexdrill-field-log"),
+    ("maud", "flexdrill-report"),
     ("libm", "flexdrill-core"),
 ];
 
@@ -71,4 +74,13 @@ fn a_foreign_library_has_one_user() {
     // The check reads manifests as they are written.
     let ros2 = manifests.iter().find(|(name, _)| name == "flexdrill-ros2");
     assert!(dependencies(&ros2.unwrap().1).contains(&"rustdds"));
+}
+
+#[test]
+fn no_crate_uses_the_product_or_the_workshop() {
+    for (name, manifest) in manifests() {
+        for above in ["flexdrill", "xtask"] {
+            assert!(!dependencies(&manifest).contains(&above), "{name} depends on {above}");
+        }
+    }
 }

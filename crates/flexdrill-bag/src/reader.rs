@@ -355,3 +355,21 @@ impl Iterator for Bag {
         }))
     }
 }
+
+#[cfg(all(test, not(feature = "sqlite")))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_its_feature_an_sqlite_bag_is_refused_with_the_remedy() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(&file, SQLITE_MAGIC).unwrap();
+        let error = open(file.path()).err().unwrap();
+        assert!(matches!(error, BagError::NoSqlite { .. }), "{error:?}");
+        let text = error.to_string();
+        assert!(
+            text.contains("--features sqlite") && text.contains("ros2 bag convert"),
+            "{text}"
+        );
+    }
+}

@@ -7,7 +7,7 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use tower_http::compression::CompressionLayer;
 
-/// Path, kind and bytes of each.
+/// Path, media type and bytes of each file.
 const ASSETS: [(&str, &str, &[u8]); 3] = [
     (
         "/",
@@ -26,13 +26,13 @@ const ASSETS: [(&str, &str, &[u8]); 3] = [
     ),
 ];
 
-/// Nothing but what comes from this server, and no frame around it.
+/// The page loads everything from this server, and no other page may frame it.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
                       connect-src 'self'; worker-src 'self' blob:; font-src 'self' data:; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'none'";
 
-/// The page and what belongs to it, compressed.
-pub fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
+/// Serves the page's files, compressed.
+pub(crate) fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
     let mut router = Router::new();
     for (path, kind, bytes) in ASSETS {
         let tag = format!("\"{:08x}-{}\"", crc32fast::hash(bytes), bytes.len());
@@ -46,7 +46,7 @@ pub fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
 
 fn asset(request: &Request, kind: &'static str, bytes: &'static [u8], tag: &str) -> Response {
     let known = request.headers().get(header::IF_NONE_MATCH);
-    // Compressed, it is the same page: a weak tag.
+    // The tag is weak, because the compressed file differs in its bytes.
     let same = known
         .and_then(|known| known.to_str().ok())
         .is_some_and(|known| known.contains(tag));
@@ -64,15 +64,15 @@ fn asset(request: &Request, kind: &'static str, bytes: &'static [u8], tag: &str)
     response
 }
 
-/// What every answer of the server says to the browser.
-pub async fn guard(mut response: Response) -> Response {
-    const SAID: [(HeaderName, &str); 4] = [
+/// Adds the security headers to an answer.
+pub(crate) async fn guard(mut response: Response) -> Response {
+    const HEADERS: [(HeaderName, &str); 4] = [
         (header::CONTENT_SECURITY_POLICY, POLICY),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),
         (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
     ];
-    for (name, value) in SAID {
+    for (name, value) in HEADERS {
         response.headers_mut().insert(name, HeaderValue::from_static(value));
     }
     response

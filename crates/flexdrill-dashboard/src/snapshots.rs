@@ -1,33 +1,32 @@
-//! Large answers, shared by all who read them: however many readers there are and however slowly they read, only a few
-//! copies exist.
+//! Large answers that all readers share: only a few copies exist, for any number and speed of readers.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes};
 
-/// Copies that may exist at once. The history of the default tool has 23 MB.
+/// Largest number of copies at a time. The history of the default tool has 23 MB.
 const MOST: usize = 4;
-/// A reader has at least this time before a newer copy takes the place of its own.
+/// A reader has at least this time before a newer copy replaces its copy.
 const GRACE: Duration = Duration::from_secs(20);
-/// Bytes that are handed to a connection at once.
+/// Bytes passed to a connection at a time.
 const CHUNK: usize = 64 << 10;
 
 struct Snapshot {
     version: u64,
     made: Instant,
     bytes: Arc<Vec<u8>>,
-    /// Each reader holds a copy of this.
+    /// Each reader holds a clone, so that the count shows the number of readers.
     readers: Arc<()>,
 }
 
 /// The newest copies of an answer.
 #[derive(Default)]
-pub(super) struct Snapshots(Mutex<Vec<Snapshot>>);
+pub(crate) struct Snapshots(Mutex<Vec<Snapshot>>);
 
 impl Snapshots {
-    /// The answer of a version, which `make` makes where it is not there yet. Where slow readers hold all copies, it is
-    /// the newest of those, [`GRACE`] / [`MOST`] old at most while they come and go.
+    /// The answer of a version, which `make` produces if necessary. While slow readers hold all copies, the answer is the
+    /// newest of these.
     pub fn body(&self, version: u64, make: impl FnOnce() -> Option<Vec<u8>>) -> Option<Body> {
         self.bytes(version, Instant::now(), make).map(Reader::body)
     }
@@ -63,7 +62,7 @@ impl Snapshots {
     }
 }
 
-/// Reads a snapshot for as long as it is kept.
+/// Reads a snapshot as long as it exists.
 struct Reader {
     bytes: Weak<Vec<u8>>,
     at: usize,
@@ -71,10 +70,10 @@ struct Reader {
 }
 
 impl Reader {
-    /// The next part; none at the end.
+    /// The next part; `None` at the end.
     ///
     /// # Errors
-    /// When newer copies have taken the place of this one.
+    /// When a newer copy has replaced this one.
     fn next(&mut self) -> Option<std::io::Result<Bytes>> {
         let Some(bytes) = self.bytes.upgrade() else {
             return Some(Err(std::io::ErrorKind::TimedOut.into()));
@@ -119,27 +118,27 @@ mod tests {
                 .bytes(version, start + Duration::from_secs(second), make)
                 .unwrap()
         };
-        // A hundred readers of one version that read nothing.
+        // A hundred readers of one version do not read.
         let readers: Vec<Reader> = (0..100).map(|_| ask(1, 0)).collect();
         assert_eq!(made.get(), 1);
         assert_eq!(read(ask(1, 0)), vec![1; 3 * CHUNK + 1]);
-        // And one of each version.
+        // One more reader of each version does not read either.
         let mut slow: Vec<Reader> = (2..50).map(|version| ask(version, 1)).collect();
         assert_eq!((made.get(), snapshots.lock().len()), (MOST, MOST));
         assert_eq!(read(ask(50, 2))[0], MOST as u8, "the newest there is");
-        // After their time, the oldest copy makes room, and its readers end with an error, not with a part.
+        // After their time, the oldest copy is dropped, and its readers end with an error instead of a part.
         assert_eq!(read(ask(51, 20))[0], 51);
         let mut late = readers.into_iter().next().unwrap();
         assert!(late.next().unwrap().is_err());
         assert!(slow.remove(0).next().unwrap().is_ok());
-        // Once they have gone, there is one.
+        // Without the slow readers, one copy remains.
         drop(slow);
         ask(52, 21);
         assert_eq!(snapshots.lock().len(), 1);
     }
 
     #[test]
-    fn nothing_known_is_no_answer() {
+    fn without_data_there_is_no_answer() {
         assert!(Snapshots::default().body(1, || None).is_none());
     }
 }

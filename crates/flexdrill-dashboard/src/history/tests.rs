@@ -1,12 +1,12 @@
-//! The hour: a frame a second, bounded, with its gaps.
+//! The history: one frame per second, bounded, with its gaps.
 
 use super::columns::MOST_BYTES;
 use super::*;
-use crate::messages::SessionInfo;
+use flexdrill_messages::SessionInfo;
 use serde_json::Value;
 
 fn session() -> Session {
-    let configuration = include_str!("../../../tests/data/small.yaml").to_owned();
+    let configuration = include_str!("../../../../tests/data/small.yaml").to_owned();
     Session::new(&SessionInfo {
         configuration,
         ..SessionInfo::default()
@@ -62,7 +62,7 @@ fn column(head: &Value, name: &str) -> std::ops::Range<usize> {
 }
 
 #[test]
-fn a_second_becomes_its_least_mean_and_most() {
+fn a_second_is_reduced_to_least_mean_and_largest() {
     let mut history = History::new(1);
     // Latched, it comes before all else.
     let severity = WhirlWarning::CRITICAL;
@@ -98,7 +98,7 @@ fn a_second_becomes_its_least_mean_and_most() {
 }
 
 #[test]
-fn it_is_an_hour_long_whatever_is_sent_and_gaps_stay() {
+fn it_spans_at_most_an_hour_and_keeps_gaps() {
     let mut history = begun();
     for second in 0..5000_i64 {
         if !(4000..4100).contains(&second) {
@@ -144,7 +144,7 @@ fn a_message_that_is_not_of_this_tool_takes_no_memory() {
 
 /// A page that is opened after the twin has ended draws the tool from this.
 #[test]
-fn the_head_says_which_places_are_watched() {
+fn the_head_lists_the_watched_stations() {
     let mut history = History::new(1);
     let whirl = |depth: f64| WhirlState {
         kind: vec![0, 0],
@@ -157,6 +157,6 @@ fn the_head_says_which_places_are_watched() {
     }
     let (head, _) = parts(&history);
     assert_eq!(head["watched_body"], serde_json::json!([0, 1]));
-    // The places of a later run with as many of them.
+    // A later run watches as many stations, at other depths.
     assert_eq!(head["watched_depth"], serde_json::json!([0.5, 1.25]));
 }

@@ -1,5 +1,6 @@
-//! What the page asks for beside live data, and what it asks of the twin.
+//! The page's requests over HTTP: data other than live data, and actions on the twin.
 
+use crate::DashboardError;
 use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,69 +16,69 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-use super::board::Board;
-use super::control::{Ask, Control, Refused};
-use super::snapshots::Snapshots;
-use crate::live::{Gateway, WrongTokens, host_is_ours};
-use flexdrill_dashboard::assets;
+use crate::assets;
+use crate::board::Board;
+use crate::control::{Action, Control, Refused};
+use crate::snapshots::Snapshots;
+use flexdrill_live::{Gateway, WrongTokens, host_is_ours};
 
 /// Longest body of a request (bytes): names and reasons.
 const LONGEST_BODY: usize = 16 << 10;
-/// Header by which a page names the server that it was bound to.
+/// Header in which a page names the run of the server that served it.
 const INSTANCE: &str = "x-flexdrill-instance";
-/// A request must be read and answered in this time: longer than the node and the refusals of wrong tokens may take.
+/// Longest time of a request: longer than the node and the refusal of a wrong token take.
 const LONGEST: Duration = Duration::from_secs(20);
 
-/// What all answers are made from.
-pub(super) struct Shared {
+/// The state that all requests share.
+pub(crate) struct Shared {
     pub board: Arc<Board>,
-    /// None where nobody may steer.
+    /// `None` if no client may steer.
     pub control: Option<Arc<Control>>,
-    /// Why nobody may steer, then.
+    /// The reason in that case.
     pub no_control: &'static str,
     pub gateway: Arc<Gateway>,
     pub namespace: String,
     /// Absolute name of the twin's node.
     pub node: String,
-    /// The recording that is played; none when a twin is shown live.
+    /// The recording that is played; `None` for a live twin.
     pub bag: Option<Arc<PlayedBag>>,
     /// Random text that identifies this run of the server.
     pub instance: String,
-    pub shares: Shares,
+    pub answers: SharedAnswers,
 }
 
 /// Text for [`Shared::instance`].
 ///
 /// # Errors
-/// When the system has no random bytes.
-pub(super) fn new_instance() -> anyhow::Result<String> {
+/// When the operating system has no random numbers.
+pub(crate) fn new_instance() -> Result<String, DashboardError> {
     let mut random = [0; 8];
-    crate::live::fill_random(&mut random)?;
+    flexdrill_live::fill_random(&mut random)?;
     Ok(format!("{:016x}", u64::from_le_bytes(random)))
 }
 
-/// What all requests share, so that many of them cost little.
+/// Answers that requests share, so that many requests cost little.
 #[derive(Default)]
-pub(super) struct Shares {
+pub(crate) struct SharedAnswers {
     history: Snapshots,
     journal: Snapshots,
     wrong_tokens: WrongTokens,
 }
 
 /// A bag that is played.
-pub(super) struct PlayedBag {
+pub(crate) struct PlayedBag {
     pub name: String,
     /// ns since 1970.
     pub start: u64,
     pub end: u64,
-    /// It has been read through.
+    /// Whether the whole bag has been read.
     pub ready: std::sync::atomic::AtomicBool,
 }
 
 type Server = State<Arc<Shared>>;
 
-/// Everything behind the dashboard's address.
-pub(super) fn router(shared: Shared) -> Router {
+/// The router of the dashboard's address.
+pub(crate) fn router(shared: Shared) -> Router {
     let api = Router::new()
         .route("/live", any(live))
         .route("/api/session", get(session))
@@ -94,7 +95,7 @@ pub(super) fn router(shared: Shared) -> Router {
         .layer(middleware::from_fn(guard))
 }
 
-/// Names that anybody may point here are refused; every answer tells the browser what the page may do.
+/// Refuses foreign host names, bounds the time of a request, and adds the security headers to every answer.
 async fn guard(request: Request, next: Next) -> Response {
     let response = if host_is_ours(request.headers()) {
         let late = || (StatusCode::REQUEST_TIMEOUT, "the request took too long\n").into_response();
@@ -102,7 +103,7 @@ async fn guard(request: Request, next: Next) -> Response {
             .await
             .unwrap_or_else(|_| late())
     } else {
-        let why = "address this server by number or as localhost\n";
+        let why = "use this server's IP address or localhost\n";
         (StatusCode::FORBIDDEN, why).into_response()
     };
     assets::guard(response).await
@@ -138,8 +139,8 @@ async fn session(State(shared): Server) -> Json<Value> {
     }))
 }
 
-/// The server's clock and the age of its newest data. It has a connection of its own, so that a page whose live data
-/// queue up learns how far behind it is.
+/// The server's clock and the age of its newest data. This request has its own connection, so that a page with a queue
+/// of live data learns how far behind it is.
 async fn pulse(State(shared): Server) -> Response {
     let body = json!({
         "instance": shared.instance,
@@ -150,15 +151,15 @@ async fn pulse(State(shared): Server) -> Response {
 }
 
 async fn history(State(shared): Server) -> Response {
-    // A frame of the history is as long.
+    // The history has one frame per second, so a copy stays current for a second.
     let second = flexdrill_realtime::monotonic::now() / 1_000_000_000;
-    match shared.shares.history.body(second, || shared.board.history()) {
+    match shared.answers.history.body(second, || shared.board.history()) {
         Some(body) => large(body, "application/octet-stream"),
-        None => answer(StatusCode::NOT_FOUND, "nothing was heard of the twin yet"),
+        None => answer(StatusCode::NOT_FOUND, "no message of the twin has arrived yet"),
     }
 }
 
-/// An answer that is sent in parts and kept by nobody.
+/// An answer that is sent in parts and never cached.
 fn large(body: Body, kind: &'static str) -> Response {
     let mut response = Response::new(body);
     let headers = response.headers_mut();
@@ -170,13 +171,13 @@ fn large(body: Body, kind: &'static str) -> Response {
 async fn orbit(State(shared): Server, Path((joint, time)): Path<(usize, i64)>) -> Response {
     match shared.board.orbit(joint, time) {
         Some(motion) => Json(motion).into_response(),
-        None => answer(StatusCode::NOT_FOUND, "no motion of that joint is kept of this time"),
+        None => answer(StatusCode::NOT_FOUND, "no motion of that joint is kept for this time"),
     }
 }
 
 async fn journal(State(shared): Server) -> Response {
     let journal = || serde_json::to_vec(&shared.board.journal()).ok();
-    match shared.shares.journal.body(shared.board.journal_version(), journal) {
+    match shared.answers.journal.body(shared.board.journal_version(), journal) {
         Some(body) => large(body, "application/json"),
         None => answer(
             StatusCode::INTERNAL_SERVER_ERROR,
@@ -196,7 +197,7 @@ async fn control(State(shared): Server) -> Json<Value> {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Steer {
+struct SteerRequest {
     operator: String,
     rotary_speed_rpm: f64,
     weight_on_bit_kn: f64,
@@ -204,7 +205,7 @@ struct Steer {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct OfAlarm {
+struct AlarmRequest {
     operator: String,
     #[serde(default)]
     id: String,
@@ -215,13 +216,13 @@ struct OfAlarm {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Plain {
+struct OperatorRequest {
     operator: String,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Pause {
+struct PauseRequest {
     operator: String,
     paused: bool,
 }
@@ -239,52 +240,52 @@ async fn act(
     let offered = bearer(&headers);
     if !offered.is_some_and(|token| control.admits(token)) {
         if offered.is_some() {
-            shared.shares.wrong_tokens.refuse(from).await;
+            shared.answers.wrong_tokens.refuse(from).await;
         }
         return answer(
             StatusCode::UNAUTHORIZED,
-            "show the token that was printed when the dashboard started",
+            "send the token that the dashboard printed at its start",
         );
     }
-    // A page that outlived its server must not act on whatever has taken the server's port.
+    // A page from an earlier run of the server must not act on the present one.
     if headers
         .get(INSTANCE)
         .is_some_and(|bound| bound.as_bytes() != shared.instance.as_bytes())
     {
         return answer(
             StatusCode::CONFLICT,
-            "the server was restarted since this page was opened; reload the page",
+            "the server has been restarted since this page was loaded; reload the page",
         );
     }
     let done = match what.as_str() {
         "steer" => steer(&shared, control, &body),
-        "release" => read::<Plain>(&body).and_then(|plain| control.release(&plain.operator)),
-        "acknowledge" | "shelve" | "unshelve" => match read::<OfAlarm>(&body) {
-            Ok(OfAlarm {
+        "release" => read::<OperatorRequest>(&body).and_then(|plain| control.release(&plain.operator)),
+        "acknowledge" | "shelve" | "unshelve" => match read::<AlarmRequest>(&body) {
+            Ok(AlarmRequest {
                 operator,
                 id,
                 reason,
                 duration_s,
             }) => {
-                let ask = match what.as_str() {
-                    "acknowledge" => Ask::Acknowledge { id, reason },
-                    "shelve" => Ask::Shelve {
+                let action = match what.as_str() {
+                    "acknowledge" => Action::Acknowledge { id, reason },
+                    "shelve" => Action::Shelve {
                         id,
                         reason,
                         duration: duration_s,
                     },
-                    _ => Ask::Unshelve { id, reason },
+                    _ => Action::Unshelve { id, reason },
                 };
-                control.ask(&operator, ask).await
+                control.carry_out(&operator, action).await
             }
             Err(refused) => Err(refused),
         },
-        "reset" => match read::<Plain>(&body) {
-            Ok(plain) => control.ask(&plain.operator, Ask::Reset).await,
+        "reset" => match read::<OperatorRequest>(&body) {
+            Ok(plain) => control.carry_out(&plain.operator, Action::Reset).await,
             Err(refused) => Err(refused),
         },
-        "pause" => match read::<Pause>(&body) {
-            Ok(pause) => control.ask(&pause.operator, Ask::Pause(pause.paused)).await,
+        "pause" => match read::<PauseRequest>(&body) {
+            Ok(pause) => control.carry_out(&pause.operator, Action::Pause(pause.paused)).await,
             Err(refused) => Err(refused),
         },
         _ => return answer(StatusCode::NOT_FOUND, "no such request"),
@@ -303,7 +304,7 @@ async fn act(
 }
 
 fn steer(shared: &Shared, control: &Control, body: &[u8]) -> Result<String, Refused> {
-    let wanted: Steer = read(body)?;
+    let wanted: SteerRequest = read(body)?;
     let limits = shared.board.session().map(|session| session.limits);
     let status = shared.board.status();
     control.steer(
@@ -315,7 +316,7 @@ fn steer(shared: &Shared, control: &Control, body: &[u8]) -> Result<String, Refu
 }
 
 fn read<T: DeserializeOwned>(body: &[u8]) -> Result<T, Refused> {
-    serde_json::from_slice(body).map_err(|error| Refused::Wrong(format!("the request is not as it should be: {error}")))
+    serde_json::from_slice(body).map_err(|error| Refused::Wrong(format!("the request is malformed: {error}")))
 }
 
 /// The token in `Authorization: Bearer TOKEN`.

@@ -1,26 +1,27 @@
-//! What operators ask of the node, and the endpoints that it is asked by.
+//! Operators' requests to the node, and the endpoints for them.
 
 use super::{Control, PERIOD, Refused};
-use crate::dds::plan::Offer;
-use crate::dds::port::{PortBuilder, TopicPublisher};
-use crate::messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
-use crate::messages::{
+use crate::DashboardError;
+use flexdrill_messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
+use flexdrill_messages::{
     AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, ShelveAlarmRequest, ShelveAlarmResponse, UnshelveAlarmRequest,
     UnshelveAlarmResponse, topics,
 };
-use crate::ros::args::NodeIdentity;
-use crate::ros::client::{CallError, ServiceClient};
+use flexdrill_ros2::args::NodeIdentity;
+use flexdrill_ros2::client::{CallError, ServiceClient};
+use flexdrill_ros2::dds::plan::Offer;
+use flexdrill_ros2::dds::port::{PortBuilder, TopicPublisher};
 
 /// Longest name of an operator (characters).
 const LONGEST_NAME: usize = 100;
 
-/// What an operator asks of the node.
-pub(in crate::dashboard) enum Ask {
+/// An operator's request to the node.
+pub(crate) enum Action {
     Acknowledge {
         id: String,
         reason: String,
     },
-    /// For so long (s); without, until its condition has gone.
+    /// For `duration` (s), or without one until the condition ends.
     Shelve {
         id: String,
         reason: String,
@@ -34,8 +35,8 @@ pub(in crate::dashboard) enum Ask {
     Pause(bool),
 }
 
-/// Its endpoints, named before DDS is up.
-pub(in crate::dashboard) struct ControlParts {
+/// The endpoints for steering and requests.
+pub(crate) struct ControlParts {
     /// Absolute name of this node.
     pub node: String,
     pub inputs: TopicPublisher,
@@ -47,8 +48,13 @@ pub(in crate::dashboard) struct ControlParts {
 }
 
 impl ControlParts {
-    /// At `port`, of the node `own` that speaks to the node called `twin`; `identity` is of this process alone.
-    pub fn new(port: &mut PortBuilder, own: &NodeIdentity, twin: &NodeIdentity, identity: u64) -> anyhow::Result<Self> {
+    /// Creates the endpoints at `port`, from the node `own` to the node `twin`; `identity` is unique to this process.
+    pub fn new(
+        port: &mut PortBuilder,
+        own: &NodeIdentity,
+        twin: &NodeIdentity,
+        identity: u64,
+    ) -> Result<Self, DashboardError> {
         let offer = Offer {
             reliable: true,
             latched: false,
@@ -61,7 +67,7 @@ impl ControlParts {
             topics::RIG_INPUTS.kind.dds_type,
             offer,
         );
-        let mut client = |name: &str, kind: &str| -> anyhow::Result<ServiceClient> {
+        let mut client = |name: &str, kind: &str| -> Result<ServiceClient, DashboardError> {
             Ok(ServiceClient::new(port, &twin.expand(name)?, kind, identity))
         };
         Ok(Self {
@@ -77,12 +83,12 @@ impl ControlParts {
 }
 
 impl Control {
-    /// Asks the node; what it says.
-    pub async fn ask(&self, operator: &str, ask: Ask) -> Result<String, Refused> {
-        let operator_name = named(operator)?;
+    /// Sends a request to the node, and returns the node's message.
+    pub async fn carry_out(&self, operator: &str, action: Action) -> Result<String, Refused> {
+        let operator_name = checked_name(operator)?;
         let (monitor, parts) = (&self.monitor, &self.parts);
-        let asked = match ask {
-            Ask::Acknowledge { id, reason } => {
+        let answered = match action {
+            Action::Acknowledge { id, reason } => {
                 let request = AcknowledgeAlarmRequest {
                     id,
                     operator_name,
@@ -91,7 +97,7 @@ impl Control {
                 let answer = parts.acknowledge.call(monitor, &request).await;
                 answer.map(|AcknowledgeAlarmResponse { success, message }| (success, message))
             }
-            Ask::Shelve { id, reason, duration } => {
+            Action::Shelve { id, reason, duration } => {
                 let request = ShelveAlarmRequest {
                     id,
                     one_shot: duration.is_none(),
@@ -102,7 +108,7 @@ impl Control {
                 let answer = parts.shelve.call(monitor, &request).await;
                 answer.map(|ShelveAlarmResponse { success, message }| (success, message))
             }
-            Ask::Unshelve { id, reason } => {
+            Action::Unshelve { id, reason } => {
                 let request = UnshelveAlarmRequest {
                     id,
                     operator_name,
@@ -111,18 +117,18 @@ impl Control {
                 let answer = parts.unshelve.call(monitor, &request).await;
                 answer.map(|UnshelveAlarmResponse { success, message }| (success, message))
             }
-            Ask::Reset => {
-                tracing::info!("{operator_name} asks for a reset");
+            Action::Reset => {
+                tracing::info!("{operator_name} requests a reset");
                 let answer = parts.reset.call(monitor, &TriggerRequest::default()).await;
                 answer.map(|TriggerResponse { success, message }| (success, message))
             }
-            Ask::Pause(data) => {
-                tracing::info!("{operator_name} asks to {}", if data { "pause" } else { "go on" });
+            Action::Pause(data) => {
+                tracing::info!("{operator_name} requests to {}", if data { "pause" } else { "resume" });
                 let answer = parts.pause.call(monitor, &SetBoolRequest { data }).await;
                 answer.map(|SetBoolResponse { success, message }| (success, message))
             }
         };
-        match asked {
+        match answered {
             Ok((true, message)) => Ok(message),
             Ok((false, message)) => Err(Refused::Conflict(message)),
             Err(error @ (CallError::NoServer { .. } | CallError::NoReply { .. } | CallError::Encoding { .. })) => {
@@ -132,13 +138,16 @@ impl Control {
     }
 }
 
-/// The name of who asks.
-pub(super) fn named(operator: &str) -> Result<String, Refused> {
+/// The operator's name, without blanks at its ends.
+///
+/// # Errors
+/// When it is empty, too long, or has control characters.
+pub(super) fn checked_name(operator: &str) -> Result<String, Refused> {
     let name = operator.trim();
     let length = name.chars().count();
     if length == 0 || length > LONGEST_NAME || name.chars().any(char::is_control) {
         return Err(Refused::Wrong(format!(
-            "operator has {length} characters; give a name of 1 to {LONGEST_NAME}"
+            "the operator's name has {length} characters; it must have 1 to {LONGEST_NAME}, and no control characters"
         )));
     }
     Ok(name.to_owned())
@@ -149,10 +158,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn who_asks_must_say_his_name() {
-        assert_eq!(named(" Kim ").unwrap(), "Kim");
+    fn a_request_needs_the_operators_name() {
+        assert_eq!(checked_name(" Kim ").unwrap(), "Kim");
         for wrong in ["", "  ", "a\nb", &"x".repeat(101)] {
-            assert!(named(wrong).is_err(), "{wrong}");
+            assert!(checked_name(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -1,24 +1,24 @@
-//! What a frame holds: columns with their units, the way of each through a second, and their places for a tool.
+//! The columns of a frame: name, unit, reduction over a second, and offset for a tool.
 
 use super::CAPACITY;
 
-/// Most bytes of frames, however long the tool and whatever is sent; the hour of a longer one is shorter.
+/// Largest size of all frames (bytes). For a tool with larger frames, the history is shorter than an hour.
 pub(super) const MOST_BYTES: usize = 64 << 20;
 
-/// How the values of one second become one.
+/// Reduction of the values of one second to one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum How {
+pub(super) enum Reduction {
     Last,
-    /// The last, in the seconds after it too: it is sent when it changes.
+    /// The last, also in the seconds after it, because it is published on change.
     Held,
     Most,
     Least,
     Mean,
 }
 
-/// How many values a column has.
+/// Number of values of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Many {
+pub(super) enum Count {
     One,
     Joints,
     Stations,
@@ -26,11 +26,11 @@ pub(super) enum Many {
 }
 
 macro_rules! columns {
-    ($($column:ident $name:literal $unit:literal $how:ident $many:ident)*) => {
+    ($($column:ident $name:literal $unit:literal $reduction:ident $count:ident)*) => {
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub(in crate::dashboard::history) enum Column { $($column),* }
-        /// Name, unit, way and size of each column, in their order.
-        pub(in crate::dashboard::history) const COLUMNS: &[(&str, &str, How, Many)] = &[$(($name, $unit, How::$how, Many::$many)),*];
+        pub(in crate::history) enum Column { $($column),* }
+        /// Name, unit, reduction and number of values of each column, in their order.
+        pub(in crate::history) const COLUMNS: &[(&str, &str, Reduction, Count)] = &[$(($name, $unit, Reduction::$reduction, Count::$count)),*];
     };
 }
 
@@ -82,15 +82,15 @@ columns! {
     GuideZ "guide_z" "m" Last Stations
 }
 
-/// Sizes of a tool, and where its columns begin.
+/// Sizes of a tool, and offsets of its columns.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Layout {
     pub joints: usize,
     pub stations: usize,
     watched: usize,
-    /// Of each column.
+    /// Offset of each column.
     pub offsets: Vec<usize>,
-    /// Values of a frame.
+    /// Number of values of a frame.
     pub stride: usize,
 }
 
@@ -103,24 +103,24 @@ impl Layout {
             offsets: Vec::new(),
             stride: 0,
         };
-        for (.., many) in COLUMNS {
+        for (.., count) in COLUMNS {
             layout.offsets.push(layout.stride);
-            layout.stride += layout.length(*many);
+            layout.stride += layout.length(*count);
         }
         layout
     }
 
-    /// Frames that are kept of this tool.
+    /// Number of frames kept for this tool.
     pub fn capacity(&self) -> usize {
         CAPACITY.min(MOST_BYTES / (4 * self.stride.max(1))).max(1)
     }
 
-    pub fn length(&self, many: Many) -> usize {
-        match many {
-            Many::One => 1,
-            Many::Joints => self.joints,
-            Many::Stations => self.stations,
-            Many::Watched => self.watched,
+    pub fn length(&self, count: Count) -> usize {
+        match count {
+            Count::One => 1,
+            Count::Joints => self.joints,
+            Count::Stations => self.stations,
+            Count::Watched => self.watched,
         }
     }
 }

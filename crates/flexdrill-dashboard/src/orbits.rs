@@ -1,61 +1,63 @@
-//! The joints' motion beyond the last minute: every ten seconds the last three, at 25 positions a second, for an hour.
+//! The joints' motion beyond the last minute: for an hour, the last three of every ten seconds, at 25 positions per
+//! second.
 //!
-//! A position has two bytes for each direction: an hour of one joint has 108 kB, of the default tool's 32 joints 3.5
-//! MB.
+//! A position has two bytes in each direction: an hour of one joint has 108 kB, and of the default tool's 32 joints
+//! 3.5 MB.
 
 use std::collections::VecDeque;
 
 use serde_json::{Value, json};
 
-use crate::messages::JointDeflections;
+use flexdrill_messages::JointDeflections;
 
-/// Time from one window to the next, and length of a window (ns): two turns at 40 r/min.
+/// Time from one window to the next (ns).
 const EVERY: i64 = 10_000_000_000;
+/// Length of a window (ns): two turns at 40 r/min.
 const LENGTH: i64 = 3_000_000_000;
-/// Least time between two positions (ns): every second one of 50 Hz, with what a stamp may be early.
+/// Shortest time between two positions (ns): every second sample of 50 Hz, with a tolerance for early stamps.
 const BETWEEN: i64 = 38_000_000;
-/// Windows kept: an hour of them.
+/// Number of windows kept: an hour.
 const MOST: usize = 360;
-/// Most bytes of positions, however many joints there are: the hour of more is shorter.
+/// Largest size of all positions (bytes). For a tool with more joints, less than an hour is kept.
 const MOST_BYTES: usize = 32 << 20;
-/// Positions of a window.
+/// Number of positions in a window.
 const POSITIONS: usize = (LENGTH / BETWEEN) as usize + 1;
-/// Times further back than this are another run (ns).
+/// A message further back in time than this belongs to another run (ns).
 const ANOTHER_RUN: i64 = 2_000_000_000;
 /// Largest value of a position's two bytes.
 const FULL: f32 = i16::MAX as f32;
 
-/// A window that is being filled.
+/// The open window.
 #[derive(Debug, Default)]
-struct Open {
-    /// Number of the ten seconds since 1970.
+struct OpenWindow {
+    /// Number of the period since 1970.
     number: i64,
     /// ns since 1970.
     times: Vec<i64>,
-    /// Per time: y of all joints, then z (m).
+    /// For each time: y of all joints, then z (m).
     positions: Vec<f32>,
 }
 
-/// A window that is kept.
+/// A finished window.
 #[derive(Debug)]
-struct Window {
+struct OrbitWindow {
     times: Vec<i64>,
-    /// As in [`Open`], in parts of `reach`.
+    /// As in [`OpenWindow`], in units of `largest` / [`FULL`].
     positions: Box<[i16]>,
-    /// The largest of them (m).
-    reach: f32,
+    /// The largest magnitude (m).
+    largest: f32,
 }
 
 /// The windows of an hour.
 #[derive(Debug, Default)]
-pub(super) struct Orbits {
+pub(crate) struct Orbits {
     joints: usize,
-    open: Open,
-    windows: VecDeque<Window>,
+    open: OpenWindow,
+    windows: VecDeque<OrbitWindow>,
 }
 
 impl Orbits {
-    /// Takes the joints at an instant (ns since 1970).
+    /// Adds the joints at an instant (ns since 1970).
     pub fn observe(&mut self, time: i64, message: &JointDeflections) {
         let joints = message.lateral_y.len();
         let newest = self.open.times.last().copied().unwrap_or(time);
@@ -83,7 +85,7 @@ impl Orbits {
     }
 
     fn close(&mut self) {
-        let Open { times, positions, .. } = std::mem::take(&mut self.open);
+        let OpenWindow { times, positions, .. } = std::mem::take(&mut self.open);
         if times.len() < 2 {
             return;
         }
@@ -92,23 +94,23 @@ impl Orbits {
             self.windows.pop_front();
         }
         let finite = positions.iter().filter(|value| value.is_finite());
-        let reach = finite.fold(0.0, |most: f32, value| most.max(value.abs()));
-        let part = |value: f32| if reach > 0.0 { value / reach * FULL } else { 0.0 };
-        self.windows.push_back(Window {
+        let largest = finite.fold(0.0, |most: f32, value| most.max(value.abs()));
+        let part = |value: f32| if largest > 0.0 { value / largest * FULL } else { 0.0 };
+        self.windows.push_back(OrbitWindow {
             positions: positions.into_iter().map(|value| part(value) as i16).collect(),
             times,
-            reach,
+            largest,
         });
     }
 
-    /// A joint's motion at a time (ns since 1970), as the page gets it: of the window that ends next to it, within ten
-    /// seconds; none where none is kept.
+    /// A joint's motion at a time (ns since 1970), for the page: from the window whose end is nearest, within ten seconds;
+    /// `None` if no window is kept there.
     pub fn at(&self, joint: usize, time: i64) -> Option<Value> {
         if joint >= self.joints {
             return None;
         }
-        let end = |window: &Window| window.times.last().copied().unwrap_or_default();
-        let away = |window: &&Window| (end(window) - time).abs();
+        let end = |window: &OrbitWindow| window.times.last().copied().unwrap_or_default();
+        let away = |window: &&OrbitWindow| (end(window) - time).abs();
         let window = self.windows.iter().min_by_key(away)?;
         if away(&window) > EVERY {
             return None;
@@ -117,7 +119,7 @@ impl Orbits {
         let column = |offset: usize| -> Vec<f32> {
             let frames = window.positions.chunks_exact(stride);
             frames
-                .map(|frame| f32::from(frame[offset]) / FULL * window.reach)
+                .map(|frame| f32::from(frame[offset]) / FULL * window.largest)
                 .collect()
         };
         let first = window.times.first().copied().unwrap_or_default();
@@ -138,7 +140,7 @@ mod tests {
     const SECOND: i64 = 1_000_000_000;
 
     /// Joints on circles of 1 mm and more, a turn a second, 50 times a second.
-    fn hear(orbits: &mut Orbits, joints: usize, from: i64, to: i64) {
+    fn feed(orbits: &mut Orbits, joints: usize, from: i64, to: i64) {
         for tick in from * 50..to * 50 {
             let turn = std::f64::consts::TAU * tick as f64 / 50.0;
             let of = |value: f64| (0..joints).map(|joint| 1e-3 * (joint + 1) as f64 * value).collect();
@@ -163,7 +165,7 @@ mod tests {
     #[test]
     fn every_ten_seconds_the_last_three_are_kept() {
         let mut orbits = Orbits::default();
-        hear(&mut orbits, 3, 100, 131);
+        feed(&mut orbits, 3, 100, 131);
         let motion = orbits.at(1, 118 * SECOND).unwrap();
         assert_eq!(motion["from_ns"], (117 * SECOND).to_string());
         let (times, y, z) = (
@@ -174,7 +176,7 @@ mod tests {
         assert_eq!((times.len(), y.len(), z.len()), (75, 75, 75));
         for ((time, y), z) in times.iter().zip(y).zip(z) {
             let turn = std::f64::consts::TAU * time;
-            // One part in 32767 of the widest joint's 3 mm.
+            // The resolution is one part in 32767 of the widest joint's 3 mm.
             assert!(
                 (y - 2e-3 * turn.cos()).abs() < 2e-7 && (z - 2e-3 * turn.sin()).abs() < 2e-7,
                 "{time}: {y}, {z}"
@@ -186,17 +188,17 @@ mod tests {
     }
 
     #[test]
-    fn memory_is_bounded_and_another_run_or_tool_begins_anew() {
+    fn memory_is_bounded_and_another_run_or_tool_clears_it() {
         let mut orbits = Orbits::default();
-        hear(&mut orbits, 1, 0, 3700);
+        feed(&mut orbits, 1, 0, 3700);
         assert_eq!(orbits.windows.len(), MOST);
         assert!(orbits.at(0, 60 * SECOND).is_none() && orbits.at(0, 3600 * SECOND).is_some());
-        hear(&mut orbits, 1, 100, 121);
+        feed(&mut orbits, 1, 100, 121);
         assert_eq!(orbits.windows.len(), 2);
-        hear(&mut orbits, 2, 121, 131);
+        feed(&mut orbits, 2, 121, 131);
         assert_eq!(orbits.windows.len(), 1);
         // A tool of 2000 joints: 14 windows, 29 MB.
-        hear(&mut orbits, 2000, 200, 500);
+        feed(&mut orbits, 2000, 200, 500);
         let bytes: usize = orbits.windows.iter().map(|window| 2 * window.positions.len()).sum();
         assert!(bytes <= MOST_BYTES && orbits.windows.len() < 60, "{bytes} bytes");
     }

@@ -1,4 +1,4 @@
-//! What the server itself knows of the twin: session, history, journal and newest status. Fed live or from a bag.
+//! The server's own knowledge of the twin: session, history, journal and newest status, from DDS or from a bag.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -7,32 +7,32 @@ use std::time::{Duration, Instant};
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-use super::history::History;
-use super::orbits::Orbits;
-use super::session::Session;
-use crate::messages::builtin_interfaces::Time;
-use crate::messages::std_msgs::Header;
-use crate::messages::topics::{self, TopicInfo};
-use crate::messages::visualization_msgs::MarkerArray;
-use crate::messages::{
+use crate::history::History;
+use crate::orbits::Orbits;
+use crate::session::Session;
+use flexdrill_alarms::Incidents;
+use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::topics::{self, TopicInfo};
+use flexdrill_messages::visualization_msgs::MarkerArray;
+use flexdrill_messages::{
     AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus,
     WhirlState, WhirlWarning, from_cdr_body,
 };
-use flexdrill_alarms::Incidents;
 use flexdrill_text::printable;
 
-/// Events kept for a page that is opened late.
+/// Largest number of events kept, for a page that is opened later.
 const MOST_EVENTS: usize = 2000;
-/// Longest event that is kept (bytes): some sentences.
+/// Longest event kept (bytes): some sentences.
 const LONGEST_EVENT: usize = 16 << 10;
 /// Longest text of an incident (characters).
 const LONGEST_TEXT: usize = 1000;
-/// A twin whose status is older has gone: ten heartbeats at the default rate.
+/// A twin whose status is older counts as gone: ten heartbeats at the default rate.
 const GONE: Duration = Duration::from_secs(2);
 /// The parameter that changes how the tool's shape is drawn.
 const EXAGGERATION: &str = "outputs.exaggeration";
-/// Outputs of which the page shows nothing but that they come.
-const HEADER_ONLY: [&str; 4] = [
+/// Outputs of which the page only shows the age.
+const AGE_ONLY: [&str; 4] = [
     topics::JOINT_STATES.name,
     topics::DIAGNOSTICS.name,
     topics::AGEING.name,
@@ -42,7 +42,7 @@ const HEADER_ONLY: [&str; 4] = [
 struct Known {
     session: Option<Session>,
     history: History,
-    /// The player of a bag has its motion itself.
+    /// Orbits of a live twin; of a bag the player provides the motion.
     orbits: Option<Orbits>,
     events: VecDeque<(i64, AlarmEvent)>,
     /// Of all events, also those that are no longer kept.
@@ -50,20 +50,20 @@ struct Known {
     /// In ns since 1970, with the evidence of the worst moment.
     incidents: Incidents<String>,
     status: Option<(TwinStatus, Instant)>,
-    /// Newest message of each topic: the instant that it speaks of (ns since 1970), and when it arrived here.
-    heard: BTreeMap<&'static str, (i64, Instant)>,
+    /// The newest message of each topic: its stamp (ns since 1970), and the time of its arrival.
+    newest: BTreeMap<&'static str, (i64, Instant)>,
 }
 
-/// Shared by who listens and who answers the page.
-pub(super) struct Board(Mutex<Known>);
+/// Shared by the receivers of messages and the handlers of requests.
+pub(crate) struct Board(Mutex<Known>);
 
 impl Board {
-    /// Of a twin; knows nothing yet.
+    /// An empty board for a live twin.
     pub fn live() -> Self {
         Self::new(1, Some(Orbits::default()))
     }
 
-    /// Of a bag; its history has a frame for so many seconds.
+    /// An empty board for a bag, whose history has one frame per `seconds`.
     pub fn of_bag(seconds: u32) -> Self {
         Self::new(seconds, None)
     }
@@ -77,7 +77,7 @@ impl Board {
             event_count: 0,
             incidents: Incidents::new(MOST_EVENTS),
             status: None,
-            heard: BTreeMap::new(),
+            newest: BTreeMap::new(),
         }))
     }
 
@@ -85,8 +85,8 @@ impl Board {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a message, a CDR body of little endian, that came at `arrived` (ns since 1970); the instant that it speaks
-    /// of. What cannot be read is left to those who can.
+    /// Adds a message (a little-endian CDR body) that arrived at `arrived` (ns since 1970). Returns its stamp, or `arrived`
+    /// if it cannot be read.
     pub fn observe(&self, topic: &TopicInfo, body: &[u8], arrived: i64) -> i64 {
         let is_session = topic.name == topics::SESSION.name;
         let of_session = if is_session { self.observe_session(body) } else { None };
@@ -97,22 +97,21 @@ impl Board {
             known.observe(topic, body, arrived)
         };
         let time = time.unwrap_or(arrived);
-        known.heard.insert(topic.name, (time, Instant::now()));
+        known.newest.insert(topic.name, (time, Instant::now()));
         time
     }
 
-    /// The newest message of each topic as the page gets it: the instant that it speaks of, and for how long it has
-    /// been the newest (s), by a clock that is never set.
+    /// The newest message of each topic, for the page: its stamp and its age since arrival (s), by the monotonic clock.
     pub fn newest(&self) -> Value {
         let known = self.known();
-        let newest = known.heard.iter().map(|(name, (time, arrived))| {
+        let newest = known.newest.iter().map(|(name, (time, arrived))| {
             let message = json!({"time_ns": time.to_string(), "age_s": arrived.elapsed().as_secs_f64()});
             ((*name).to_owned(), message)
         });
         Value::Object(newest.collect())
     }
 
-    /// Reads a configuration without the lock, so that no answer waits for it.
+    /// Parses a configuration without holding the lock, so that no request waits for it.
     fn observe_session(&self, body: &[u8]) -> Option<i64> {
         let (info, _): (SessionInfo, _) = from_cdr_body(body).ok()?;
         let start = info.start.to_nanoseconds();
@@ -135,17 +134,17 @@ impl Board {
         change(&mut self.known().history);
     }
 
-    /// The history as the page gets it.
+    /// The history, for the page.
     pub fn history(&self) -> Option<Vec<u8>> {
         self.known().history.to_bytes()
     }
 
-    /// A joint's motion at a time (ns since 1970) as the page gets it, where it is kept.
+    /// A joint's motion at a time (ns since 1970), for the page; `None` if it is not kept.
     pub fn orbit(&self, joint: usize, time: i64) -> Option<Value> {
         self.known().orbits.as_ref()?.at(joint, time)
     }
 
-    /// The journal as the page gets it.
+    /// The journal, for the page.
     pub fn journal(&self) -> Value {
         let known = self.known();
         let events: Vec<Value> = known
@@ -156,7 +155,7 @@ impl Board {
         json!({ "events": events })
     }
 
-    /// Changes with each event of the journal.
+    /// Version of the journal, which changes with each event.
     pub fn journal_version(&self) -> u64 {
         self.known().event_count
     }
@@ -271,18 +270,18 @@ impl Known {
                 }
                 stamp(&message.header.stamp)
             }
-            name if HEADER_ONLY.contains(&name) => {
+            name if AGE_ONLY.contains(&name) => {
                 let header: Header = read(body)?;
                 stamp(&header.stamp)
             }
-            // What the rig sends, and where the frame lies.
+            // The rig's inputs and the transform have no stamp of the model.
             _ => return None,
         };
         Some(time)
     }
 
     fn event(&mut self, time: i64, event: AlarmEvent) {
-        // A restart of DDS may bring one again.
+        // A restart of DDS may deliver an event again.
         if self
             .events
             .iter()
@@ -308,7 +307,7 @@ fn shortened(text: &str) -> String {
 }
 
 fn event_json(stamp: i64, event: &AlarmEvent) -> Value {
-    // A number that is none becomes null.
+    // JSON has null for a number that is not finite.
     let mut value = serde_json::to_value(event).unwrap_or_default();
     if let Some(fields) = value.as_object_mut() {
         fields.remove("header");
@@ -320,7 +319,7 @@ fn event_json(stamp: i64, event: &AlarmEvent) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::messages::{Alarm, to_cdr_body};
+    use flexdrill_messages::{Alarm, to_cdr_body};
 
     fn send(board: &Board, second: i64, sequence: u64, change: u8, priority: u8) {
         let event = AlarmEvent {

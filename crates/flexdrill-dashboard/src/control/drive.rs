@@ -1,16 +1,16 @@
-//! The values on their way to what a page steers towards.
+//! The values that a page sends, on their way to its targets.
 
 use std::time::Instant;
 
 use super::PERIOD;
-use crate::dashboard::session::Limit;
-use crate::messages::TwinStatus;
+use crate::session::Limit;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_messages::TwinStatus;
 
-/// A stamp of the twin that is further from the clock than this is that of a recording's or simulator's clock (ns).
+/// A stamp of the twin that differs more from this machine's clock than this is of a recording's or simulator's clock (ns).
 const OTHER_CLOCK: i64 = 10_000_000_000;
 
-/// While the page steers. Values are speed (r/min) and weight (kN).
+/// The state while a page steers. Values are speed (r/min) and weight (kN).
 #[derive(Debug, Clone)]
 pub(super) struct Drive {
     pub operator: String,
@@ -21,7 +21,7 @@ pub(super) struct Drive {
 }
 
 impl Drive {
-    /// One period towards the targets, no faster than the model follows.
+    /// Moves the values by one period towards the targets, no faster than the model follows.
     pub fn advance(&mut self) {
         for ((sent, target), limit) in self.sent.iter_mut().zip(self.target).zip(self.limits) {
             let most = limit.slew * PERIOD.as_secs_f64();
@@ -30,7 +30,7 @@ impl Drive {
     }
 }
 
-/// What acts on the model (r/min, kN).
+/// The inputs that the model applies (r/min, kN).
 pub(super) fn applied(status: &TwinStatus) -> [Option<f64>; 2] {
     let value = |input: usize| {
         status
@@ -42,9 +42,9 @@ pub(super) fn applied(status: &TwinStatus) -> [Option<f64>; 2] {
     [value(0).map(rad_per_s_to_rpm), value(1).map(n_to_kn)]
 }
 
-/// The present time on the rig's clock: the system's, or where the twin follows another clock, that one (ns since 1970).
+/// The present time on the twin's clock (ns since 1970): the system's clock, unless the twin follows another one.
 pub(super) fn measured(status: Option<(&TwinStatus, Instant)>) -> i64 {
-    let clock = crate::dashboard::now();
+    let clock = crate::now();
     match status {
         Some((status, arrived)) => {
             let stamp = status.header.stamp.to_nanoseconds();
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_values_sent_go_to_the_target_no_faster_than_the_slew_limit() {
+    fn the_values_sent_approach_the_target_no_faster_than_the_slew_limit() {
         let limit = |slew| Limit {
             min: 0.0,
             max: 100.0,

@@ -1,33 +1,34 @@
-//! A bag on the page: played by the player, and read through once for history, journal and incidents.
+//! A bag as the source: the player plays it, and one more pass reads it for history, journal and incidents.
 
+use crate::DashboardError;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::PlayedBag;
-use super::board::Board;
-use super::history::CAPACITY;
-use super::listen::CDR_HEADER;
-use crate::bag::{self, Bag, BagMessage};
-use crate::live::{self, Hub, LatchedStates, Player, Playing};
-use crate::messages::topics::{self, TopicInfo};
+use crate::PlayedBag;
+use crate::board::Board;
+use crate::history::CAPACITY;
+use crate::listen::CDR_HEADER;
+use flexdrill_bag::{Bag, BagMessage};
+use flexdrill_live::{Hub, LatchedStates, Player, Playing};
+use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_text::printable;
 
-/// A bag that is shown.
-pub(super) struct Recorded {
+/// A bag that is played.
+pub(crate) struct Recorded {
     pub hub: Arc<Hub>,
     pub board: Arc<Board>,
     pub played: Arc<PlayedBag>,
     pub namespace: String,
-    /// Ends when this is dropped.
+    /// Dropping it ends the playback.
     _playing: Playing,
 }
 
 impl Recorded {
-    /// Begins to play and to read it.
-    pub fn start(path: &Path) -> anyhow::Result<Self> {
-        let bag = bag::open(path)?;
-        let (start, end) = live::range(&bag, path)?;
+    /// Starts to play and to read the bag.
+    pub fn start(path: &Path) -> Result<Self, DashboardError> {
+        let bag = flexdrill_bag::open(path)?;
+        let (start, end) = flexdrill_live::range(&bag, path)?;
         let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref));
         let namespace = bag
             .topics()
@@ -46,16 +47,16 @@ impl Recorded {
             end,
             ready: AtomicBool::new(false),
         });
-        let through = ReadThrough {
-            bag: bag::open(path)?,
+        let pass = FullPass {
+            bag: flexdrill_bag::open(path)?,
             board: Arc::clone(&board),
             states: Arc::clone(&states),
             played: Arc::clone(&played),
         };
-        // Left behind at the end: it only reads.
+        // The thread only reads, so nothing waits for its end.
         std::thread::Builder::new()
             .name("reader".into())
-            .spawn(move || through.run())?;
+            .spawn(move || pass.run())?;
         let playing = Player::start(bag, (start, end), &hub, &states)?;
         Ok(Self {
             hub,
@@ -67,14 +68,15 @@ impl Recorded {
     }
 }
 
-struct ReadThrough {
+/// The pass over the whole bag.
+struct FullPass {
     bag: Bag,
     board: Arc<Board>,
     states: Arc<LatchedStates>,
     played: Arc<PlayedBag>,
 }
 
-impl ReadThrough {
+impl FullPass {
     fn run(mut self) {
         let began = std::time::Instant::now();
         for message in self.bag.by_ref() {
@@ -90,14 +92,11 @@ impl ReadThrough {
         }
         self.board.with_history(super::history::History::finish);
         self.played.ready.store(true, Ordering::Release);
-        tracing::info!(
-            "the bag has been read through in {:.1} s",
-            began.elapsed().as_secs_f64()
-        );
+        tracing::info!("read the whole bag in {:.1} s", began.elapsed().as_secs_f64());
     }
 }
 
-/// Which of the node's topics a message is on, and its body.
+/// The node's topic of a message, and the message's CDR body.
 fn known(message: &BagMessage) -> Option<(&'static TopicInfo, &[u8])> {
     let is_it = |topic: &&TopicInfo| message.topic.ros_type == topic.kind.ros_type && message.topic.is(topic.name);
     let topic = topics::ALL.iter().find(is_it)?;

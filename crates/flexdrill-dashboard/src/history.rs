@@ -1,4 +1,4 @@
-//! The last hour, one frame a second, for a page that is opened late: bounded memory, whatever is sent.
+//! The last hour, one frame per second, for a page that is opened later; its memory is bounded.
 
 mod columns;
 mod second;
@@ -7,40 +7,39 @@ mod wire;
 use std::collections::VecDeque;
 
 use self::columns::{Column, Layout};
-use self::second::{Open, Put};
+use self::second::{FrameWriter, OpenFrame};
 use super::session::Session;
-use crate::messages::visualization_msgs::MarkerArray;
-use crate::messages::{
+use flexdrill_messages::visualization_msgs::MarkerArray;
+use flexdrill_messages::{
     Alarm, AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning,
 };
 
-/// Frames kept: an hour at one a second. Of the default tool a frame has 6.4 kB, all of them 23 MB.
-pub(super) const CAPACITY: usize = 3600;
-/// Times further back than this are another run, not messages out of order (ns).
+/// Number of frames kept: an hour at one per second. For the default tool a frame has 6.4 kB, all of them 23 MB.
+pub(crate) const CAPACITY: usize = 3600;
+/// A message further back in time than this belongs to another run, and is not merely out of order (ns).
 const ANOTHER_RUN: i64 = 2_000_000_000;
 const SECOND: i64 = 1_000_000_000;
 
 /// The last hour.
 #[derive(Debug)]
-pub(super) struct History {
+pub(crate) struct History {
     /// Model time of a frame (ns).
     period: i64,
     layout: Option<Layout>,
     /// Period and values of each frame.
     frames: VecDeque<(i64, Vec<f32>)>,
-    open: Option<Open>,
+    open: Option<OpenFrame>,
     exaggeration: f64,
-    /// What holds until it changes, known before the tool's sizes too.
+    /// The newest whirl warning, which holds until the next one; it may arrive before the tool's sizes are known.
     held: Option<(i64, WhirlWarning)>,
-    /// Body and measured depth (m) of each watched place, so that a page can draw a tool of which nothing comes any
-    /// more.
+    /// Body and measured depth (m) of each watched station, so that a page can draw a tool that no longer publishes.
     watched: (Vec<u8>, Vec<f64>),
-    /// Nothing more comes.
+    /// Whether the whole source has been read.
     complete: bool,
 }
 
 impl History {
-    /// One frame for so many seconds.
+    /// An empty history with one frame per `seconds`.
     pub fn new(seconds: u32) -> Self {
         Self {
             period: i64::from(seconds.max(1)) * SECOND,
@@ -54,15 +53,15 @@ impl History {
         }
     }
 
-    /// Whether a bag is still being read into it.
+    /// Sets whether the whole source has been read.
     pub fn set_complete(&mut self, complete: bool) {
         self.complete = complete;
     }
 
-    /// A run begins: its tool may be another one.
+    /// Begins a run, whose tool may differ from the last one.
     pub fn begin(&mut self, session: &Session) {
         self.exaggeration = session.exaggeration;
-        let sizes = (session.joints, session.places.len());
+        let sizes = (session.joints, session.stations.len());
         if self
             .layout
             .as_ref()
@@ -73,7 +72,7 @@ impl History {
         }
     }
 
-    /// Displacements are drawn larger by this factor from now on.
+    /// Sets the factor by which later shapes exaggerate displacements.
     pub fn set_exaggeration(&mut self, factor: f64) {
         if factor > 0.0 {
             self.exaggeration = factor;
@@ -113,7 +112,7 @@ impl History {
     }
 
     pub fn warning(&mut self, time: i64, message: &WhirlWarning) {
-        // A latched topic may bring older states after its newest.
+        // DDS may deliver older states of a latched topic after its newest.
         if self
             .held
             .as_ref()
@@ -147,13 +146,13 @@ impl History {
         put.all(Column::ContactState, message.state.iter().copied().map(f64::from));
     }
 
-    /// The first message of whirl completes what must be known of the tool's sizes.
+    /// Adds a message about whirl. The first one completes the tool's sizes.
     pub fn whirl(&mut self, time: i64, message: &WhirlState, session: &Session) {
-        // At most every station of both pipes is watched; more is not of this tool.
-        if message.kind.len() > 2 * session.places.len() {
+        // At most every station of both pipes is watched; a longer message is not of this tool.
+        if message.kind.len() > 2 * session.stations.len() {
             return;
         }
-        let layout = Layout::new(session.joints, session.places.len(), message.kind.len());
+        let layout = Layout::new(session.joints, session.stations.len(), message.kind.len());
         if self.layout.as_ref() != Some(&layout) {
             self.clear();
             self.layout = Some(layout);
@@ -190,9 +189,9 @@ impl History {
             let Some(marker) = message.markers.iter().find(|marker| marker.ns == name) else {
                 continue;
             };
-            let displaced = marker.points.iter().zip(&session.places);
+            let displaced = marker.points.iter().zip(&session.stations);
             let displaced: Vec<[f64; 2]> = displaced
-                .map(|(point, place)| place.displacement([point.x, point.y, point.z]))
+                .map(|(point, station)| station.displacement([point.x, point.y, point.z]))
                 .collect();
             for (axis, column) in columns.into_iter().enumerate() {
                 put.all(column, displaced.iter().map(|away| away[axis] / factor));
@@ -200,8 +199,8 @@ impl History {
         }
     }
 
-    /// The frame of an instant (ns since 1970); none while the tool's sizes are not known, or for what comes late.
-    fn at(&mut self, time: i64) -> Option<Put<'_>> {
+    /// The frame of an instant (ns since 1970); `None` while the tool's sizes are not known, and for a late message.
+    fn at(&mut self, time: i64) -> Option<FrameWriter<'_>> {
         let layout = self.layout.as_ref()?;
         let period = time.div_euclid(self.period);
         if let Some(open) = &self.open
@@ -221,15 +220,15 @@ impl History {
             }
         }
         let begins = self.open.is_none();
-        let open = self.open.get_or_insert_with(|| Open::new(period, layout));
-        let mut put = Put { layout, open };
+        let open = self.open.get_or_insert_with(|| OpenFrame::new(period, layout));
+        let mut put = FrameWriter { layout, open };
         if let Some((_, warning)) = self.held.as_ref().filter(|_| begins) {
             put.warning(warning);
         }
         Some(put)
     }
 
-    /// Closes the frame that is being filled.
+    /// Closes the open frame, and marks the history as complete.
     pub fn finish(&mut self) {
         if let Some(done) = self.open.take() {
             self.frames.push_back((done.period, done.values));

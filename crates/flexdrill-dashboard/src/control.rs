@@ -1,10 +1,9 @@
-//! Steering and requests to the node, for who shows the token.
+//! Steering and requests to the node, for clients with the token.
 //!
-//! The server steers as any rig does, by `rig/inputs`, ten times a second, and only while it is the one publisher:
-//! where another sends an input, it does not begin, and stops. A page that steers says every second that it is still
-//! there.
+//! The server steers as any rig does, over `rig/inputs`, ten times per second, and only while it is the only publisher of
+//! the inputs: otherwise it does not begin, or it stops. A page that steers renews its request every second.
 
-mod ask;
+mod action;
 mod drive;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -12,31 +11,31 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use self::ask::named;
-pub(super) use self::ask::{Ask, ControlParts};
+use self::action::checked_name;
+pub(crate) use self::action::{Action, ControlParts};
 use self::drive::{Drive, applied, measured};
 use super::session::Limit;
-use crate::dds::port::Monitor;
-use crate::live::Token;
-use crate::messages::builtin_interfaces::Time;
-use crate::messages::std_msgs::Header;
-use crate::messages::{RigInputs, TwinStatus, to_cdr_body};
+use flexdrill_live::Token;
+use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::{RigInputs, TwinStatus, to_cdr_body};
+use flexdrill_ros2::dds::port::Monitor;
 
 /// Time between two samples.
-pub(super) const PERIOD: Duration = Duration::from_millis(100);
-/// Steering ends when the page has said nothing for so long: three of its words, which come each second.
-pub(super) const DEAD_MAN: Duration = Duration::from_secs(3);
+pub(crate) const PERIOD: Duration = Duration::from_millis(100);
+/// Steering ends when the page has not renewed its request for this time: three renewals.
+pub(crate) const DEAD_MAN: Duration = Duration::from_secs(3);
 
-/// Why a request is not carried out.
+/// Why a request is refused.
 #[derive(Debug, PartialEq, thiserror::Error)]
-pub(super) enum Refused {
-    /// The request itself.
+pub(crate) enum Refused {
+    /// The request is malformed or out of bounds.
     #[error("{0}")]
     Wrong(String),
-    /// Somebody else, or the node.
+    /// Another driver or operator is in the way, or the node refuses.
     #[error("{0}")]
     Conflict(String),
-    /// The twin does not answer.
+    /// The twin does not respond.
     #[error("{0}")]
     Away(String),
 }
@@ -44,12 +43,12 @@ pub(super) enum Refused {
 #[derive(Debug, Default)]
 struct Steering {
     drive: Option<Drive>,
-    /// Why it ended the last time.
+    /// Why steering ended the last time.
     ended: Option<String>,
 }
 
-/// Acts on the twin.
-pub(super) struct Control {
+/// Steering of and requests to the twin.
+pub(crate) struct Control {
     token: Token,
     monitor: Monitor,
     parts: ControlParts,
@@ -66,7 +65,7 @@ impl Control {
         }
     }
 
-    /// Whether who asks has shown the token.
+    /// Whether the client has sent the right token.
     pub fn admits(&self, offered: &str) -> bool {
         self.token.is(offered)
     }
@@ -75,7 +74,7 @@ impl Control {
         self.steering.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Somebody else who sends an input, as the twin names him.
+    /// Another publisher of an input, as the twin names it.
     pub fn other_driver(&self, status: &TwinStatus) -> Option<String> {
         let own_id = self.monitor.health().participant.map(|prefix| hex(&prefix));
         let own_node = format!("{} @ ", self.parts.node);
@@ -89,7 +88,7 @@ impl Control {
             .next()
     }
 
-    /// Begins to steer, changes the targets, or goes on.
+    /// Begins to steer, changes the targets, or renews the request.
     pub fn steer(
         &self,
         operator: &str,
@@ -97,9 +96,10 @@ impl Control {
         limits: Option<[Limit; 2]>,
         status: Option<&TwinStatus>,
     ) -> Result<String, Refused> {
-        let operator = named(operator)?;
-        let limits =
-            limits.ok_or_else(|| Refused::Away("the limits are not known: the twin was not heard yet".into()))?;
+        let operator = checked_name(operator)?;
+        let limits = limits.ok_or_else(|| {
+            Refused::Away("the limits are not known, because no message of the twin has arrived yet".into())
+        })?;
         for ((value, limit), (name, unit)) in target
             .iter()
             .zip(&limits)
@@ -107,12 +107,12 @@ impl Control {
         {
             if !(limit.min..=limit.max).contains(value) {
                 return Err(Refused::Wrong(format!(
-                    "{name} is {value}; it is between {} and {} {unit}",
+                    "{name} is {value}; it must be between {} and {} {unit}",
                     limit.min, limit.max
                 )));
             }
         }
-        let status = status.ok_or_else(|| Refused::Away("the twin has gone: no status for 2 s".into()))?;
+        let status = status.ok_or_else(|| Refused::Away("the twin has not sent a status for 2 s".into()))?;
         if let Some(other) = self.other_driver(status) {
             return Err(Refused::Conflict(format!(
                 "{other} drives; stop it and wait until it has been silent for the input's max_age"
@@ -123,7 +123,7 @@ impl Control {
         if let Some(drive) = &mut steering.drive {
             if drive.operator != operator {
                 return Err(Refused::Conflict(format!(
-                    "{} steers on this page's server; he must release first",
+                    "{} steers over this server; the other operator must release it first",
                     drive.operator
                 )));
             }
@@ -134,7 +134,7 @@ impl Control {
                 let start = sent[input].unwrap_or(limits[input].min);
                 start.clamp(limits[input].min, limits[input].max)
             });
-            tracing::info!("{operator} steers from this page's server");
+            tracing::info!("{operator} begins to steer over this server");
             steering.drive = Some(Drive {
                 operator,
                 target,
@@ -149,13 +149,13 @@ impl Control {
 
     /// Stops steering.
     pub fn release(&self, operator: &str) -> Result<String, Refused> {
-        let operator = named(operator)?;
+        let operator = checked_name(operator)?;
         let mut steering = self.steering();
         if steering.drive.is_none() {
-            return Ok("nobody steers".into());
+            return Ok("no operator steers".into());
         }
         steering.end(format!("{operator} released it"));
-        Ok("released: the node holds the values, then brings them to the safe ones".into())
+        Ok("released: the node holds the values, then ramps them to the safe values".into())
     }
 
     /// Whether a page steers.
@@ -163,13 +163,13 @@ impl Control {
         self.steering().drive.is_some()
     }
 
-    /// Sends the next sample, if the page steers; to be called every [`PERIOD`].
+    /// Sends the next sample if a page steers. The caller runs it every [`PERIOD`].
     pub fn tick(&self, status: Option<(&TwinStatus, Instant)>) {
         let mut steering = self.steering();
         let Some(drive) = &mut steering.drive else { return };
         let end = if drive.renewed.elapsed() >= DEAD_MAN {
             Some(format!(
-                "the page of {} has said nothing for {} s",
+                "the page of {} has not responded for {} s",
                 drive.operator,
                 DEAD_MAN.as_secs()
             ))
@@ -197,7 +197,7 @@ impl Control {
         }
     }
 
-    /// How it steers, as the page gets it.
+    /// The state of steering, for the page.
     pub fn json(&self, status: Option<&TwinStatus>) -> Value {
         let steering = self.steering();
         let drive = steering.drive.as_ref();

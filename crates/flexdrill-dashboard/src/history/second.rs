@@ -1,20 +1,20 @@
-//! A second that is being filled: its values become one, each in its column's way.
+//! The open frame: reduces the values of a second to one, as each column requires.
 
-use super::columns::{COLUMNS, Column, How, Layout};
-use crate::messages::WhirlWarning;
+use super::columns::{COLUMNS, Column, Layout, Reduction};
+use flexdrill_messages::WhirlWarning;
 
-/// A second that is being filled.
+/// The open frame.
 #[derive(Debug, Clone)]
-pub(super) struct Open {
+pub(super) struct OpenFrame {
     /// Number of the period since 1970.
     pub period: i64,
     pub values: Vec<f32>,
-    /// Values in the means.
+    /// Number of values in each mean.
     counts: Vec<u32>,
 }
 
-impl Open {
-    /// Nothing has come in it.
+impl OpenFrame {
+    /// A frame without values.
     pub fn new(period: i64, layout: &Layout) -> Self {
         Self {
             period,
@@ -24,13 +24,13 @@ impl Open {
     }
 }
 
-/// Puts values into the frame that is being filled.
-pub(super) struct Put<'a> {
+/// Writes values into the open frame.
+pub(super) struct FrameWriter<'a> {
     pub layout: &'a Layout,
-    pub open: &'a mut Open,
+    pub open: &'a mut OpenFrame,
 }
 
-impl Put<'_> {
+impl FrameWriter<'_> {
     pub fn warning(&mut self, message: &WhirlWarning) {
         self.one(Column::WarningSeverity, f64::from(message.severity));
         self.one(Column::WarningKind, f64::from(message.kind));
@@ -44,26 +44,26 @@ impl Put<'_> {
 
     pub fn all(&mut self, column: Column, values: impl Iterator<Item = f64>) {
         let number = column as usize;
-        let (Some((_, _, how, many)), Some(&offset), Some(count)) = (
+        let (Some((_, _, reduction, values_of)), Some(&offset), Some(count)) = (
             COLUMNS.get(number),
             self.layout.offsets.get(number),
             self.open.counts.get_mut(number),
         ) else {
             return;
         };
-        let length = self.layout.length(*many);
+        let length = self.layout.length(*values_of);
         let Some(kept) = self.open.values.get_mut(offset..offset + length) else {
             return;
         };
         *count += 1;
         for (kept, value) in kept.iter_mut().zip(values) {
             let value = value as f32;
-            *kept = match how {
-                How::Last | How::Held => value,
-                How::Most => kept.max(value),
-                How::Least => kept.min(value),
-                How::Mean if *count == 1 => value,
-                How::Mean => *kept + (value - *kept) / *count as f32,
+            *kept = match reduction {
+                Reduction::Last | Reduction::Held => value,
+                Reduction::Most => kept.max(value),
+                Reduction::Least => kept.min(value),
+                Reduction::Mean if *count == 1 => value,
+                Reduction::Mean => *kept + (value - *kept) / *count as f32,
             };
         }
     }

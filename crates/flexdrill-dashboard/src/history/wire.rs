@@ -1,4 +1,4 @@
-//! The last hour as the page gets it: a length of four bytes, JSON that names the columns, frames of 32-bit floats.
+//! The history as the page receives it: a length of four bytes, JSON that names the columns, frames of 32-bit floats.
 
 use serde_json::json;
 
@@ -6,7 +6,7 @@ use super::columns::{COLUMNS, Column};
 use super::{History, SECOND};
 
 impl History {
-    /// All frames, as the page gets them; none while nothing is known.
+    /// All frames, for the page; `None` without any.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
         let layout = self.layout.as_ref()?;
         let open = self.open.as_ref().map(|open| (open.period, &open.values));
@@ -16,8 +16,8 @@ impl History {
         let columns: Vec<_> = COLUMNS
             .iter()
             .zip(&layout.offsets)
-            .map(|((name, unit, _, many), offset)| {
-                json!({"name": name, "unit": unit, "offset": offset, "length": layout.length(*many)})
+            .map(|((name, unit, _, count), offset)| {
+                json!({"name": name, "unit": unit, "offset": offset, "length": layout.length(*count)})
             })
             .collect();
         let mut head = json!({
@@ -32,7 +32,7 @@ impl History {
             "columns": columns,
         })
         .to_string();
-        // The numbers begin where a typed array of any size may.
+        // The numbers are aligned for a typed array of any size.
         while !(4 + head.len()).is_multiple_of(8) {
             head.push(' ');
         }

@@ -1,19 +1,19 @@
-//! What a run is made of, for the page: places along the tool and limits of the inputs, from the configuration that
-//! `twin/session` tells.
+//! The run's tool and limits, for the page: stations along the tool and limits of the inputs, from the configuration in
+//! `twin/session`.
 
 use serde_json::{Value, json};
 
-use crate::messages::SessionInfo;
 use flexdrill_config::Config;
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::tool::well::{WellPath, frame_along, tangent};
+use flexdrill_messages::SessionInfo;
 
 /// Longest configuration that is read (bytes): ten times that of the default tool with all its comments.
 const LONGEST: usize = 256 << 10;
 
 /// Range and slew limit of an input, in the unit of its topic.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Limit {
+pub(crate) struct Limit {
     pub min: f64,
     pub max: f64,
     /// Per second.
@@ -26,17 +26,17 @@ impl Limit {
     }
 }
 
-/// A place on the bore's axis.
+/// The bore at a station: a point of its axis and the direction of the low side.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    /// m, in the frame of all headers.
+pub(crate) struct BoreFrame {
+    /// Position (m), in the frame of all headers.
     position: [f64; 3],
     /// Unit vector towards the low side.
     low_side: [f64; 3],
 }
 
-impl Place {
-    /// How far a point of the tool's shape is displaced from the axis here: horizontally, and towards the low side (m).
+impl BoreFrame {
+    /// Displacement of a point of the tool's shape from the axis: horizontally, and towards the low side (m).
     pub fn displacement(&self, point: [f64; 3]) -> [f64; 2] {
         let away: [f64; 3] = std::array::from_fn(|axis| point[axis] - self.position[axis]);
         let low = (0..3).map(|axis| away[axis] * self.low_side[axis]).sum();
@@ -46,14 +46,14 @@ impl Place {
 
 /// A run.
 #[derive(Debug, Clone)]
-pub(super) struct Session {
+pub(crate) struct Session {
     pub config_hash: String,
     /// ns since 1970.
     pub start: i64,
     /// Speed (r/min) and weight (kN).
     pub limits: [Limit; 2],
-    /// Stations, top to bottom.
-    pub places: Vec<Place>,
+    /// The bore at each station, top to bottom.
+    pub stations: Vec<BoreFrame>,
     /// Number of joints.
     pub joints: usize,
     /// Factor on displacements in the tool's shape.
@@ -62,23 +62,22 @@ pub(super) struct Session {
 }
 
 impl Session {
-    /// As a message tells it.
+    /// The session of a message.
     ///
     /// # Errors
-    /// When the configuration is none that this version reads, in words.
+    /// Why this version cannot read the configuration.
     pub fn new(info: &SessionInfo) -> Result<Self, String> {
-        let told = |why: String| format!("the configuration that twin/session holds cannot be read: {why}");
+        let refused = |why: String| format!("the configuration in twin/session cannot be read: {why}");
         let length = info.configuration.len();
         if length > LONGEST {
-            return Err(told(format!(
-                "it has {length} bytes; the longest that is read has {LONGEST}"
-            )));
+            return Err(refused(format!("it has {length} bytes, at most {LONGEST} are read")));
         }
-        let config = Config::from_text("twin/session", &info.configuration).map_err(|error| told(error.to_string()))?;
+        let config =
+            Config::from_text("twin/session", &info.configuration).map_err(|error| refused(error.to_string()))?;
         let description = config.tool();
         let stations = stations(&description);
         let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
-        let places = stations.iter().map(|station| Place {
+        let frames = stations.iter().map(|station| BoreFrame {
             position: station.position,
             low_side: frame_along(tangent(station.inclination)).column(2).into_owned().into(),
         });
@@ -97,7 +96,7 @@ impl Session {
                     slew: weight.slew_kn_per_s,
                 },
             ],
-            places: places.collect(),
+            stations: frames.collect(),
             joints: description.links.saturating_sub(1),
             exaggeration: config.outputs.exaggeration,
             tool: tool(&config, &description, &stations),
@@ -115,17 +114,17 @@ impl Session {
     }
 }
 
-/// A place that messages speak of.
+/// A station of the tool.
 struct Station {
     /// Measured depth (m).
     depth: f64,
-    /// rad.
+    /// Inclination (rad).
     inclination: f64,
-    /// m, in the frame of all headers.
+    /// Position (m), in the frame of all headers.
     position: [f64; 3],
 }
 
-/// Stations as the model has them: evenly along the bore, so many per link.
+/// The stations of the model: evenly spaced along the bore, with the same number in each link.
 fn stations(tool: &ToolDescription) -> Vec<Station> {
     let path = WellPath::new(&tool.well);
     let last = tool.links * tool.elements_per_link;
@@ -151,7 +150,7 @@ fn tool(config: &Config, tool: &ToolDescription, stations: &[Station]) -> Value 
             json!({"measured_depth": station.depth, "inclination": station.inclination, "station": number})
         })
         .collect();
-    let places: Vec<Value> = stations
+    let positions: Vec<Value> = stations
         .iter()
         .map(|station| {
             let position = station.position;
@@ -162,7 +161,7 @@ fn tool(config: &Config, tool: &ToolDescription, stations: &[Station]) -> Value 
     let build_radius = config.well.smallest_radius();
     json!({
         "title": config.run.title,
-        "stations": places,
+        "stations": positions,
         "joints": joints,
         "bit_depth": stations.last().map(|station| station.depth),
         "bore_radius": 0.5 * tool.hole_diameter,
@@ -182,14 +181,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_papers_tool_has_the_papers_places() {
-        let configuration = include_str!("../../config/default.yaml").to_owned();
+    fn the_papers_tool_has_the_papers_stations() {
+        let configuration = include_str!("../../../config/default.yaml").to_owned();
         let session = Session::new(&SessionInfo {
             configuration,
             ..SessionInfo::default()
         })
         .unwrap();
-        assert_eq!((session.places.len(), session.joints), (166, 32));
+        assert_eq!((session.stations.len(), session.joints), (166, 32));
         assert_eq!((session.limits[0].max, session.limits[1].slew), (120.0, 10.0));
         let tool = session.tool_json();
         assert_eq!(tool["build_radius"], 3.2);
@@ -203,11 +202,11 @@ mod tests {
         let end = &tool["stations"][165]["position"];
         assert!(near(&end[0], 3.2) && near(&end[2], 3.2), "{end}");
         // There, the low side is down.
-        let [y, z] = session.places[165].displacement([3.2, 0.001, 3.202]);
+        let [y, z] = session.stations[165].displacement([3.2, 0.001, 3.202]);
         assert!((y - 0.001).abs() < 1e-9 && (z - 0.002).abs() < 1e-9, "{y} {z}");
     }
 
-    /// Anybody on the network can send a session.
+    /// Any program on the network can publish a session.
     #[test]
     fn a_session_that_is_too_long_is_refused() {
         let long = SessionInfo {
@@ -218,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_foreign_configuration_is_told_not_guessed() {
+    fn a_foreign_configuration_is_refused() {
         let info = SessionInfo {
             configuration: "well: 3".to_owned(),
             ..SessionInfo::default()
