@@ -8,8 +8,8 @@
 //!
 //! - [`cli`]: the subcommands, a file or folder each.
 //! - [`node`]: the ROS 2 node: its stages, threads, services and parameters.
-//! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for an
-//!   operator.
+//! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
+//!   an operator.
 //! - [`rig_inputs`]: publishers, age and validity of the rig's inputs.
 //!
 //! Below them are crates, most of them also under a short name here: [`flexdrill_dashboard`], [`flexdrill_report`],

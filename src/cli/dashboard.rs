@@ -40,8 +40,8 @@ pub(super) struct DashboardArgs {
     /// File with the token; without it the program prints a new one.
     #[arg(long, value_name = "FILE", requires = "allow_control")]
     token_file: Option<PathBuf>,
-    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file; pages
-    /// of this machine and of Foxglove are always admitted.
+    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file;
+    /// pages of this machine and of Foxglove are always admitted.
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
     /// Open the page in this machine's browser.

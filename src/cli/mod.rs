@@ -107,8 +107,8 @@ pub struct Misunderstood {
     pub text: String,
 }
 
-/// The arguments outside and inside `--ros-args`. With ROS 2 arguments and no subcommand, as `ros2 run` and `ros2 launch`
-/// start a program, the subcommand is `run`.
+/// The arguments outside and inside `--ros-args`. With ROS 2 arguments and no subcommand, as `ros2 run` and `ros2
+/// launch` start a program, the subcommand is `run`.
 fn split(given: Vec<OsString>) -> (Vec<OsString>, Vec<OsString>) {
     let is_ros = given.iter().any(|argument| argument == "--ros-args");
     let (mut arguments, ros_args) = args::split(given);
@@ -178,8 +178,8 @@ fn one_line(error: &anyhow::Error) -> String {
     text
 }
 
-/// Parses the command line, runs the subcommand, reports a failure on standard error. `no_output` states that the program
-/// was started without a standard output.
+/// Parses the command line, runs the subcommand, reports a failure on standard error. `no_output` states that the
+/// program was started without a standard output.
 pub fn main(no_output: bool) -> ExitCode {
     if no_output {
         output::close();

@@ -1,5 +1,5 @@
-//! The name of a recording, which may contain the time of the start, so that a supervisor can run the same command again
-//! without overwriting a recording.
+//! The name of a recording, which may contain the time of the start, so that a supervisor can run the same command
+//! again without overwriting a recording.
 
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};

@@ -35,12 +35,12 @@ pub(super) struct ReplayArgs {
     /// Bag to write: FILE.mcap or a folder.
     #[arg(long, value_name = "OUT", required_unless_present = "foxglove")]
     out: Option<PathBuf>,
-    /// Show a recording unchanged in Foxglove and Lichtblick, which play, pause and seek; 127.0.0.1:8765 is their default.
-    /// With --out, show the new bag.
+    /// Show a recording unchanged in Foxglove and Lichtblick, which play, pause and seek; 127.0.0.1:8765 is their
+    /// default. With --out, show the new bag.
     #[arg(long, value_name = "ADDRESS:PORT")]
     foxglove: Option<SocketAddr>,
-    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file; pages
-    /// of this machine and of Foxglove are always admitted.
+    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file;
+    /// pages of this machine and of Foxglove are always admitted.
     #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
     allow_origin: Vec<String>,
     /// Configuration, if the input has none of its own; default: the paper's case, built in.

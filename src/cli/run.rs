@@ -63,12 +63,12 @@ pub(super) struct RunArgs {
     /// ~/.local/state/flexdrill.
     #[arg(long, value_name = "DIR")]
     state_dir: Option<PathBuf>,
-    /// Also publish over WebSocket, for Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Viewers cannot act on the
-    /// twin without --allow-control.
+    /// Also publish over WebSocket, for Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Viewers cannot act on
+    /// the twin without --allow-control.
     #[arg(long, value_name = "ADDRESS:PORT")]
     foxglove: Option<SocketAddr>,
-    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file; pages
-    /// of this machine and of Foxglove are always admitted.
+    /// Admit a viewer from this page too, such as https://viewer.example, or file:// for viewers opened from a file;
+    /// pages of this machine and of Foxglove are always admitted.
     #[arg(long, value_name = "ORIGIN", requires = "foxglove")]
     allow_origin: Vec<String>,
     /// Let a viewer at ws://ADDRESS:PORT/?token=TOKEN set parameters, call services and drive; the program prints the

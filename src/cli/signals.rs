@@ -1,5 +1,5 @@
-//! Ctrl-C, SIGTERM and a closed terminal: the first signal requests an orderly end, a later one forces it. Reaching a file
-//! size limit becomes an error of the write.
+//! Ctrl-C, SIGTERM and a closed terminal: the first signal requests an orderly end, a later one forces it. Reaching a
+//! file size limit becomes an error of the write.
 
 use crate::cli::output::tell;
 use std::io;
@@ -16,8 +16,8 @@ const FORCED: i32 = 130;
 /// A signal this soon after the first is the same request: a supervisor signals both the process and its group.
 const SAME_REQUEST: Duration = Duration::from_secs(2);
 
-/// Time after the first request within which an orderly end completes: the solver's last step, the last messages, and the
-/// end of a recording on a disk that does not respond. Beyond it something hangs.
+/// Time after the first request within which an orderly end completes: the solver's last step, the last messages, and
+/// the end of a recording on a disk that does not respond. Beyond it something hangs.
 const ORDERLY_END: Duration = Duration::from_secs(20);
 
 /// Effect of a further signal.

@@ -26,8 +26,8 @@
 //!
 //! # Layout
 //! - `storage`: the file system, as a trait that tests replace by one that fails.
-//! - `part`: one MCAP file under way, with its `sink` and `tally`. `location`: names of the files. `metadata`: rosbag2's
-//!   `metadata.yaml`.
+//! - `part`: one MCAP file under way, with its `sink` and `tally`. `location`: names of the files. `metadata`:
+//!   rosbag2's `metadata.yaml`.
 //! - `recorder`: a recording that the first error ends. `failover`: one that continues in another file.
 //!   `recording_thread`: the same behind a queue, with its `recording_health` and `losses`.
 //! - `reader`: [`open`], all files of a bag merged in time order. `mcap_file`, `sqlite`: one file each.

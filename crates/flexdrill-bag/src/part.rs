@@ -56,8 +56,8 @@ pub(crate) struct EarlyEnd {
     pub safe: bool,
 }
 
-/// A file of a recording. It collects a chunk in memory, writes it whole (the first after a tenth of a second, later ones
-/// after half a second) and then syncs the file to the disk.
+/// A file of a recording. It collects a chunk in memory, writes it whole (the first after a tenth of a second, later
+/// ones after half a second) and then syncs the file to the disk.
 ///
 /// After an error it truncates the file to the last whole chunk, and only [`Part::end_early`] may follow.
 pub(crate) struct Part {
@@ -148,7 +148,8 @@ impl Part {
         &self.safe
     }
 
-    /// Whether the open chunk must be written before the next message; `log_time` is that of the message, if there is one.
+    /// Whether the open chunk must be written before the next message; `log_time` is that of the message, if there is
+    /// one.
     pub fn is_due(&self, log_time: Option<u64>) -> bool {
         let Some((first, began)) = self.chunk else {
             return false;
@@ -205,8 +206,8 @@ impl Part {
         self.sync_if_due()
     }
 
-    /// Whether the file must end before the next chunk: otherwise its end might exceed the largest size, or its index too
-    /// much memory.
+    /// Whether the file must end before the next chunk: otherwise its end might exceed the largest size, or its index
+    /// too much memory.
     pub fn is_full(&self) -> bool {
         if self.chunks >= MOST_CHUNKS {
             return true;
@@ -279,8 +280,8 @@ impl Part {
         self.sync()
     }
 
-    /// Ends the file behind its last whole chunk, with an index if the disk has room for one. Many readers need the index,
-    /// so the caller tries again later when there was no room.
+    /// Ends the file behind its last whole chunk, with an index if the disk has room for one. Many readers need the
+    /// index, so the caller tries again later when there was no room.
     pub fn end_early(&mut self) -> EarlyEnd {
         let finished = self.writer.finish().is_ok();
         let bounds = self.in_file.bounds.unwrap_or((0, 0));
@@ -326,7 +327,8 @@ impl Part {
         Ok(())
     }
 
-    /// Appends all of `bytes` to the whole part of the file, or truncates the file to that part. Returns the new length.
+    /// Appends all of `bytes` to the whole part of the file, or truncates the file to that part. Returns the new
+    /// length.
     fn append(&mut self, bytes: &[u8]) -> io::Result<u64> {
         let mut rest = bytes;
         let mut offset = self.length;

@@ -29,7 +29,8 @@ pub struct BagMessage {
     pub publish_time: i64,
     /// CDR with its header.
     pub data: Vec<u8>,
-    /// Sequence number in its topic; in flexdrill's recordings, a missing number is a lost message. SQLite bags have none.
+    /// Sequence number in its topic; in flexdrill's recordings, a missing number is a lost message. SQLite bags have
+    /// none.
     pub sequence: Option<u32>,
 }
 
@@ -271,8 +272,8 @@ impl Bag {
         }
     }
 
-    /// Continues with the first message at or after `time` (ns since the clock's epoch), forward or back. This decompresses
-    /// only the chunks that hold it.
+    /// Continues with the first message at or after `time` (ns since the clock's epoch), forward or back. This
+    /// decompresses only the chunks that hold it.
     pub fn seek(&mut self, time: i64) {
         for source in &mut self.sources {
             source.stream.seek(time);

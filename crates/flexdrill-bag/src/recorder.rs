@@ -45,8 +45,8 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Creates a recording of `topics`: a path that ends in `.mcap` names a file, with a metadata.yaml in the same folder;
-    /// any other path names a folder for both. The metadata.yaml is written at the end.
+    /// Creates a recording of `topics`: a path that ends in `.mcap` names a file, with a metadata.yaml in the same
+    /// folder; any other path names a folder for both. The metadata.yaml is written at the end.
     ///
     /// # Errors
     /// When a file would be overwritten, the folder has another bag's metadata.yaml, or a file cannot be created.
@@ -77,8 +77,8 @@ impl Recorder {
         self.part.taken().messages()
     }
 
-    /// Records one message. `topic` is the index in [`Recorder::topics`]; `log_time` is in ns since the clock's epoch (a
-    /// negative time is recorded as 0); `bytes` are CDR with their header.
+    /// Records one message. `topic` is the index in [`Recorder::topics`]; `log_time` is in ns since the clock's epoch
+    /// (a negative time is recorded as 0); `bytes` are CDR with their header.
     ///
     /// # Errors
     /// When the topic does not exist, or writing fails; after a failed write, every call fails with
@@ -115,8 +115,8 @@ impl Recorder {
         self.part.add(&entry)
     }
 
-    /// Writes the open chunk, and syncs the file when the last sync is long enough ago. Only callers that expect a pause
-    /// need this; [`Recorder::record`] does the same.
+    /// Writes the open chunk, and syncs the file when the last sync is long enough ago. Only callers that expect a
+    /// pause need this; [`Recorder::record`] does the same.
     ///
     /// # Errors
     /// When writing fails.

@@ -85,8 +85,8 @@ impl Board {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Adds a message (a little-endian CDR body) that arrived at `arrived` (ns since 1970). Returns its stamp, or `arrived`
-    /// if it cannot be read.
+    /// Adds a message (a little-endian CDR body) that arrived at `arrived` (ns since 1970). Returns its stamp, or
+    /// `arrived` if it cannot be read.
     pub fn observe(&self, topic: &TopicInfo, body: &[u8], arrived: i64) -> i64 {
         let is_session = topic.name == topics::SESSION.name;
         let of_session = if is_session { self.observe_session(body) } else { None };

@@ -1,7 +1,7 @@
 //! Steering and requests to the node, for clients with the token.
 //!
-//! The server steers as any rig does, over `rig/inputs`, ten times per second, and only while it is the only publisher of
-//! the inputs: otherwise it does not begin, or it stops. A page that steers renews its request every second.
+//! The server steers as any rig does, over `rig/inputs`, ten times per second, and only while it is the only publisher
+//! of the inputs: otherwise it does not begin, or it stops. A page that steers renews its request every second.
 
 mod action;
 mod drive;

@@ -5,8 +5,8 @@
 //! - `GET /api/session`: mode, limits, the tool's stations, a bag's incidents;
 //! - `GET /api/pulse`: the server's clock, its instance, the age of its newest data;
 //! - `GET /api/history`: the last hour, one frame per second; `GET /api/journal`: the alarms' events;
-//! - `GET /api/control`: who steers; `POST /api/control/{steer, release, acknowledge, shelve, unshelve, reset, pause}`, with
-//!   the token.
+//! - `GET /api/control`: who steers; `POST /api/control/{steer, release, acknowledge, shelve, unshelve, reset, pause}`,
+//!   with the token.
 //!
 //! # Layout
 //! - `listen`: from DDS to page and board. `recorded`: from a bag to page and board.

@@ -103,8 +103,8 @@ impl Orbits {
         });
     }
 
-    /// A joint's motion at a time (ns since 1970), for the page: from the window whose end is nearest, within ten seconds;
-    /// `None` if no window is kept there.
+    /// A joint's motion at a time (ns since 1970), for the page: from the window whose end is nearest, within ten
+    /// seconds; `None` if no window is kept there.
     pub fn at(&self, joint: usize, time: i64) -> Option<Value> {
         if joint >= self.joints {
             return None;

@@ -25,8 +25,8 @@ struct Snapshot {
 pub(crate) struct Snapshots(Mutex<Vec<Snapshot>>);
 
 impl Snapshots {
-    /// The answer of a version, which `make` produces if necessary. While slow readers hold all copies, the answer is the
-    /// newest of these.
+    /// The answer of a version, which `make` produces if necessary. While slow readers hold all copies, the answer is
+    /// the newest of these.
     pub fn body(&self, version: u64, make: impl FnOnce() -> Option<Vec<u8>>) -> Option<Body> {
         self.bytes(version, Instant::now(), make).map(Reader::body)
     }

@@ -57,7 +57,7 @@ impl IssueKind {
             Self::Unreadable => "unreadable",
             Self::Missing => "missing value",
             Self::TimeRepeats => "time repeats",
-            Self::TimeBackwards => "time goes backwards",
+            Self::TimeBackwards => "time steps backwards",
             Self::TimeJumps => "time jumps",
             Self::TimeRestarts => "time restarts",
             Self::Gap => "gap",

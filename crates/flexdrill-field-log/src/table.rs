@@ -235,7 +235,7 @@ impl LineReader {
                     .read_record(input, &mut self.fields[written..], &mut self.ends[ended..]);
             input = &input[read..];
             (written, ended) = (written + more, ended + ends);
-            // An empty input tells the parser that the line has ended.
+            // An empty input marks the end of the line for the parser.
             if result != csv_core::ReadRecordResult::InputEmpty {
                 break;
             }

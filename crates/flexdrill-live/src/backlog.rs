@@ -24,8 +24,8 @@ const MOST_DATA_BYTES: usize = 8 << 20;
 const MOST_ANSWERS: usize = 256;
 /// Largest size of the queued answers (bytes): several times the definitions of all topics and services.
 const MOST_ANSWER_BYTES: usize = 4 << 20;
-/// Longest time in the queue for a message that a newer one of its topic follows. Together with the socket's buffer this
-/// bounds the lag of a viewer on a slow line.
+/// Longest time in the queue for a message that a newer one of its topic follows. Together with the socket's buffer
+/// this bounds the lag of a viewer on a slow line.
 const MOST_AGE: Duration = Duration::from_secs(1);
 /// Shortest time between two log lines about one viewer (s).
 const LINE_INTERVAL: f64 = 10.0;
@@ -82,8 +82,8 @@ impl Queue {
         behind.any(|other| matches!(other, Queued::Data { data, .. } if data.topic == *topic))
     }
 
-    /// The message to drop when the queue is full: the oldest one that a newer one of its topic supersedes, then the oldest
-    /// one, and messages of latched topics last.
+    /// The message to drop when the queue is full: the oldest one that a newer one of its topic supersedes, then the
+    /// oldest one, and messages of latched topics last.
     fn least_needed(&self) -> Option<usize> {
         let oldest = |wanted: &dyn Fn(usize, &Data) -> bool| {
             let mut all = self.waiting.iter().enumerate();

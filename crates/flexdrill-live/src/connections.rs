@@ -1,8 +1,8 @@
 //! Connections to the server's address: bounds on their number, their idle time and their send buffers.
 //!
-//! Any client that reaches the address can open connections and leave them unused. They must not use up the handles that
-//! DDS and the recording need. The number of connections is therefore bounded, and a new one closes the oldest connection
-//! of the client address that has the most. Admitted WebSockets have their own bound (`gateway`).
+//! Any client that reaches the address can open connections and leave them unused. They must not use up the handles
+//! that DDS and the recording need. The number of connections is therefore bounded, and a new one closes the oldest
+//! connection of the client address that has the most. Admitted WebSockets have their own bound (`gateway`).
 
 use std::io;
 use std::net::{IpAddr, SocketAddr};
@@ -25,7 +25,8 @@ use flexdrill_text::Throttle;
 
 /// Largest number of connections that are not WebSockets: a page uses up to six.
 const MOST: usize = 64;
-/// These connections use at most one handle in so many that the process may open; the rest is for DDS and the recording.
+/// These connections use at most one handle in so many that the process may open; the rest is for DDS and the
+/// recording.
 const SHARE: u64 = 4;
 /// Longest time until a request's head is complete, and until the next request on the connection begins.
 const HEAD: Duration = Duration::from_secs(10);
@@ -33,8 +34,8 @@ const HEAD: Duration = Duration::from_secs(10);
 const MOST_HEAD: usize = 16 << 10;
 /// A connection that accepts no data for this time is closed.
 const STALL: Duration = Duration::from_secs(20);
-/// Send buffer of a connection (bytes): data in it cannot be replaced by newer data, so it holds only a tenth of a second
-/// of all topics of the default tool. The kernel's overhead comes on top.
+/// Send buffer of a connection (bytes): data in it cannot be replaced by newer data, so it holds only a tenth of a
+/// second of all topics of the default tool. The kernel's overhead comes on top.
 const SEND_BUFFER: usize = 128 << 10;
 /// Pause after the system has refused a connection, so that repeated refusals do not load the processor.
 const REFUSED: Duration = Duration::from_millis(100);

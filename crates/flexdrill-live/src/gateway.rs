@@ -50,8 +50,8 @@ pub struct Gateway {
 
 impl Gateway {
     /// A gateway to the topics of `hub`, for pages of this machine, of Foxglove, and of `origins` (such as
-    /// `https://viewer.example`, or `file://` for viewers opened from a file). With `steered`, a viewer with the token may
-    /// steer.
+    /// `https://viewer.example`, or `file://` for viewers opened from a file). With `steered`, a viewer with the token
+    /// may steer.
     pub fn new(hub: &Arc<Hub>, steered: Option<(Token, Arc<Steering>)>, origins: &[String]) -> Arc<Self> {
         Arc::new(Self {
             hub: Arc::clone(hub),
@@ -190,7 +190,8 @@ fn refusal_of_subprotocol(asked: &str) -> String {
     }
 }
 
-/// Whether `Host` is an IP address or `localhost`. Any other name may be one that its owner has pointed to this machine.
+/// Whether `Host` is an IP address or `localhost`. Any other name may be one that its owner has pointed to this
+/// machine.
 pub fn host_is_ours(headers: &HeaderMap) -> bool {
     text(headers, &header::HOST).is_some_and(|host| is_number_or_local(host_name(host)))
 }
@@ -201,8 +202,8 @@ fn origin_is_known(headers: &HeaderMap) -> bool {
         // Programs send no Origin. A header that is not text does not come from a browser.
         return headers.get(header::ORIGIN).is_none();
     };
-    // `app://` is the scheme of installed viewers. A page opened from a file can be anyone's, so `null` and `file://` must
-    // be allowed by name.
+    // `app://` is the scheme of installed viewers. A page opened from a file can be anyone's, so `null` and `file://`
+    // must be allowed by name.
     if origin.starts_with("app://") {
         return true;
     }

@@ -26,8 +26,8 @@ struct Subscriber {
     backlog: Arc<Backlog>,
 }
 
-/// State of a topic. Its lock is held while a message is sent, so that a new subscriber never gets an older state after a
-/// newer one.
+/// State of a topic. Its lock is held while a message is sent, so that a new subscriber never gets an older state after
+/// a newer one.
 #[derive(Default)]
 struct TopicState {
     /// The newest message of a latched topic, with its log time (ns since 1970).
@@ -141,7 +141,8 @@ impl Hub {
         }
     }
 
-    /// Subscribes a viewer to a topic; a latched topic's newest state follows at once. Returns whether the topic exists.
+    /// Subscribes a viewer to a topic; a latched topic's newest state follows at once. Returns whether the topic
+    /// exists.
     pub(crate) fn subscribe(&self, viewer: u32, topic: usize, subscription: u32, backlog: &Arc<Backlog>) -> bool {
         let Some(offered) = self.topics.get(topic) else {
             return false;

@@ -1,14 +1,15 @@
-//! Live data over WebSocket, in the protocol of Foxglove and Lichtblick, with the same bytes that DDS and the bags carry.
+//! Live data over WebSocket, in the protocol of Foxglove and Lichtblick, with the same bytes that DDS and the bags
+//! carry.
 //!
-//! This is the only crate that uses the crate `foxglove`. It knows bags and messages, but neither ROS nor the node: what
-//! a viewer may change, the node offers through the trait [`Steered`].
+//! This is the only crate that uses the crate `foxglove`. It knows bags and messages, but neither ROS nor the node:
+//! what a viewer may change, the node offers through the trait [`Steered`].
 //!
 //! # Layout
 //! - `hub`: the offered topics, the newest state of latched ones, and the subscribers.
 //! - `gateway`: admits viewers by Host, Origin, subprotocol and number; a viewer with the token may steer.
 //! - `session`: the conversation with one viewer. `backlog`: its queue, bounded in number, bytes and age.
-//! - `steering`: parameters, services and inputs for viewers with the token. `token`: that secret. `wrong_tokens`: slows
-//!   down and logs wrong ones.
+//! - `steering`: parameters, services and inputs for viewers with the token. `token`: that secret. `wrong_tokens`:
+//!   slows down and logs wrong ones.
 //! - `connections`: the connections to the address, bounded in number, time and buffers.
 //! - `server`: hub and gateway on a thread of their own (`flexdrill run --foxglove`) or in an existing runtime.
 //! - `player`: a bag as the source, with play, pause, seek and speed.

@@ -15,13 +15,13 @@ use flexdrill_bag::{Bag, BagMessage};
 use flexdrill_messages::{AlarmList, Message as _};
 use flexdrill_text::printable;
 
-/// After a seek, viewers get the newest message of each topic from this long before the new time (ns). Every topic of the
-/// node that is not latched has at least one message per second.
+/// After a seek, viewers get the newest message of each topic from this long before the new time (ns). Every topic of
+/// the node that is not latched has at least one message per second.
 const BEFORE: u64 = 2_000_000_000;
 /// Interval at which viewers get the time.
 const TIME_INTERVAL: Duration = Duration::from_millis(100);
-/// Largest lag of playback (wall time). Beyond it the playback clock is set back: a bag may hold more messages per second
-/// than can be read.
+/// Largest lag of playback (wall time). Beyond it the playback clock is set back: a bag may hold more messages per
+/// second than can be read.
 const MOST_BEHIND: Duration = Duration::from_millis(250);
 /// Slowest and fastest playback.
 const SPEEDS: std::ops::RangeInclusive<f32> = 0.01..=100.0;
@@ -129,8 +129,8 @@ struct Output {
 }
 
 impl Player {
-    /// Plays a bag from its beginning. The hub must have the bag's topics. The caller fills `states` meanwhile by reading
-    /// the bag.
+    /// Plays a bag from its beginning. The hub must have the bag's topics. The caller fills `states` meanwhile by
+    /// reading the bag.
     ///
     /// # Errors
     /// When the system refuses a thread.

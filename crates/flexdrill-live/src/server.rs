@@ -17,8 +17,8 @@ use crate::steering::Steering;
 use crate::{LiveError, Token};
 use flexdrill_text::printable;
 
-/// Largest size of the queue to the live thread (bytes), beyond which the oldest messages are dropped: some seconds of all
-/// outputs of the default tool.
+/// Largest size of the queue to the live thread (bytes), beyond which the oldest messages are dropped: some seconds of
+/// all outputs of the default tool.
 const MOST_BYTES: usize = 8 << 20;
 
 /// Listens at `address`; an error names `option`, which gave it.

@@ -24,8 +24,8 @@ use crate::hub::Hub;
 use crate::steering::{ClientChannel, ENCODING, Pilot};
 use flexdrill_text::printable;
 
-/// Longest message of a viewer (bytes), whole or in fragments: far above any that the node accepts. A longer one is refused
-/// by its announced length, before any of it is stored.
+/// Longest message of a viewer (bytes), whole or in fragments: far above any that the node accepts. A longer one is
+/// refused by its announced length, before any of it is stored.
 pub(crate) const MOST_BYTES: usize = 64 << 10;
 /// Size of the read buffer (bytes).
 const READ: usize = 4 << 10;

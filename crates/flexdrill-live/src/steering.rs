@@ -1,5 +1,5 @@
-//! Steering by a viewer with the token: parameters, services and inputs. This module translates between the protocol and
-//! the node, which applies the same checks as to any other client.
+//! Steering by a viewer with the token: parameters, services and inputs. This module translates between the protocol
+//! and the node, which applies the same checks as to any other client.
 
 use std::collections::{BTreeSet, HashMap};
 use std::fmt;

@@ -140,8 +140,8 @@ impl Drive {
         self.transfer.push(time, torques);
     }
 
-    /// The time in which the inputs and the bit's motion are all known (s), so that their means can be compared; `None` if
-    /// there is none.
+    /// The time in which the inputs and the bit's motion are all known (s), so that their means can be compared; `None`
+    /// if there is none.
     pub(crate) fn common_window(&self) -> Option<[f64; 2]> {
         let pairs = [&self.received, &self.accepted, &self.bit];
         let spans = pairs.iter().flat_map(|pair| [&pair.rotary_speed, &pair.weight_on_bit]);

@@ -84,8 +84,8 @@ impl Statistics {
 }
 
 impl Envelope {
-    /// Adds the values of an instant, one per station or joint. They are weighted with the time since the message before,
-    /// because the RMS values in a message cover that time. The caller ensures that the stations never change.
+    /// Adds the values of an instant, one per station or joint. They are weighted with the time since the message
+    /// before, because the RMS values in a message cover that time. The caller ensures that the stations never change.
     pub(crate) fn push(&mut self, time: f64, values: impl IntoIterator<Item = f64>) {
         let weight = self.last.map_or(0.0, |last| (time - last).clamp(0.0, HELD));
         self.last = Some(time);

@@ -220,7 +220,8 @@ mod tests {
         assert_eq!(history.segments(1.0).len(), 1);
     }
 
-    /// Samples on change and every second, as the applied inputs have: a hundred in one second do not outweigh a minute.
+    /// Samples on change and every second, as the applied inputs have: a hundred in one second do not outweigh a
+    /// minute.
     #[test]
     fn a_mean_is_over_time_and_not_over_messages() {
         let mut history = History::default();

@@ -126,8 +126,8 @@ impl Incidents {
         self.log.groups().values()
     }
 
-    /// The input alarms that stand when the recording ends: the log or the rig had ended before, which says nothing about
-    /// the drilling. They begin with the alarm, some seconds after the last sample.
+    /// The input alarms that stand when the recording ends: the log or the rig had ended before, which says nothing
+    /// about the drilling. They begin with the alarm, some seconds after the last sample.
     pub(crate) fn inputs_at_the_end(&self) -> impl Iterator<Item = &Incident> {
         self.list()
             .iter()

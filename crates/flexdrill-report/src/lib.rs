@@ -5,8 +5,9 @@
 //!
 //! # Layout
 //! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]. `roles`: the meaning of each topic.
-//! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque), `incidents`
-//!   (alarms), `shares` (of time), `locations` (the worst ones and their orbits), `health` (pace, model, recording).
+//! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque),
+//!   `incidents` (alarms), `shares` (of time), `locations` (the worst ones and their orbits), `health` (pace, model,
+//!   recording).
 //! - `plots`: the figures. `page`: the HTML, with everything in one file.
 
 mod drive;

@@ -10,7 +10,8 @@ use std::process::{Command, Stdio};
 use crate::cli::output::tell;
 use crate::live::fill_random;
 
-/// A page in a file readable by its owner only, which redirects the browser to an address. Dropping it removes the file.
+/// A page in a file readable by its owner only, which redirects the browser to an address. Dropping it removes the
+/// file.
 #[derive(Debug)]
 pub(super) struct Redirect(PathBuf);
 

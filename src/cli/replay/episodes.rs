@@ -1,5 +1,5 @@
-//! The episodes of the motion in a replay, as a table for a person and as JSON for a program. The command line calls them
-//! incidents.
+//! The episodes of the motion in a replay, as a table for a person and as JSON for a program. The command line calls
+//! them incidents.
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -1,9 +1,9 @@
-//! Replays a recording of flexdrill: its configuration and its applied inputs, step by step, give the same outputs to the
-//! bit.
+//! Replays a recording of flexdrill: its configuration and its applied inputs, step by step, give the same outputs to
+//! the bit.
 //!
 //! A bag that another program began to record while the twin ran (`ros2 bag record -a`) begins with the first applied
-//! inputs that the program received. No message holds the model's state at that step, so its replay begins with the tool
-//! at rest.
+//! inputs that the program received. No message holds the model's state at that step, so its replay begins with the
+//! tool at rest.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Decompresses the records of one chunk.
 //!
-//! A file of a few bytes can claim to hold gigabytes. The bounds below keep memory and time in proportion to the size of
-//! the file.
+//! A file of a few bytes can claim to hold gigabytes. The bounds below keep memory and time in proportion to the size
+//! of the file.
 
 use std::io::Read;
 
@@ -25,8 +25,8 @@ pub(super) fn most_in_file(length: u64) -> u64 {
     LARGEST.saturating_add(MOST_RATIO.saturating_mul(length))
 }
 
-/// The records of a chunk, and its defect if it has one. A truncated chunk (`whole` is false) gives everything up to the
-/// cut; a whole one with a wrong checksum gives nothing.
+/// The records of a chunk, and its defect if it has one. A truncated chunk (`whole` is false) gives everything up to
+/// the cut; a whole one with a wrong checksum gives nothing.
 pub(super) fn unpack(body: &[u8], whole: bool) -> (Vec<u8>, Option<String>) {
     let Some((head, rest)) = ChunkHead::parse(body) else {
         // A truncated chunk may lack even its head.

@@ -1,7 +1,7 @@
 //! The end of a file whose last chunks could not be written.
 //!
-//! The MCAP writer's own end describes every chunk that the writer has produced. The end built here describes only those
-//! in the file.
+//! The MCAP writer's own end describes every chunk that the writer has produced. The end built here describes only
+//! those in the file.
 
 use std::collections::BTreeMap;
 

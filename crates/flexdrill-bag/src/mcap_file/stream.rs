@@ -17,8 +17,8 @@ use super::scan::{self, Kind, Segment};
 use crate::raw::RawMessage;
 use crate::{BagError, Cut, Topic};
 
-/// Largest size of the heap at which another chunk is decompressed (bytes); the chunks of one recording overlap by a few
-/// megabytes.
+/// Largest size of the heap at which another chunk is decompressed (bytes); the chunks of one recording overlap by a
+/// few megabytes.
 const MOST_WAITING: usize = 256 << 20;
 
 /// Defects of a message record.

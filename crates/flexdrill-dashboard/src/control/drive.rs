@@ -7,7 +7,8 @@ use crate::session::Limit;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_messages::TwinStatus;
 
-/// A stamp of the twin that differs more from this machine's clock than this is of a recording's or simulator's clock (ns).
+/// A stamp of the twin that differs more from this machine's clock than this is of a recording's or simulator's clock
+/// (ns).
 const OTHER_CLOCK: i64 = 10_000_000_000;
 
 /// The state while a page steers. Values are speed (r/min) and weight (kN).

@@ -91,7 +91,7 @@ fn a_second_is_reduced_to_least_mean_and_largest() {
     assert_eq!((value(1, "time"), value(1, "bit_torque_max")), (1.0, 70.0));
     assert_eq!(frames[0][column(&head, "whirl_ratio").start], -1.5);
     assert!(frames[0][column(&head, "whirl_ratio")][1].is_nan());
-    // A level holds until another one is told.
+    // A level holds until another one arrives.
     assert_eq!((value(0, "warning_severity"), value(1, "warning_severity")), (3.0, 3.0));
     // What was not heard is not made up.
     assert!(value(0, "state").is_nan() && frames[0][column(&head, "pipe_y")].iter().all(|y| y.is_nan()));
