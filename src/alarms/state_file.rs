@@ -1,5 +1,5 @@
-//! Acknowledgements and shelvings kept over a restart: a small file, written whole by a thread of its own, so that a slow
-//! disk holds nobody up. One node at a time writes it: the writer holds a lock beside it.
+//! Acknowledgements and shelvings that outlast a restart: a small file, written as a whole by a separate thread, so that a
+//! slow disk delays nothing else. One node at a time writes it: the writer holds a lock next to it.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
@@ -10,54 +10,54 @@ use std::time::{Duration, Instant};
 
 use flexdrill_alarms::Saved;
 
-/// Longest wait for the last state at the end.
+/// Longest wait for the last state when the node ends.
 const LAST_STATE: Duration = Duration::from_secs(2);
 
-/// Why a kept state cannot be used.
+/// Why a saved state cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum StateError {
-    /// The file is there and cannot be read.
+    /// The file exists and cannot be read.
     #[error("{}: the alarms' state cannot be read: {source}; all alarms begin as normal", path.display())]
     Read {
-        /// File.
+        /// The file.
         path: PathBuf,
-        /// Why not.
+        /// The cause.
         source: std::io::Error,
     },
-    /// It holds something else, or only a part.
+    /// The file has another content, or only a part of it.
     #[error("{}: the alarms' state is damaged: {source}; all alarms begin as normal", path.display())]
     Damaged {
-        /// File.
+        /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The cause.
         source: serde_json::Error,
     },
-    /// It cannot be written.
+    /// The file cannot be written.
     #[error(
-        "{}: the alarms' state cannot be written: {source}; acknowledgements and shelvings will not outlast this run, \
-         --state-dir takes another folder", path.display()
+        "{}: the alarms' state cannot be written: {source}; acknowledgements and shelvings will not outlast this run; \
+         --state-dir selects another folder", path.display()
     )]
     Write {
-        /// File or folder.
+        /// The file or its folder.
         path: PathBuf,
-        /// Why not.
+        /// The cause.
         source: std::io::Error,
     },
-    /// Another node of the same name and domain has it.
+    /// Another node of the same name and domain writes the file.
     #[error(
         "{}: process {owner} keeps the alarms of a node with this name and domain in it; acknowledgements and shelvings of \
          this node will not outlast its run; start it with another --namespace or --state-dir", path.display()
     )]
     Owned {
-        /// File.
+        /// The file.
         path: PathBuf,
-        /// Number of the process, as it says itself.
+        /// The number of the process, as the lock file has it.
         owner: String,
     },
 }
 
-/// The folder that states are kept in, from the environment as the XDG Base Directory Specification has it; none where
-/// that names no home.
+/// The folder of the states, from the environment after the XDG Base Directory Specification; none without a home
+/// folder.
 pub fn default_folder(variable: impl Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let given = |name: &str| variable(name).filter(|value| Path::new(value).is_absolute());
     let base = given("XDG_STATE_HOME")
@@ -66,15 +66,15 @@ pub fn default_folder(variable: impl Fn(&str) -> Option<String>) -> Option<PathB
     Some(base.join("flexdrill"))
 }
 
-/// The name of a node's file: two nodes on one machine differ in domain or full name (`/rig_7/flexdrill`).
+/// The name of a node's file. Two nodes on one machine differ in domain or full name (`/rig_7/flexdrill`).
 pub fn file_name(domain: u16, node: &str) -> String {
     format!("alarms_domain_{domain}{}.json", node.replace('/', "."))
 }
 
-/// Reads a state; none where there is no file.
+/// Reads a state; none without a file.
 ///
 /// # Errors
-/// When the file cannot be read or holds something else.
+/// When the file cannot be read or has another content.
 pub fn read(path: &Path) -> Result<Option<Saved>, StateError> {
     let text = match std::fs::read(path) {
         Ok(text) => text,
@@ -94,8 +94,8 @@ pub fn read(path: &Path) -> Result<Option<Saved>, StateError> {
         })
 }
 
-/// Writes a state next to the old one and puts it in its place: at any time one of the two is there, whole. On the disk
-/// when this returns.
+/// Writes a state next to the old one and replaces the old one with it, so that one of the two is complete at any time.
+/// The state is on the disk when this returns.
 ///
 /// # Errors
 /// When the disk refuses the write.
@@ -109,7 +109,7 @@ pub fn write(path: &Path, saved: &Saved) -> Result<(), StateError> {
     }
     let fresh = path.with_extension("json.new");
     let mut file = std::fs::File::create(&fresh).map_err(failed)?;
-    // Numbers, words and lists: this does not fail but for want of memory.
+    // A state of numbers, words and lists fails to encode only without memory.
     let text = serde_json::to_vec(saved).map_err(|error| failed(error.into()))?;
     file.write_all(&text)
         .and_then(|()| file.sync_all())
@@ -118,7 +118,7 @@ pub fn write(path: &Path, saved: &Saved) -> Result<(), StateError> {
         .map_err(failed)
 }
 
-/// Brings the new name of a file to the disk.
+/// Syncs the folder of a file, so that its new name is on the disk.
 fn sync_folder(path: &Path) -> std::io::Result<()> {
     match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         Some(folder) => File::open(folder)?.sync_all(),
@@ -126,10 +126,10 @@ fn sync_folder(path: &Path) -> std::io::Result<()> {
     }
 }
 
-/// Takes the file for this process alone, for as long as the returned handle lives. A process that was killed has let go.
+/// Locks the file for this process until the returned handle is dropped. A killed process holds no lock.
 ///
 /// # Errors
-/// [`StateError::Owned`] where another process has it; [`StateError::Write`] where the folder cannot be written to.
+/// [`StateError::Owned`] if another process holds the lock; [`StateError::Write`] if the folder cannot be written.
 fn own(path: &Path) -> Result<File, StateError> {
     let failed = |source| StateError::Write {
         path: path.to_owned(),
@@ -138,14 +138,14 @@ fn own(path: &Path) -> Result<File, StateError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
-    let beside = path.with_extension("json.lock");
+    let lock_path = path.with_extension("json.lock");
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
-    let mut lock = options.open(&beside).map_err(failed)?;
+    let mut lock = options.open(&lock_path).map_err(failed)?;
     match lock.try_lock() {
         Ok(()) => {}
         Err(TryLockError::WouldBlock) => {
-            let owner = std::fs::read_to_string(&beside).unwrap_or_default();
+            let owner = std::fs::read_to_string(&lock_path).unwrap_or_default();
             return Err(StateError::Owned {
                 path: path.to_owned(),
                 owner: owner.chars().filter(char::is_ascii_digit).take(10).collect(),
@@ -153,32 +153,32 @@ fn own(path: &Path) -> Result<File, StateError> {
         }
         Err(TryLockError::Error(source)) => return Err(failed(source)),
     }
-    // Only for the words of another node's error: the lock is the file's, not its content's.
+    // The content serves only the error text of another node; the lock itself does not depend on it.
     let _ = lock.set_len(0).and_then(|()| writeln!(lock, "{}", std::process::id()));
     Ok(lock)
 }
 
-/// Called when a state is on the disk, or with the reason why it is not.
+/// Called when a state is on the disk, or with the reason of the failure.
 type Written = Box<dyn FnOnce(Result<(), String>) + Send>;
 
-/// A state on its way to the disk.
+/// A state to write.
 struct Order {
     state: Saved,
     written: Option<Written>,
 }
 
-/// Writes states as they come; of several that wait, the newest, which holds what the others say.
+/// Writes states in order. Of several waiting states it writes the newest, which includes the others.
 pub struct StateWriter {
     sender: Option<Sender<Order>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl StateWriter {
-    /// A thread that writes to a file, which no other process writes meanwhile.
+    /// Starts the thread that writes to a file, and locks the file for this process.
     ///
     /// # Errors
-    /// [`StateError::Owned`] where another process writes it; [`StateError::Write`] where the thread cannot be started. A
-    /// folder that cannot be written to is logged, and tried again with every state.
+    /// [`StateError::Owned`] if another process writes the file; [`StateError::Write`] if the thread cannot be started. A
+    /// folder that cannot be written is logged, and tried again with every state.
     pub fn start(path: PathBuf) -> Result<Self, StateError> {
         let lock = match own(&path) {
             Err(error @ StateError::Write { .. }) => {
@@ -199,12 +199,12 @@ impl StateWriter {
         }
     }
 
-    /// Hands a state over.
+    /// Queues a state.
     pub fn save(&self, state: Saved) {
         self.send(Order { state, written: None });
     }
 
-    /// Hands a state over; `written` is called from the writer's thread when it is on the disk, or cannot be.
+    /// Queues a state. The writer's thread calls `written` when the state is on the disk or has failed.
     pub fn save_then(&self, state: Saved, written: Written) {
         self.send(Order {
             state,
@@ -214,21 +214,21 @@ impl StateWriter {
 
     fn send(&self, order: Order) {
         if let Some(sender) = &self.sender {
-            // The thread ends with this value only.
+            // The thread lives as long as this value.
             let _ = sender.send(order);
         }
     }
 }
 
 impl Drop for StateWriter {
-    /// Waits until the last state is on the disk, for a moment.
+    /// Waits a limited time until the last state is on the disk.
     fn drop(&mut self) {
         drop(self.sender.take());
         let Some(thread) = self.thread.take() else { return };
         let deadline = Instant::now() + LAST_STATE;
         while !thread.is_finished() {
             if Instant::now() >= deadline {
-                // The thread is left behind: a disk that does not answer must not hold the end of the node.
+                // The thread is abandoned: a disk that does not answer must not delay the end of the node.
                 tracing::warn!(
                     "the alarms' state was not written within {} s: the disk does not answer",
                     LAST_STATE.as_secs()
@@ -256,7 +256,7 @@ fn keep(path: &Path, mut lock: Option<File>, orders: &Receiver<Order>) {
             .map_err(|error| error.to_string());
         match &result {
             Ok(()) => works = true,
-            // Once, until it works again.
+            // One warning until a write succeeds again.
             Err(error) if works => {
                 tracing::warn!("{error}");
                 works = false;
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_written_is_read_and_a_damaged_file_is_told() {
+    fn a_written_state_is_read_and_a_damaged_file_is_reported() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/alarms.json");
         assert_eq!(read(&path).unwrap(), None);
@@ -304,21 +304,21 @@ mod tests {
     }
 
     #[test]
-    fn who_asks_is_told_when_the_state_is_on_the_disk_and_when_it_cannot_be() {
+    fn the_caller_learns_when_the_state_is_on_the_disk_and_when_it_cannot_be() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/alarms.json");
         let writer = StateWriter::start(path.clone()).unwrap();
         let ask = || {
             let (sender, answer) = channel();
             let file = path.clone();
-            // What is told is true when it is told: the file is read within the call.
-            let told = move |result: Result<(), String>| sender.send((result, read(&file))).unwrap();
-            writer.save_then(saved(), Box::new(told));
+            // The file is read within the call, so that the report is checked at the time at which it is made.
+            let written = move |result: Result<(), String>| sender.send((result, read(&file))).unwrap();
+            writer.save_then(saved(), Box::new(written));
             answer.recv_timeout(Duration::from_secs(30)).unwrap()
         };
-        let (result, there) = ask();
-        assert_eq!((result, there.unwrap()), (Ok(()), Some(saved())));
-        // A folder where the file is to be: no disk takes that, not even for root.
+        let (result, on_disk) = ask();
+        assert_eq!((result, on_disk.unwrap()), (Ok(()), Some(saved())));
+        // A folder at the path of the file makes the write fail, even for root.
         std::fs::remove_file(&path).unwrap();
         std::fs::create_dir_all(path.join("in the path")).unwrap();
         let (result, _) = ask();

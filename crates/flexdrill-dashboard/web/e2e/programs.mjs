@@ -57,7 +57,7 @@ export async function until(words, seconds, what) {
   }
 }
 
-export const node = (...more) => start("node", "run", "--config", join(root, "config/coarse.yaml"), ...more);
+export const node = (...more) => start("node", "run", "--config", join(root, "config/default.yaml"), ...more);
 export const rig = () =>
   start(
     "rig",

@@ -119,6 +119,9 @@ export class Numbers implements View {
         const limited = Number.isFinite(limit()) ? ` · limit ${number(limit(), kind === "speed" ? 0 : 1)}` : "";
         const level = levelOf(store, [`${name}_input`], state === 3 || state === 4 ? 2 : state === 0 ? 1 : 0);
         const applied = digits(at(moment, `${name}_applied`), kind, system());
+        // A replay has no status, and so no inputs as the rig sent them.
+        if (!Number.isFinite(state))
+          return { value: applied, note: `no state of this input in the data${limited}`, level };
         if (NOT_THE_RIGS.includes(state)) {
           // What the model runs on meanwhile is not the rig's: it must not stand where the rig's value stands.
           const safe = status?.input_safe[index] ? "safe value" : state === 0 ? "start value" : "held";

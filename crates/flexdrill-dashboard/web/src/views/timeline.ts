@@ -229,9 +229,15 @@ export class TimeLine implements View {
     pencil.fillRect(x(Math.max(left, from)), 0, x(Math.min(right, to)) - x(Math.max(left, from)), height - 14);
     // The outline of the rotary speed distinguishes connections from drilling.
     const speed = layout.offset("rotary_speed_applied");
-    let most = 1;
-    for (let index = 0; index < hour.length; index++) most = Math.max(most, hour.value(index, speed) || 0);
-    setText(this.legendText, `rotary speed, 0 to ${withUnit(most, "speed", this.context.settings.units)}`);
+    let known = NaN;
+    for (let index = 0; index < hour.length; index++) {
+      const value = hour.value(index, speed);
+      if (!(known >= value) && !Number.isNaN(value)) known = value;
+    }
+    // The scale of a tool at standstill; a speed that was never received has no scale at all.
+    const most = Math.max(1, known || 0);
+    const scale = Number.isNaN(known) ? "no data" : `0 to ${withUnit(most, "speed", this.context.settings.units)}`;
+    setText(this.legendText, `rotary speed, ${scale}`);
     pencil.fillStyle = `${palette.trace}59`;
     const wide = Math.max(1, (width * store.period) / (to - from) + 0.5);
     for (let index = 0; index < hour.length; index++) {
