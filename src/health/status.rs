@@ -105,7 +105,7 @@ impl StatusKeeper {
     /// Keeps what a snapshot says of the solver.
     pub fn observe(&mut self, snapshot: &Snapshot) {
         if snapshot.step < self.counters_step {
-            // After a reset everything counts anew.
+            // After a reset all counts start again.
             self.counters_before = Default::default();
             self.failures = 0;
         }
@@ -130,7 +130,7 @@ impl StatusKeeper {
         self.last_failure = Some(failure);
     }
 
-    /// Notes the progress of the model, for the real-time factor and the pace. While the model stands still there is no
+    /// Notes the progress of the model, for the real-time factor and the pace. While the model is stopped there is no
     /// pace to judge, and the time of the pause is forgotten.
     pub fn note(&mut self, pace_time: u64, gauges: &Gauges) {
         if gauges.run_state() == RunState::Running {

@@ -24,9 +24,9 @@ const WATCHED_GAP: f64 = 60.0;
 pub struct Statistics {
     /// Per alarm.
     counts: Vec<u64>,
-    /// Per highest priority of the call, rising.
+    /// Per highest priority of an annunciation, in rising order.
     of_priority: [u64; 3],
-    /// Per alarm the priority that its last call is counted under.
+    /// Per alarm the priority under which its last annunciation is counted.
     called: Vec<Option<Priority>>,
     /// Those of the last ten minutes.
     recent: VecDeque<Time>,
@@ -36,7 +36,7 @@ pub struct Statistics {
     most_repeats: Vec<usize>,
     /// The most in any ten minutes.
     most_recent: usize,
-    /// Time watched so far, and of it in flood.
+    /// Observed time so far, and its part in flood.
     watched: Time,
     flooded: Time,
     last: Option<Time>,
@@ -45,13 +45,13 @@ pub struct Statistics {
 /// The figures so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Figures {
-    /// Time watched (s).
+    /// Observed time (s).
     pub watched: f64,
-    /// Annunciations in all.
+    /// The number of annunciations.
     pub annunciations: u64,
-    /// Of them low, medium, high, by the highest that each call reached.
+    /// The number with low, medium and high priority, by the highest that each annunciation reached.
     pub of_priority: [u64; 3],
-    /// Mean of annunciations per hour watched; none until an hour has been watched.
+    /// Mean annunciations per observed hour; none before the first full hour.
     pub per_hour: Option<f64>,
     /// In the last ten minutes.
     pub last_ten_minutes: usize,
@@ -59,14 +59,14 @@ pub struct Figures {
     pub most_in_ten_minutes: usize,
     /// More than ten in the last ten minutes.
     pub flood: bool,
-    /// Part of the time watched that was in flood, 0 to 1; none until ten minutes have been watched.
+    /// Part of the observed time in flood, 0 to 1; none before the first full ten minutes.
     pub flood_share: Option<f64>,
     /// The most annunciations of one alarm within any minute.
     pub most_repeats: usize,
 }
 
 impl Statistics {
-    /// Of so many alarms.
+    /// Statistics of a number of alarms.
     pub(crate) fn new(alarms: usize) -> Self {
         Self {
             counts: vec![0; alarms],
@@ -77,7 +77,7 @@ impl Statistics {
         }
     }
 
-    /// Whether they are of so many alarms: a file that was changed may say anything.
+    /// Whether they belong to this number of alarms, which a changed file may violate.
     pub(crate) fn is_of(&self, alarms: usize) -> bool {
         [
             self.counts.len(),
@@ -87,7 +87,7 @@ impl Statistics {
         ] == [alarms; 4]
     }
 
-    /// Lets time pass. What a restart took is not watched, and a clock that goes back begins a new stretch.
+    /// Advances the time. The time of a restart does not count as observed, nor does a step back of the clock.
     pub(crate) fn advance(&mut self, time: Time) {
         if let Some(last) = self.last {
             let passed = match time - last {
@@ -106,12 +106,12 @@ impl Statistics {
         }
     }
 
-    /// Where time stands: the last [`Statistics::advance`].
+    /// The present time: that of the last [`Statistics::advance`].
     pub(crate) fn last(&self) -> Option<Time> {
         self.last
     }
 
-    /// Counts an annunciation, at the time that was passed last: an event may carry that of another clock.
+    /// Counts an annunciation at the present time, because an event may carry the time of another clock.
     pub(crate) fn count(&mut self, alarm: usize, priority: Option<Priority>) {
         let time = self.last.unwrap_or_default();
         self.recent.push_back(time);
@@ -127,7 +127,7 @@ impl Statistics {
         }
     }
 
-    /// The last call of an alarm has risen.
+    /// The last annunciation of an alarm rose in priority.
     pub(crate) fn raise(&mut self, alarm: usize, priority: Option<Priority>) {
         let Some(called) = self.called.get_mut(alarm) else {
             return;
@@ -175,7 +175,7 @@ impl Statistics {
     }
 }
 
-/// Drops what is older than a span, or later than the present of a clock that went back.
+/// Drops times that are older than a span, or later than the present after a step back of the clock.
 fn forget(times: &mut VecDeque<Time>, now: Time, length: f64) {
     times.retain(|time| now - time < span(length) && *time <= now);
 }

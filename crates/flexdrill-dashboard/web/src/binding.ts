@@ -1,4 +1,4 @@
-// The page's bond with one server: whose data it shows, what it asks for besides the live data, and when it must begin anew.
+// The binding of the page to one server: its data, the requests next to the live data, and when the page must restart.
 
 import * as api from "./api";
 import { Connection } from "./connection";
@@ -98,7 +98,7 @@ export class Binding {
     await this.fetch();
   }
 
-  /** Takes the server's session, where it is that of what the page shows; else the page begins anew. */
+  /** Adopts the session of the server if the page shows its data; otherwise the page restarts. */
   private async bind(generation: number): Promise<boolean> {
     const { store } = this;
     const found = await api.session();
@@ -117,7 +117,7 @@ export class Binding {
     return true;
   }
 
-  /** What does not come live: session, hour, journal; the state of a recording that stands still. */
+  /** Data that is not live: session, hour, journal; the state of a paused recording. */
   private async fetch(): Promise<void> {
     const { store } = this;
     const { session } = store;

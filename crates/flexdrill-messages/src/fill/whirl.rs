@@ -71,7 +71,7 @@ pub fn whirl_warning(snapshot: &Snapshot, header: &Header, input_quality: u8, ou
     out.rolling_share = level.rolling_share;
     out.confidence = level.confidence;
     out.message = if suppressed {
-        "No whirl that needs attention: the drive stands or runs up.".to_owned()
+        "No whirl warning: the drive is at standstill or starting.".to_owned()
     } else {
         sentence(out, level, body)
     };
@@ -84,7 +84,7 @@ pub fn whirl_warning(snapshot: &Snapshot, header: &Header, input_quality: u8, ou
 /// What a person reads.
 fn sentence(warning: &WhirlWarning, level: &WhirlWarningLevel, body: Body) -> String {
     if level.severity == Severity::Ok {
-        return "No whirl that needs attention.".to_owned();
+        return "No whirl warning.".to_owned();
     }
     let severity = capitalized(level.severity.name());
     let kind = match level.kind {
@@ -98,11 +98,11 @@ fn sentence(warning: &WhirlWarning, level: &WhirlWarningLevel, body: Body) -> St
     let manner = match level.rolling_share {
         share if share <= 0.0 => String::new(),
         share if level.rolling => format!(", rolling ({:.0} % of the rate without slip)", 100.0 * share),
-        share => format!(", sliding ({:.0} % of the rate of rolling)", 100.0 * share),
+        share => format!(", sliding ({:.0} % of the rate without slip)", 100.0 * share),
     };
     let rate = match warning.whirl_ratio {
         ratio if ratio.is_nan() => String::new(),
-        ratio => format!(", {ratio:.1} times the rotary speed"),
+        ratio => format!(", whirl rate {ratio:.1} times the rotary speed"),
     };
     format!(
         "{severity}: {kind} of the {body} at {:.2} m (inclination {:.0} deg){rate}{manner}, {:.0} % of the clearance, \
@@ -127,14 +127,14 @@ fn doubt(input_quality: u8) -> Option<&'static str> {
     match input_quality {
         WhirlWarning::INPUT_OK => None,
         WhirlWarning::INPUT_NOT_RECEIVED => {
-            Some("No input has been received: this is the motion at the configured start values, with less confidence.")
+            Some("No input has been received: the model runs at the configured start values, and the confidence is lower.")
         }
-        WhirlWarning::INPUT_SLOW => Some("An input is late: somewhat less confidence."),
+        WhirlWarning::INPUT_SLOW => Some("An input is late, and the confidence is slightly lower."),
         WhirlWarning::INPUT_STALE => {
-            Some("An input is stale: this is the motion at held or safe values, with less confidence.")
+            Some("An input is stale: the model runs at held or safe values, and the confidence is lower.")
         }
         WhirlWarning::INPUT_REJECTED => Some(
-            "The newest sample of an input was rejected: this is the motion at the last good one, with less confidence.",
+            "The newest sample of an input was rejected: the model runs at the last good one, and the confidence is lower.",
         ),
         _ => Some("The state of the inputs is unknown."),
     }

@@ -178,14 +178,14 @@ fn a_doubtful_input_is_said_and_rolling_is_told_from_sliding() {
     assert!(!fresh.contains("input"), "{fresh}");
     let stale = said(&snapshot, WhirlWarning::INPUT_STALE);
     assert!(
-        stale.ends_with("at held or safe values, with less confidence."),
+        stale.ends_with("at held or safe values, and the confidence is lower."),
         "{stale}"
     );
     let rejected = said(&snapshot, WhirlWarning::INPUT_REJECTED);
     assert!(rejected.contains("was rejected"), "{rejected}");
     (snapshot.warning.rolling_share, snapshot.warning.rolling) = (0.6, false);
     let sliding = said(&snapshot, WhirlWarning::INPUT_OK);
-    assert!(sliding.contains("sliding (60 % of the rate of rolling)"), "{sliding}");
+    assert!(sliding.contains("sliding (60 % of the rate without slip)"), "{sliding}");
     // That all is well is doubtful too when nobody knows what the tool is doing.
     snapshot.warning.severity = Severity::Ok;
     let calm = said(&snapshot, WhirlWarning::INPUT_NOT_RECEIVED);

@@ -1,4 +1,4 @@
-// Four by four matrices in columns, as WebGL takes them, and the camera that goes round the tool.
+// Four by four matrices in columns, as WebGL takes them, and the camera that moves around the tool.
 
 export type Vec3 = [number, number, number];
 

@@ -15,7 +15,7 @@ const circle = (sides: number): [number, number][] =>
 const ROUND = circle(SIDES);
 const ROUND_ARROW = circle(SIDES_OF_ARROW);
 
-/** Triangles that grow as they are needed and are filled anew for each picture. */
+/** A growing buffer of triangles that is refilled for each picture. */
 export class Mesh {
   vertices = new Float32Array(6 * 512);
   indices = new Uint32Array(1024);

@@ -19,7 +19,7 @@ export interface Ruler {
   ticks: { value: number; from: Vec3; to: Vec3 }[];
 }
 
-/** Beside a line of stations (x, y, z each, m; z down); `shown` converts a depth below the kick-off (m) for the display. */
+/** Next to a line of stations (x, y, z each, m; z down); `shown` converts a depth below the kick-off (m) for the display. */
 export function ruler(line: Float32Array, shown: (depth: number) => number): Ruler {
   const [x, y, top] = [line[0] - ASIDE, line[1], line[2]];
   let deepest = top;

@@ -56,7 +56,7 @@ export class ToolMeshes {
     ];
   }
 
-  /** Builds everything anew for one instant. */
+  /** Rebuilds all meshes for one instant. */
   build(moment: Moment, geometry: Geometry, tool: Tool | null, factor: number, chosen: number | null): void {
     const { layout, row } = moment;
     const sizes = tool ?? TYPICAL;

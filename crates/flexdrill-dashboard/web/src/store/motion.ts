@@ -41,7 +41,7 @@ export class PastMotion {
   at(joint: number, time: number): Motion | null | undefined {
     const wanted = `${joint} ${Math.floor(time / EVERY)}`;
     if (wanted === this.wanted) return this.asking ? undefined : this.known;
-    // One question at a time, however fast somebody drags.
+    // One request at a time, however fast the operator drags.
     if (this.asking) return undefined;
     this.wanted = wanted;
     this.asking = true;

@@ -24,7 +24,7 @@ const HOUR = 3600;
 const QUICK = 3000;
 const SHAPES = 600;
 /**
- * A topic whose time goes back further than this (s) is of another time. On a loaded machine one topic may come long after
+ * A topic whose time steps back further than this (s) is of another time. On a loaded machine one topic may come long after
  * another, but each by itself in order; those of a recording are in order together. A recording that leaps ahead is
  * elsewhere too.
  */
@@ -217,7 +217,7 @@ export class Trace {
     return second;
   }
 
-  /** Time went back, or a bag was brought elsewhere: what is at hand belongs to another time. */
+  /** Discards the rows after a step back of time or a move in a bag, since they belong to another time. */
   private rewind(time: number): void {
     this.newest = time;
     this.heard.clear();

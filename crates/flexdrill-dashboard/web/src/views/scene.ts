@@ -13,8 +13,8 @@ import type { Context, View } from "../view";
 /** Points of the picture per point of the screen: at most, and while the processor has to turn the tool. */
 const FINE = 1.5;
 const COARSE = 0.66;
-/** After this long without a hand on it the tool is drawn finely again (ms). */
-const STILL = 200;
+/** Time without a movement after which the tool is drawn finely again (ms). */
+const AT_REST = 200;
 /** A page that does not keep up draws for at most this part of its time. */
 const SHARE = 0.3;
 /** How near a click must be to a station (pixels). */
@@ -175,7 +175,7 @@ export class Scene implements View {
     this.moved = true;
   }
 
-  /** Goes to the next or the previous joint. */
+  /** Selects the next or the previous joint. */
   private step(by: number): void {
     const { geometry } = this.context.store;
     if (!geometry) return;
@@ -219,7 +219,7 @@ export class Scene implements View {
     show(this.legend, known);
     if (!known || !renderer || canvas.clientWidth === 0) return;
     if (this.moved) this.movedAt = now;
-    const turned = renderer.bySoftware && now - this.movedAt < STILL;
+    const turned = renderer.bySoftware && now - this.movedAt < AT_REST;
     const { width, height, ratio } = fit(canvas, turned ? COARSE : renderer.bySoftware ? 1 : FINE);
     // The picture changes with the shape, ten times a second; what else it shows comes along.
     const past = store.cursor === null ? "" : moment.time;

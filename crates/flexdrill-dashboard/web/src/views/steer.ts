@@ -142,7 +142,7 @@ export class Steer implements View {
   private async renew(): Promise<void> {
     if (!this.target) return;
     const { ok, message } = await api.request("steer", this.target);
-    // While the server does not answer the page goes on asking: the dead man's time is the server's.
+    // While the server does not answer, the page continues to ask: the server keeps the dead man's time.
     if (!ok && this.target && message !== "the server does not answer") {
       this.stop();
       this.say(false, `Steering ended: ${message}`);

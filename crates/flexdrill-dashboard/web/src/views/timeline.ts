@@ -93,7 +93,7 @@ export class TimeLine implements View {
 
   private toggle(): void {
     const { store } = this.context;
-    // At its end a recording begins anew; a player that was brought there is not "ended".
+    // At its end a recording restarts; a player that was moved there has not "ended".
     const [, end] = store.span;
     const over = store.playback?.ended === true || (!this.playing && store.now > end - 0.5);
     const again = over ? BigInt(store.session?.bag?.start_ns ?? "0") : null;
