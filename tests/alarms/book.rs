@@ -412,7 +412,7 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
     let (priority, evidence, cause) = calls(&lost);
     assert_eq!(priority, Alarm::LOW);
     assert!(evidence.contains("7 messages"), "{evidence}");
-    assert!(cause.contains("7 came faster") && !cause.contains("disk"), "{cause}");
+    assert!(cause.contains("7 arrived faster") && !cause.contains("disk"), "{cause}");
     let over = |_| RecordingState {
         notice: Some(Problem {
             text: "its folder was removed".to_owned(),

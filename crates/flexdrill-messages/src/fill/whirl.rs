@@ -126,9 +126,9 @@ fn capitalized(word: &str) -> String {
 fn doubt(input_quality: u8) -> Option<&'static str> {
     match input_quality {
         WhirlWarning::INPUT_OK => None,
-        WhirlWarning::INPUT_NOT_RECEIVED => {
-            Some("No input has been received: the model runs at the configured start values, and the confidence is lower.")
-        }
+        WhirlWarning::INPUT_NOT_RECEIVED => Some(
+            "No input has been received: the model runs at the configured start values, and the confidence is lower.",
+        ),
         WhirlWarning::INPUT_SLOW => Some("An input is late, and the confidence is slightly lower."),
         WhirlWarning::INPUT_STALE => {
             Some("An input is stale: the model runs at held or safe values, and the confidence is lower.")
