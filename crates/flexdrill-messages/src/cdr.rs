@@ -1,4 +1,4 @@
-//! CDR, the bytes of a message on the wire and in bags: a header of 4 bytes that tells the byte order, then the fields.
+//! CDR, the bytes of a message on the wire and in bags: a header of 4 bytes with the byte order, then the fields.
 
 use byteorder::{BigEndian, LittleEndian};
 use serde::Serialize;
@@ -8,7 +8,7 @@ use super::Message;
 
 /// Header of plain little-endian CDR.
 const LITTLE_ENDIAN: [u8; 4] = [0, 1, 0, 0];
-/// Most bytes of padding behind a body: up to the next multiple of four.
+/// Most bytes of padding after a body: up to the next multiple of four.
 pub const MOST_PADDING: usize = 3;
 
 /// Why bytes are not a message, or a message could not be made into bytes.
@@ -19,7 +19,7 @@ pub enum CdrError {
     NoHeader {
         /// Type that was expected.
         ros_type: &'static str,
-        /// Bytes there are.
+        /// Number of bytes.
         length: usize,
     },
     /// Not plain CDR.
@@ -39,11 +39,11 @@ pub enum CdrError {
         source: cdr_encoding::Error,
     },
     /// More bytes than the type has.
-    #[error("{ros_type}: {extra} bytes left over; the sender may use another definition of this type")]
+    #[error("{ros_type}: {extra} bytes after the message; the sender may use another definition of this type")]
     TooLong {
         /// Type that was expected.
         ros_type: &'static str,
-        /// Bytes behind the message.
+        /// Bytes after the message.
         extra: usize,
     },
     /// The message could not be encoded.
@@ -73,14 +73,14 @@ pub fn to_cdr<M: Message>(message: &M) -> Result<Vec<u8>, CdrError> {
 pub fn to_cdr_into<M: Message>(message: &M, bytes: &mut Vec<u8>) -> Result<(), CdrError> {
     bytes.clear();
     bytes.extend_from_slice(&LITTLE_ENDIAN);
-    // The encoder counts from its own first byte, which is what alignment refers to: the header does not count.
+    // Alignment counts from the first byte after the header, which is where the encoder begins.
     cdr_encoding::to_writer::<M, LittleEndian, _>(&mut *bytes, message).map_err(|source| CdrError::Encode {
         ros_type: M::ROS_TYPE,
         source,
     })
 }
 
-/// The body of a message or service, little endian, without header: DDS writes that itself.
+/// The body of a message or service, little endian, without the header, which DDS writes itself.
 ///
 /// # Errors
 /// When a string or sequence is longer than CDR can say (2^32 elements).
@@ -88,7 +88,7 @@ pub fn to_cdr_body<T: Serialize>(message: &T) -> Result<Vec<u8>, cdr_encoding::E
     cdr_encoding::to_vec::<T, LittleEndian>(message)
 }
 
-/// What a little-endian body says, and how many bytes it took.
+/// Decodes a little-endian body. Also returns the number of bytes read.
 ///
 /// # Errors
 /// When the bytes are too short or do not fit the type.

@@ -1,5 +1,5 @@
-//! ROS 2 message types: generated from `msg/*.msg` and `external/`, their bytes, how they are filled from a snapshot of
-//! the twin, and their codes in words.
+//! The ROS 2 messages of flexdrill: types generated from `msg/*.msg` and `external/`, their CDR bytes, the topics, how a
+//! snapshot of the twin fills them, and the words for their codes. The crate knows no network and no file.
 
 mod cdr;
 pub mod fill;

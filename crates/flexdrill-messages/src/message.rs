@@ -1,4 +1,4 @@
-//! What is known about a message type beside its fields.
+//! The constants of a message type: names, hash, schema.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -17,11 +17,11 @@ pub trait Message: Serialize + DeserializeOwned {
     const DDS_TYPE: &'static str;
     /// Type hash: `RIHS01_` and 64 hexadecimal digits.
     const RIHS01: &'static str;
-    /// Schema `ros2msg`, complete with the messages it is made of.
+    /// Schema `ros2msg`, including the schemas of its parts.
     const SCHEMA: &'static str;
-    /// The type alone as JSON: its name and fields, as the hash has them, with their default values.
+    /// The type without its parts as JSON: name and fields in the form that the hash covers, with default values.
     const DESCRIPTION: &'static str;
-    /// All of that as a value.
+    /// All of these as a value.
     const INFO: TypeInfo = TypeInfo {
         package: Self::PACKAGE,
         name: Self::NAME,
@@ -53,7 +53,7 @@ pub struct TypeInfo {
 }
 
 impl TypeInfo {
-    /// The text that the type was defined by, without those that it is made of.
+    /// The definition of the type, without those of its parts.
     pub fn source(&self) -> &'static str {
         self.schema.split(SEPARATOR).next().unwrap_or_default()
     }
@@ -67,20 +67,20 @@ pub fn find_type(ros_type: &str) -> Option<&'static TypeInfo> {
     generated::TYPES.iter().find(|info| info.ros_type == ros_type)
 }
 
-/// What is known about a service type.
+/// The constants of a service type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ServiceInfo {
     /// Full name: `std_srvs/srv/Trigger`.
     pub ros_type: &'static str,
     /// Type hash of the service as a whole.
     pub rihs01: &'static str,
-    /// The text that it was defined by.
+    /// Its definition.
     pub source: &'static str,
     /// As [`TypeInfo::description`]: its fields are request, response and event.
     pub description: &'static str,
     /// Full name of its event: `std_srvs/srv/Trigger_Event`.
     pub event_type: &'static str,
-    /// The event alone, likewise.
+    /// The description of the event type.
     pub event_description: &'static str,
 }
 

@@ -22,14 +22,14 @@ use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
 /// level has by default.
 const ALARM_RATE: f64 = 10.0;
 
-/// How often what drives the run is sent again while nothing of it changes (s on the rig's clock): who listens or records
-/// from later on knows it this soon.
+/// How often the applied inputs are sent again while they do not change (s on the rig's clock), for subscribers and
+/// recordings that begin later.
 const REPEAT: f64 = 1.0;
 
 /// A message ready to be sent and recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct Encoded<'a> {
-    /// Where it belongs.
+    /// Its topic.
     pub topic: &'static TopicInfo,
     /// Instant on the rig's clock (ns since 1970).
     pub stamp: i64,
@@ -44,20 +44,20 @@ pub struct ParameterChange {
     pub name: String,
     /// In the parameter's unit.
     pub value: f64,
-    /// Service and client that asked for it; empty where that is not known.
+    /// Service and client that requested the change; empty where they are not known.
     pub asked_by: String,
 }
 
-/// What drives the run, as it was sent last.
-struct Driven {
+/// The applied inputs of the last message.
+struct LastApplied {
     inputs: RunInputs,
     /// Parameters changed since the start.
     changes: BTreeMap<String, ParameterChange>,
-    /// When it was sent last.
+    /// Ticks at the last message.
     ticks: u64,
 }
 
-/// Makes messages, keeping their memory.
+/// Fills and encodes the messages of a run, and reuses their memory.
 pub struct Outputs {
     timeline: Timeline,
     style: ShapeStyle,
@@ -78,16 +78,16 @@ pub struct Outputs {
     /// How often a warning was suppressed or released; counts as a change too.
     suppressions: u64,
     /// `None` before the first.
-    driven: Option<Driven>,
+    last_applied: Option<LastApplied>,
 }
 
-/// When outputs are made for recordings and viewers, under a configuration and the rates with which the run began. Lower
-/// rates that are set while the twin runs act on DDS only: no parameter takes an output out of a recording.
+/// The schedule of recordings and viewers, from a configuration and the rates with which the run began. Lower rates that are
+/// set while the twin runs act on DDS only, so that no parameter removes an output from a recording.
 pub fn schedule(config: &Config, begun: &Rates) -> Schedule {
     schedule_of(config, &config.outputs.rates.at_least(begun))
 }
 
-/// When outputs are published on DDS under a configuration.
+/// The schedule of DDS, from a configuration.
 pub fn published(config: &Config) -> Schedule {
     schedule_of(config, &config.outputs.rates)
 }
@@ -107,7 +107,7 @@ fn schedule_of(config: &Config, rates: &Rates) -> Schedule {
 }
 
 impl Outputs {
-    /// For a run that began at `start` (ns since 1970, on the rig's clock).
+    /// The outputs of a run that began at `start` (ns since 1970, on the rig's clock).
     pub fn new(config: &Config, start: i64) -> Self {
         Self {
             timeline: Timeline {
@@ -132,7 +132,7 @@ impl Outputs {
             reactions: Reactions::default(),
             warned: None,
             suppressions: 0,
-            driven: None,
+            last_applied: None,
         }
     }
 
@@ -141,7 +141,7 @@ impl Outputs {
         self.timeline.start = start;
     }
 
-    /// Takes over what of a changed configuration concerns the messages themselves.
+    /// Adopts the settings of a changed configuration that concern the messages themselves.
     pub fn reconfigure(&mut self, config: &Config) {
         self.style = ShapeStyle::new(config.outputs.exaggeration);
     }
@@ -152,15 +152,15 @@ impl Outputs {
         self.header.clone()
     }
 
-    /// The instant of so many ticks (ns since 1970).
+    /// The instant of a tick (ns since 1970).
     pub fn instant(&self, ticks: u64) -> i64 {
         self.timeline.at(ticks)
     }
 
-    /// Sends what is due of a frame. A whirl warning is sent when its level has changed, and at the start.
+    /// Sends the messages that are due with a frame. A whirl warning is sent at the start and when its level has changed.
     ///
     /// # Errors
-    /// When a message cannot be encoded, or what `send` says.
+    /// When a message cannot be encoded, and those of `send`.
     pub fn frame<E: From<CdrError>>(
         &mut self,
         frame: &Frame,
@@ -238,7 +238,7 @@ impl Outputs {
         Ok(())
     }
 
-    /// Sends what drives the run from `ticks` on.
+    /// Sends the inputs that are applied from `ticks` on.
     ///
     /// # Errors
     /// As [`Outputs::frame`].
@@ -249,9 +249,13 @@ impl Outputs {
         ticks: u64,
         send: impl FnMut(Encoded<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut known = self.driven.take().map(|driven| driven.changes).unwrap_or_default();
+        let mut known = self
+            .last_applied
+            .take()
+            .map(|last| last.changes)
+            .unwrap_or_default();
         known.extend(changes.iter().map(|change| (change.name.clone(), change.clone())));
-        self.driven = Some(Driven {
+        self.last_applied = Some(LastApplied {
             inputs: *inputs,
             changes: known,
             ticks,
@@ -259,8 +263,8 @@ impl Outputs {
         self.send_applied(inputs, changes, ticks, send)
     }
 
-    /// Sends what drives the run again, with all parameters changed since the start, when a second has passed since the
-    /// last time. To be called with every frame, after [`Outputs::frame`]. The values are those in force: a replay that
+    /// Sends the applied inputs again, with all parameters changed since the start, when a second has passed since the last
+    /// message. To be called with every frame, after [`Outputs::frame`]. The values are those in force: a replay that
     /// applies them changes nothing.
     ///
     /// # Errors
@@ -271,17 +275,19 @@ impl Outputs {
         send: impl FnMut(Encoded<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
         let interval = (REPEAT / self.timeline.time_step).round() as u64;
-        let Some(driven) = &mut self.driven else { return Ok(()) };
-        if frame.ticks < driven.ticks + interval {
+        let Some(last) = &mut self.last_applied else {
+            return Ok(());
+        };
+        if frame.ticks < last.ticks + interval {
             return Ok(());
         }
-        driven.ticks = frame.ticks;
+        last.ticks = frame.ticks;
         let inputs = RunInputs {
             step: frame.snapshot.step,
             reset: false,
-            ..driven.inputs
+            ..last.inputs
         };
-        let changes: Vec<ParameterChange> = driven.changes.values().cloned().collect();
+        let changes: Vec<ParameterChange> = last.changes.values().cloned().collect();
         self.send_applied(&inputs, &changes, frame.ticks, send)
     }
 
@@ -318,7 +324,7 @@ impl Outputs {
         })
     }
 
-    /// Sends what the run is made with, and where its frame lies.
+    /// Sends version and configuration of the run, and the transform of its frame.
     ///
     /// # Errors
     /// As [`Outputs::frame`].
@@ -343,11 +349,14 @@ impl Outputs {
             stamp: self.timeline.at(0),
             cdr: &self.bytes,
         })?;
-        self.place(send)
+        self.frame_transform(send)
     }
 
-    /// Sends where the frame of all headers lies: in the parent turned by half a turn about X, so that Z points up.
-    fn place<E: From<CdrError>>(&mut self, mut send: impl FnMut(Encoded<'_>) -> Result<(), E>) -> Result<(), E> {
+    /// Sends the transform of the frame of all headers: half a turn about X in the parent frame, whose Z points up.
+    fn frame_transform<E: From<CdrError>>(
+        &mut self,
+        mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
         if self.parent_frame.is_empty() {
             return Ok(());
         }
@@ -377,8 +386,8 @@ impl Outputs {
     }
 }
 
-/// The drive of a run as a recorded message has it; what it leaves to the configuration is taken from `config`, in
-/// which its parameters must already be set. `begun` are the rates with which the run began.
+/// The inputs of a run from a recorded message. The settings that the message does not contain come from `config`, in which
+/// the message's parameters must already be set. `begun` are the rates with which the run began.
 pub fn run_inputs(message: &AppliedInputs, config: &Config, begun: &Rates) -> RunInputs {
     RunInputs {
         step: message.step,

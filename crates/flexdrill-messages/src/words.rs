@@ -1,5 +1,5 @@
-//! Codes of the messages as words for a person, the same in messages, tables and dashboards. What the core has a name
-//! for has that name.
+//! Words for the codes of the messages, the same in logs, tables and dashboards. A name of the core is used where there is
+//! one.
 
 use super::{Alarm, TwinStatus, WhirlState};
 use flexdrill_alarms::{Priority, State};
@@ -7,7 +7,7 @@ use flexdrill_core::motion::Severity;
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::QualityLevel;
 
-/// What stands for a code that this version does not know.
+/// The word for an unknown code.
 const UNKNOWN: &str = "?";
 
 /// A warning's severity: `ok`, `watch`, `warning` or `critical`. All messages share the codes.
@@ -46,7 +46,7 @@ pub fn whirl_kind(code: u8) -> &'static str {
     }
 }
 
-/// `pipe` or `guide`, where there is no room for the whole name.
+/// `pipe` or `guide`, for narrow columns.
 pub fn body(body: Body) -> &'static str {
     match body {
         Body::Pipe => "pipe",
@@ -54,7 +54,7 @@ pub fn body(body: Body) -> &'static str {
     }
 }
 
-/// The layer of contacts, 0 or 1, by what meets in it.
+/// The contact layer 0 or 1, by its two bodies.
 pub fn layer(layer: usize) -> &'static str {
     if layer == 0 { "pipe-guide" } else { "guide-wall" }
 }

@@ -1,7 +1,7 @@
-//! Calls a service of another node.
+//! Calls of a service of another node.
 //!
-//! A request carries its identity in front of its data, as rmw_cyclonedds does: with a service that reads both forms it
-//! cannot be mistaken for the other, since a string of two thousand million characters would have to follow.
+//! A request has its identity before its data, as rmw_cyclonedds sends it. A server that accepts both mappings cannot
+//! confuse them: read as the other mapping, the identity would begin a string of two thousand million characters.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -13,23 +13,23 @@ use tokio::sync::Mutex;
 use crate::dds::port::{Inbox, Monitor, PortBuilder, Sample, TopicPublisher};
 use flexdrill_messages::{from_cdr_body, to_cdr_body};
 
-/// Bytes of the identity: client and number of the call.
+/// Bytes of the identity: the client and the number of the call.
 const IDENTITY: usize = 16;
-/// Read as the length of a string, no message has it.
+/// A string of this length is longer than any message.
 const NO_LENGTH: u64 = 0xffff_0000;
 /// Longest wait for a reply.
-const PATIENCE: Duration = Duration::from_secs(3);
+const REPLY_WAIT: Duration = Duration::from_secs(3);
 
-/// Longest wait for the server to be found: who is out there is looked at twice a second.
-const DISCOVERY: Duration = Duration::from_secs(1);
-/// Time between two looks whether it has been found.
-const LOOK: Duration = Duration::from_millis(50);
+/// Longest wait for the discovery of the server, which is updated twice a second.
+const DISCOVERY_WAIT: Duration = Duration::from_secs(1);
+/// Time between two checks for the server.
+const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Why a call has no answer.
 #[derive(Debug, thiserror::Error)]
 pub enum CallError {
-    /// Nobody serves it.
-    #[error("nobody serves {service}: is the twin up, in this domain and namespace?")]
+    /// No node serves it.
+    #[error("no node serves {service}; check that the twin runs in this domain and namespace")]
     NoServer {
         /// Absolute name.
         service: String,
@@ -42,7 +42,7 @@ pub enum CallError {
         /// Time waited (s).
         seconds: u64,
     },
-    /// Request or reply are not of the service's type.
+    /// The request or the reply is not of the service's type.
     #[error("{service}: {source}")]
     Encoding {
         /// Absolute name.
@@ -58,12 +58,13 @@ pub struct ServiceClient {
     requests: TopicPublisher,
     replies: Arc<Inbox<Sample>>,
     identity: u64,
-    /// Number of the last call; held during one, so that calls do not take each other's replies.
+    /// Number of the last call. The lock is held during a call, so that calls do not read each other's replies.
     calls: Mutex<u64>,
 }
 
 impl ServiceClient {
-    /// A client at `port`. `name` is absolute, `ros_type` as `package/srv/Type`; `identity` is of this process alone.
+    /// A client at `port`. `name` is absolute, `ros_type` is such as `package/srv/Type`; `identity` must be unique to
+    /// this process.
     pub fn new(port: &mut PortBuilder, name: &str, ros_type: &str, identity: u64) -> Self {
         let (requests, replies) = port.client(name, ros_type);
         Self {
@@ -75,10 +76,10 @@ impl ServiceClient {
         }
     }
 
-    /// Calls it.
+    /// Calls the service.
     ///
     /// # Errors
-    /// When nobody serves it or no answer comes in time.
+    /// When no node serves it or no reply comes in time.
     pub async fn call<Req: Serialize, Resp: DeserializeOwned>(
         &self,
         monitor: &Monitor,
@@ -89,9 +90,9 @@ impl ServiceClient {
             source,
         };
         let mut calls = self.calls.lock().await;
-        let found = tokio::time::timeout(DISCOVERY, async {
+        let found = tokio::time::timeout(DISCOVERY_WAIT, async {
             while monitor.readers(&self.requests) == 0 {
-                tokio::time::sleep(LOOK).await;
+                tokio::time::sleep(CHECK_INTERVAL).await;
             }
         });
         found.await.map_err(|_| CallError::NoServer {
@@ -104,17 +105,17 @@ impl ServiceClient {
         let mut body = identity.to_vec();
         body.extend(to_cdr_body(request).map_err(encoding)?);
         self.requests.publish(body);
-        let reply = tokio::time::timeout(PATIENCE, self.reply_to(&identity)).await;
+        let reply = tokio::time::timeout(REPLY_WAIT, self.reply_to(&identity)).await;
         let reply = reply.map_err(|_| CallError::NoReply {
             service: self.name.clone(),
-            seconds: PATIENCE.as_secs(),
+            seconds: REPLY_WAIT.as_secs(),
         })?;
-        // What follows the identity is aligned as if it began there: 16 is a multiple of 8.
+        // The alignment of the data is unchanged by the identity, since 16 is a multiple of 8.
         let (response, _) = from_cdr_body(&reply).map_err(encoding)?;
         Ok(response)
     }
 
-    /// Waits for the reply with this identity; replies to others are passed over.
+    /// Waits for the reply with this identity, and ignores replies to other clients.
     async fn reply_to(&self, identity: &[u8; IDENTITY]) -> Vec<u8> {
         loop {
             if let Sample::Body { body, .. } = self.replies.next().await

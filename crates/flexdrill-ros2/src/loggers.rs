@@ -1,7 +1,7 @@
 //! The logger services of a ROS 2 node: `~/get_logger_levels` and `~/set_logger_levels`.
 //!
-//! The node has one logger, of its own name; a name of one of the program's parts (`flexdrill::bag`) or libraries
-//! (`rustdds`) is one of it alone.
+//! The node has one logger with its own name. The name of a part of the program (`flexdrill_bag`) or of a library (`rustdds`)
+//! is a logger for that part.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -20,15 +20,15 @@ const OURS: &str = "flexdrill";
 /// Why a level is not set.
 #[derive(Debug, thiserror::Error)]
 enum LevelError {
-    #[error("{0} is no level; use 10 (debug), 20 (info), 30 (warn), 40 (error) or 50 (fatal)")]
+    #[error("{0} is not a level; use 10 (debug), 20 (info), 30 (warn), 40 (error) or 50 (fatal)")]
     Level(u32),
-    #[error("'{0}' is no logger's name; use the node's, or letters, digits, _ and ::")]
+    #[error("'{0}' is not the name of a logger; use the node's, or letters, digits, _ and ::")]
     Name(String),
     #[error("logging was not started by this program")]
     NotOurs,
 }
 
-/// Levels as they were set.
+/// The levels that were set.
 struct Loggers {
     /// The node's name, as a logger's: `rig_7.flexdrill`.
     node: String,
@@ -127,15 +127,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_levels_are_held_to_what_there_is() {
+    fn unknown_names_and_levels_are_refused() {
         let loggers = Loggers {
             node: "rig_7.flexdrill".to_owned(),
             set: Mutex::default(),
         };
         assert_eq!(loggers.target("rig_7.flexdrill").ok(), Some(OURS));
-        assert_eq!(loggers.target("flexdrill::bag").ok(), Some("flexdrill::bag"));
+        assert_eq!(loggers.target("flexdrill_bag").ok(), Some("flexdrill_bag"));
         assert!(loggers.target("a=trace,b").is_err());
-        assert_eq!(loggers.level("flexdrill::bag"), 0);
+        assert_eq!(loggers.level("flexdrill_bag"), 0);
         for (level, word) in [(10, Some("debug")), (50, Some("error")), (11, None)] {
             assert_eq!(filter_word(level).ok(), word);
         }

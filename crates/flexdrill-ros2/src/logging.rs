@@ -19,21 +19,21 @@ use crate::dds::port::{PortBuilder, TopicPublisher};
 use flexdrill_messages::to_cdr_body;
 use flexdrill_text::printable;
 
-/// RustDDS warns of every datagram above 1500 bytes and of peers that go; ros2-client of every plain DDS client; foxglove calls
-/// a viewer that is closed an error.
+/// RustDDS warns of every datagram above 1500 bytes and of peers that leave, ros2-client warns of every plain DDS client, and
+/// foxglove reports a closed viewer as an error.
 const LIBRARIES: &str = "rustdds=error,ros2_client=error,mio=error,foxglove=off";
 
-/// Where log lines go while the node is up.
+/// The publisher of log lines, and the logger's name, while the node runs.
 #[derive(Default)]
 struct Rosout {
     target: RwLock<Option<(TopicPublisher, String)>>,
 }
 
 static ROSOUT: OnceLock<Arc<Rosout>> = OnceLock::new();
-/// The filter as it was at the start, and the way to change it.
+/// The filter of the start, and the handle to change it.
 static FILTER: OnceLock<(String, reload::Handle<Targets, Registry>)> = OnceLock::new();
 
-/// Starts logging. The filter is RUST_LOG if set, else `--log-level` or `info`, with the libraries' noise left out. May
+/// Starts logging. The filter is RUST_LOG if set, else `--log-level` or `info`, without the noise of the libraries. May
 /// be called more than once; only the first call counts.
 pub fn start(arguments: &RosArgs) {
     let mut filter = format!("{},{LIBRARIES}", arguments.log_level.as_deref().unwrap_or("info"));
@@ -49,7 +49,7 @@ pub fn start(arguments: &RosArgs) {
         .with_ansi(std::io::stderr().is_terminal())
         .with_target(false)
         .fmt_fields(fmt::format::debug_fn(|writer, field, value| {
-            write!(writer, "{}", shown(field, value))
+            write!(writer, "{}", field_text(field, value))
         }));
     // A second subscriber is refused; the first one stays.
     let started = tracing_subscriber::registry()
@@ -101,7 +101,7 @@ pub fn connect(port: &mut PortBuilder, node: &str) {
     *rosout.target.write().unwrap_or_else(PoisonError::into_inner) = Some((publisher, name));
 }
 
-/// Lets go of the topic; to be called before the node is dropped.
+/// Stops publishing log lines. To be called before the node is dropped.
 pub fn disconnect() {
     if let Some(rosout) = ROSOUT.get() {
         *rosout.target.write().unwrap_or_else(PoisonError::into_inner) = None;
@@ -113,7 +113,7 @@ struct RosoutLayer(Arc<Rosout>);
 impl<S: Subscriber> Layer<S> for RosoutLayer {
     fn on_event(&self, event: &Event<'_>, _context: Context<'_, S>) {
         let metadata = event.metadata();
-        // Lines of the DDS library come while it holds its own locks; and one about this topic would never end.
+        // The DDS library logs while it holds its locks, and a line about this topic would cause the next one.
         if !metadata.target().starts_with("flexdrill") {
             return;
         }
@@ -148,12 +148,12 @@ struct Text(String);
 
 impl Visit for Text {
     fn record_debug(&mut self, field: &Field, value: &dyn std::fmt::Debug) {
-        self.0.push_str(&shown(field, value));
+        self.0.push_str(&field_text(field, value));
     }
 }
 
-/// A field of a log line. It may hold what others have sent: it is shown on one line and acts on no terminal.
-fn shown(field: &Field, value: &dyn std::fmt::Debug) -> String {
+/// The text of a field. It may have come from other programs: it is printed on one line, with control characters escaped.
+fn field_text(field: &Field, value: &dyn std::fmt::Debug) -> String {
     let text = format!("{value:?}");
     if field.name() == "message" {
         printable(&text).into_owned()
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn what_others_sent_is_shown_and_not_run() {
+    fn foreign_text_is_escaped() {
         let lines: &'static Lines = Box::leak(Box::default());
         let operator = "ann\x1b[2J\nalarm shock is normal";
         tracing::subscriber::with_default(tracing_subscriber::registry().with(lines), || {

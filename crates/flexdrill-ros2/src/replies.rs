@@ -1,4 +1,4 @@
-//! Replies that are too long to send: what is sent in their place, so that no client waits for nothing.
+//! Short forms of replies that are too long to send, so that every client gets an answer.
 
 use ros2_client::parameters::raw;
 use ros2_client::rcl_interfaces::{
@@ -15,20 +15,20 @@ use flexdrill_messages::std_srvs::{SetBoolResponse, TriggerResponse};
 use flexdrill_messages::type_description_interfaces::GetTypeDescriptionResponse;
 use flexdrill_messages::{AcknowledgeAlarmResponse, ShelveAlarmResponse, UnshelveAlarmResponse};
 
-/// Bytes that the reasons of a list of results share when they must be cut.
+/// Bytes for the reasons of a list of results together, when they must be cut.
 const REASONS: usize = 30_000;
-/// Most results whose flags fit beside those reasons: 12 bytes each.
+/// Most results whose flags fit next to those reasons, at 12 bytes each.
 const MOST_RESULTS: usize = 2_000;
 
-/// A reply that can be made short.
+/// A reply that has a short form.
 pub trait Reply: Serialize {
-    /// What is sent in its place when it is too long. What was done stays told; `why` stands where the reply has a place
-    /// for words; where it has none, it is empty.
+    /// The short form of a reply that is too long. The outcome of the request remains; `why` replaces the text where the reply
+    /// has one, and lists without a text become empty.
     #[must_use]
     fn shortened(self, why: &str) -> Self;
 }
 
-/// Replies that say whether it was done, and a text.
+/// Replies with a flag for the outcome, and a text.
 macro_rules! flag_and_text {
     ($($reply:ty),*) => {$(
         impl Reply for $reply {
@@ -46,7 +46,7 @@ flag_and_text!(
     UnshelveAlarmResponse
 );
 
-/// Replies that are lists without a place for words.
+/// Replies that are lists without a text.
 macro_rules! list {
     ($($reply:ty { $field:ident }),*) => {$(
         impl Reply for $reply {
@@ -102,7 +102,7 @@ impl Reply for SetParametersAtomicallyResponse {
 impl Reply for SetParametersResponse {
     fn shortened(mut self, why: &str) -> Self {
         if self.results.len() > MOST_RESULTS {
-            let failed = Err(format!("{why}; what was set is on /parameter_events"));
+            let failed = Err(format!("{why}; /parameter_events has the values that were set"));
             self.results = vec![failed.into()];
         }
         let share = REASONS / self.results.len().max(1);
@@ -118,7 +118,7 @@ impl Reply for SetLoggerLevelsResponse {
         if self.results.len() > MOST_RESULTS {
             self.results = vec![SetLoggerLevelsResult {
                 successful: false,
-                reason: format!("{why}; ~/get_logger_levels tells what was set"),
+                reason: format!("{why}; ~/get_logger_levels has the levels that were set"),
             }];
         }
         let share = REASONS / self.results.len().max(1);
@@ -139,7 +139,7 @@ impl Reply for GetTypeDescriptionResponse {
     }
 }
 
-/// Keeps at most so many bytes of a text, whole characters only.
+/// Cuts a text to `most` bytes at most, between characters.
 fn cut(text: &mut String, most: usize) {
     let mut end = most.min(text.len());
     while !text.is_char_boundary(end) {
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_done_stays_told() {
+    fn a_short_reply_keeps_the_outcome() {
         let reason = "\u{e4}".repeat(200);
         let long = set(1500, &reason);
         assert!(to_cdr_body(&long).unwrap().len() > MOST_REPLY);

@@ -1,9 +1,9 @@
 //! Service servers that answer both kinds of ROS 2 clients.
 //!
-//! ROS 2's two DDS layers send services differently: rmw_fastrtps puts the request's identity beside the data
-//! ("enhanced" mapping), rmw_cyclonedds puts 16 bytes before it ("cyclone" mapping). A request tells which one it is:
-//! its bytes fit the request type exactly with or without those 16 bytes in front. So a server here answers each
-//! client in its own way, and `ros2 param` works from both.
+//! ROS 2's two DDS layers send services differently: rmw_fastrtps sends the request's identity outside of the data
+//! ("enhanced" mapping), rmw_cyclonedds puts 16 bytes before the data ("cyclone" mapping). The bytes of a request fit its
+//! type exactly either with or without those 16 bytes. A server here therefore recognises the mapping and answers each
+//! client in the client's own, so that `ros2 param` works from both.
 
 use std::future::Future;
 use std::pin::Pin;
@@ -24,7 +24,7 @@ const CYCLONE_HEADER: usize = 16;
 pub type Task = Pin<Box<dyn Future<Output = ()> + Send>>;
 
 tokio::task_local! {
-    /// Who asked for what is being answered.
+    /// The client of the request that is being answered.
     static CLIENT: Peer;
 }
 
@@ -33,21 +33,21 @@ pub fn client() -> Option<Peer> {
     CLIENT.try_with(Clone::clone).ok()
 }
 
-/// Who asks, to stand behind a line of the log; empty outside of a handler.
+/// The client of the present request, as an ending for a log line; empty outside of a handler.
 pub fn asked_by() -> String {
     client().map_or_else(String::new, |client| format!(": asked for by {client}"))
 }
 
-/// Which form of services is served.
+/// The mapping of services.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ServiceMapping {
-    /// Each client is answered as it asks; the value decides where a request could be read both ways.
+    /// Each client is answered in its own mapping. The value decides where a request fits both.
     Auto(Dialect),
-    /// One form only.
+    /// One mapping only.
     Only(Dialect),
 }
 
-/// How a request travels.
+/// The mapping of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dialect {
     /// rmw_fastrtps, rmw_connextdds, and plain DDS programs.
@@ -67,7 +67,7 @@ impl Dialect {
 }
 
 impl ServiceMapping {
-    /// What a person reads at the start.
+    /// A description for the log.
     pub fn describe(self) -> &'static str {
         match self {
             ServiceMapping::Auto(_) => "auto (clients on rmw_fastrtps and rmw_cyclonedds are both answered)",
@@ -77,7 +77,7 @@ impl ServiceMapping {
     }
 }
 
-/// A form of services that nobody knows.
+/// An unknown name of a mapping.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("'{0}' is not a service mapping; use auto, enhanced or cyclone")]
 pub struct UnknownMapping(String);
@@ -104,11 +104,11 @@ enum RequestError {
     NoHeader,
     #[error(transparent)]
     Decode(#[from] cdr_encoding::Error),
-    #[error("{0} bytes are left over")]
+    #[error("{0} bytes remain")]
     LeftOver(usize),
 }
 
-/// Reads a request in the form it came.
+/// Reads a request, and recognises its mapping.
 fn interpret<Req: DeserializeOwned>(mapping: ServiceMapping, body: &[u8]) -> Result<(Dialect, Req), RequestError> {
     let read = |bytes: Option<&[u8]>| -> Result<Req, RequestError> {
         let bytes = bytes.ok_or(RequestError::NoHeader)?;
@@ -136,7 +136,7 @@ pub struct ServiceServer {
 }
 
 impl ServiceServer {
-    /// A server at `port`. `name` is absolute, `ros_type` as `package/srv/Type`.
+    /// A server at `port`. `name` is absolute, `ros_type` is such as `package/srv/Type`.
     pub fn new(port: &mut PortBuilder, name: &str, ros_type: &str, mapping: ServiceMapping) -> Self {
         Self {
             requests: port.service(name, ros_type),
@@ -154,27 +154,27 @@ impl ServiceServer {
         Answer: Future<Output = Resp>,
     {
         loop {
-            let asked = self.requests.next().await;
-            let mapping = if asked.is_from_dds() {
+            let received = self.requests.next().await;
+            let mapping = if received.is_from_dds() {
                 self.mapping
             } else {
                 ServiceMapping::Only(Dialect::Enhanced)
             };
-            let (dialect, request) = match interpret::<Req>(mapping, &asked.body) {
+            let (dialect, request) = match interpret::<Req>(mapping, &received.body) {
                 Ok(request) => request,
                 Err(why) => {
                     tracing::warn!(
                         "service {}: a request of {} bytes could not be read: {why}",
                         self.name,
-                        asked.body.len()
+                        received.body.len()
                     );
                     continue;
                 }
             };
             let response = CLIENT
-                .scope(asked.client.clone(), async { handler(request).await })
+                .scope(received.client.clone(), async { handler(request).await })
                 .await;
-            self.reply(asked, dialect, response);
+            self.reply(received, dialect, response);
         }
     }
 

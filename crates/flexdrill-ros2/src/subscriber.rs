@@ -1,4 +1,4 @@
-//! A client's side: a node that only listens, as a dashboard does.
+//! A node that only listens, for dashboards.
 
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -10,13 +10,13 @@ use crate::dds::port::{Inbox, Monitor, Port, PortBuilder, Sample};
 use flexdrill_messages::topics::TopicInfo;
 use flexdrill_messages::{Message, from_cdr_body};
 
-/// A node to be, without parameters, services or log topic, in the namespace of the twin it listens to.
+/// A node without parameters, services and log topic, in the namespace of the twin to which it listens, before its start.
 pub struct ListenerBuilder {
     port: PortBuilder,
     twin: NodeIdentity,
 }
 
-/// Joined to the network until it is dropped.
+/// A listening node. Dropping it leaves the network.
 pub struct Listener {
     port: Port,
 }
@@ -48,8 +48,8 @@ impl ListenerBuilder {
         Ok(self.twin.expand(topic.name)?)
     }
 
-    /// Subscribes. A latched topic is read reliably and from its newest sample on; all others best effort: who only
-    /// looks must not make the twin keep samples.
+    /// Subscribes. A latched topic is read reliably and from its newest sample on; all others best effort,
+    /// so that the twin keeps no samples for a mere listener.
     ///
     /// # Errors
     /// When the name is not allowed.
@@ -75,20 +75,20 @@ impl ListenerBuilder {
 }
 
 impl Listener {
-    /// How DDS is.
+    /// The state of DDS.
     pub fn monitor(&self) -> Monitor {
         self.port.monitor()
     }
 }
 
 impl<M: Message + 'static> TopicReader<M> {
-    /// Hands over every sample that has arrived, oldest first, and says how many could not be read.
-    pub fn drain(&self, mut take: impl FnMut(M)) -> u64 {
+    /// Passes every received message to `receive`, oldest first. Returns the number of samples that could not be decoded.
+    pub fn drain(&self, mut receive: impl FnMut(M)) -> u64 {
         let mut unreadable = 0;
         while let Some(sample) = self.inbox.pop() {
             match sample {
                 Sample::Body { body, .. } => match from_cdr_body::<M>(&body) {
-                    Ok((message, _)) => take(message),
+                    Ok((message, _)) => receive(message),
                     Err(_) => unreadable += 1,
                 },
                 Sample::Unreadable(_) => unreadable += 1,

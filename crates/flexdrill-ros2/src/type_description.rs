@@ -1,4 +1,4 @@
-//! `~/get_type_description`: what a message or service type of this node is made of, for tools that do not have its package.
+//! `~/get_type_description`: the definition of a message or service type of this node, for tools without its package.
 
 use std::collections::BTreeMap;
 
@@ -17,11 +17,11 @@ use flexdrill_text::printable;
 #[derive(Debug, thiserror::Error)]
 enum NoDescription {
     #[error(
-        "this node knows no type '{0}'; it describes those of its topics and services (`ros2 node info`), and what they \
-         are made of"
+        "this node knows no type '{0}'; it describes the types of its topics and services (`ros2 node info`), and \
+         their parts"
     )]
     Unknown(String),
-    #[error("{name} has the hash {here} here, not '{asked}': the definition that is asked for is another one")]
+    #[error("{name} has the hash {here} here, not '{asked}': the request is for another definition")]
     Hash {
         name: &'static str,
         here: &'static str,

@@ -1,8 +1,8 @@
 //! Every value of the configuration as a ROS 2 parameter of the same dotted name.
 //!
-//! At the start any of them may be given by `-p` or a parameter file: the configuration is changed before the tool is
-//! built, and the run's hash and recording show the changed one. While running only those change that the model can
-//! take without being built anew.
+//! At the start `-p` or a parameter file may set any of them: the configuration is changed before the model is built, and
+//! the hash and the recording of the run are those of the changed one. While the node runs, only those values may change
+//! for which the model need not be rebuilt.
 
 use flexdrill_ros2::parameters::{Parameter, ParameterValue};
 use serde_json::Value;
@@ -10,10 +10,10 @@ use serde_json::Value;
 use super::live::is_live;
 use flexdrill_config::{Config, ConfigError};
 
-/// The configuration as changed parameters make it, checked as a whole.
+/// The configuration with changed parameters, checked as a whole.
 ///
 /// # Errors
-/// When the configuration does not make sense with them.
+/// When the configuration is not valid with them.
 pub fn reconfigured(config: &Config, changed: &[Parameter]) -> Result<Config, ConfigError> {
     let values = changed
         .iter()
@@ -63,7 +63,7 @@ mod tests {
                 value: ParameterValue::Double(150.0),
             },
         ];
-        // The initial value is not live and stays where it was, below the new limit.
+        // The initial value is not live and remains below the new limit.
         assert!(
             reconfigured(&config(), &both)
                 .unwrap_err()

@@ -1,4 +1,4 @@
-//! What a node says of its parameters: description, unit, limits.
+//! The declarations of the node's parameters: description, unit, limits.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use super::live::{CONFIG_FILE, USE_SIM_TIME, is_live, why_fixed};
 use flexdrill_config::{Config, HardBounds, NumberKey, key_texts};
 use flexdrill_ros2::args::value::to_parameter;
 
-/// Of a key that nobody has described; there is none in the configurations that come with the program.
+/// The description of a key without one. The configurations of the program have no such key.
 const NOT_DESCRIBED: &str = "A key of the configuration.";
 
 /// All parameters of a node.
@@ -78,7 +78,7 @@ fn flatten(prefix: &str, value: &Value, into: &mut Vec<(String, ParameterValue)>
     }
 }
 
-/// The parameter that shows a value; all numbers of a list as floats. `None` for what ROS 2 has no type for.
+/// A value as a parameter, with all numbers of a list as floats; none where ROS 2 has no type for it.
 fn from_json(value: &Value) -> Option<ParameterValue> {
     match value {
         Value::Array(items) if !items.is_empty() => {
@@ -110,13 +110,13 @@ fn range_of(number: &NumberKey, hard: &HardBounds) -> NumberRange {
     NumberRange {
         low,
         high,
-        // A hard limit may be reached.
+        // A hard limit itself is allowed.
         low_is_in: number.low_is_in || low > number.low,
         unit: number.unit,
     }
 }
 
-/// Replaces the limits that follow from a changed configuration; those that hold while the node runs stay.
+/// Replaces the ranges of live parameters, which depend on other values. The hard limits remain.
 pub fn refresh_ranges(store: &mut ParameterStore, config: &Config, hard: &HardBounds) {
     for number in config.numbers().into_iter().filter(|number| is_live(&number.key)) {
         store.set_range(&number.key, range_of(&number, hard));
@@ -142,12 +142,12 @@ mod tests {
             "{}",
             slew.description
         );
-        // The range of ROS 2 holds its ends, and 0 is refused.
+        // A range of ROS 2 includes its ends, and 0 is refused.
         assert!(slew.floating_point_range[0].from_value > 0.0, "{slew:?}");
         assert!(slew.additional_constraints.starts_with("above 0, at most"), "{slew:?}");
         let rate = store.describe("outputs.rates.whirl");
         assert!(rate.description.contains("twin/whirl"), "{}", rate.description);
-        // As far as it may be set while the node runs: inputs.hard_limits.
+        // The range ends at inputs.hard_limits.
         let limit = store.describe("inputs.rotary_speed.max_rpm");
         assert_eq!(limit.floating_point_range[0].to_value, 300.0);
         assert!(store.describe("inputs.hard_limits.max_rpm").read_only);
@@ -170,10 +170,10 @@ mod tests {
         texts.push(stations);
         for text in &texts {
             let store = declare(&Config::from_text("a configuration", text).unwrap(), "", false);
-            let mut told = BTreeMap::new();
+            let mut seen = BTreeMap::new();
             for name in store.names() {
-                let before = told.insert(store.describe(name).description, name);
-                assert!(before.is_none(), "{name} and {before:?} have one text");
+                let before = seen.insert(store.describe(name).description, name);
+                assert!(before.is_none(), "{name} and {before:?} have the same text");
                 let description = store.describe(name).description;
                 assert!(
                     description.len() > 10 && description != NOT_DESCRIBED,

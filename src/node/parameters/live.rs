@@ -1,8 +1,8 @@
 //! Which parameters may change while the node runs.
 
-/// Parameter beside the configuration: whether `/clock` paces the model.
+/// A parameter outside of the configuration: whether `/clock` paces the model.
 pub const USE_SIM_TIME: &str = "use_sim_time";
-/// Parameter beside the configuration: the file that it was read from.
+/// A parameter outside of the configuration: its file.
 pub const CONFIG_FILE: &str = "config_file";
 
 /// Keys of parameters that may change while running: exact, or a group that ends with a dot.
@@ -22,7 +22,7 @@ const LIVE: [&str; 14] = [
     "outputs.rates.",
     "outputs.exaggeration",
 ];
-/// Keys within those groups that only count at the start.
+/// Keys within those groups that act at the start only.
 const START_ONLY: [&str; 3] = [
     "inputs.rotary_speed.initial_rpm",
     "inputs.rotary_speed.measured",
@@ -44,11 +44,11 @@ pub fn is_live(key: &str) -> bool {
 /// Why a parameter that is not live cannot change.
 pub(super) fn why_fixed(key: &str) -> String {
     let what = match key.split('.').next().unwrap_or_default() {
-        _ if key.starts_with("inputs.hard_limits.") => "it is what nobody may go beyond while the node runs",
+        _ if key.starts_with("inputs.hard_limits.") => "no parameter may exceed it while the node runs",
         "well" | "tool" | "masses" => "it is part of the geometry that the model is built from",
         "solver" => "the time step and the solver's limits are fixed when the model is built",
         "contact" | "environment" | "boundary" | "loads" => "the model is built with it",
-        "start" | "initial" | "run" | "inputs" => "it only counts at the start",
+        "start" | "initial" | "run" | "inputs" => "it acts at the start only",
         "whirl" | "stick_slip" | "shock" | "chaotic_whirl" | "joint_load" => "the analysis is built with it",
         USE_SIM_TIME => "the clock is chosen at the start",
         CONFIG_FILE => "the configuration is read at the start",

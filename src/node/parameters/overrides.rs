@@ -1,4 +1,4 @@
-//! Parameters that are given at the start, by `-p` or a parameter file.
+//! Parameters of the start, from `-p` or a parameter file.
 
 use flexdrill_ros2::parameters::ParameterValue;
 
@@ -8,7 +8,7 @@ use flexdrill_config::{Config, ConfigError};
 use flexdrill_ros2::args::Override;
 use flexdrill_ros2::args::value::show;
 
-/// Why a parameter given at the start is refused.
+/// Why a parameter of the start is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum OverrideError {
     /// No such parameter.
@@ -18,7 +18,7 @@ pub enum OverrideError {
     Unknown {
         /// Dotted name of the parameter.
         name: String,
-        /// Where it was given.
+        /// Option or file and line.
         origin: String,
     },
     /// Wrong type.
@@ -26,19 +26,19 @@ pub enum OverrideError {
     Value {
         /// Dotted name of the parameter.
         name: String,
-        /// Value, as it was given.
+        /// Its value.
         value: String,
-        /// Where it was given.
+        /// Option or file and line.
         origin: String,
         /// What is wrong.
         why: String,
     },
-    /// The configuration does not make sense with it.
+    /// The configuration is not valid with the value.
     #[error(transparent)]
     Config(#[from] ConfigError),
 }
 
-/// What the start's overrides come to.
+/// The result of the overrides.
 #[derive(Debug)]
 pub struct Started {
     /// The configuration with the overrides.
@@ -47,10 +47,10 @@ pub struct Started {
     pub use_sim_time: bool,
 }
 
-/// The configuration that the overrides of a node name, with where they do.
+/// The file of the configuration that the overrides of a node name, and the origin of the override.
 ///
 /// # Errors
-/// When it is no path.
+/// When the value is no path.
 pub fn config_file(overrides: &[Override]) -> Result<Option<(&str, &str)>, OverrideError> {
     let Some(given) = overrides.iter().find(|given| given.name == CONFIG_FILE) else {
         return Ok(None);
@@ -69,7 +69,7 @@ pub fn config_file(overrides: &[Override]) -> Result<Option<(&str, &str)>, Overr
 /// Applies the overrides of a node to a configuration, all at once.
 ///
 /// # Errors
-/// When a parameter does not exist, has the wrong type, or the configuration does not make sense with it.
+/// When a parameter does not exist, has the wrong type, or the configuration is not valid with it.
 pub fn apply_overrides(config: &Config, overrides: &[Override]) -> Result<Started, OverrideError> {
     let mut use_sim_time = false;
     let mut values = Vec::new();
@@ -88,7 +88,7 @@ pub fn apply_overrides(config: &Config, overrides: &[Override]) -> Result<Starte
             (USE_SIM_TIME, _) => return Err(wrong("use true or false")),
             // The configuration was read from it: see `config_file`.
             (CONFIG_FILE, _) => {}
-            // rclcpp's own are in every file that `ros2 param dump` writes.
+            // Every file of `ros2 param dump` has these parameters of rclcpp.
             (name, _) if name.starts_with("qos_overrides.") || name == "start_type_description_service" => {}
             (key, value) => values.push((
                 key.to_owned(),

@@ -55,7 +55,7 @@ fn errors_name_the_type_and_the_cause() {
     assert!(text(&[0, 1, 0, 0, 1, 0, 0, 0]).contains("std_msgs/msg/Header"));
     let mut long = to_cdr(&Header::default()).unwrap();
     long.extend([0; 8]);
-    assert!(text(&long).contains("8 bytes left over"));
+    assert!(text(&long).contains("8 bytes after the message"));
 }
 
 #[derive(Debug, PartialEq, Serialize, Deserialize)]

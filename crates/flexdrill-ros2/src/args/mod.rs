@@ -16,7 +16,7 @@ pub use params::{Override, Overrides};
 /// What is wrong with the ROS 2 arguments.
 #[derive(Debug, thiserror::Error)]
 pub enum ArgsError {
-    /// An option nobody knows.
+    /// An unknown option.
     #[error(
         "unknown ROS argument '{0}' after --ros-args; known: -r, -p, --params-file, --log-level, --enable/--disable-{{rosout,stdout,external-lib}}-logs, --log-config-file, --log-file-name, -e"
     )]
@@ -24,12 +24,12 @@ pub enum ArgsError {
     /// An option without its value.
     #[error("{0} needs a value after it")]
     NoValue(String),
-    /// A remapping rule that cannot be read.
+    /// A malformed remapping rule.
     #[error("remapping rule '{rule}': {why}")]
     Rule {
-        /// Rule, as it was given.
+        /// The rule.
         rule: String,
-        /// What is wrong and what to do.
+        /// The problem and the remedy.
         why: String,
     },
     /// A name that ROS 2 does not allow.
@@ -58,7 +58,7 @@ pub enum ArgsError {
         /// What is wrong.
         why: String,
     },
-    /// A log level nobody knows.
+    /// An unknown log level.
     #[error("log level '{0}': use debug, info, warn, error or fatal, or logger:=level")]
     LogLevel(String),
 }
@@ -78,11 +78,11 @@ pub struct RosArgs {
     pub rosout: Option<bool>,
 }
 
-/// Splits a command line into what is outside and inside of `--ros-args ... [--]` sections.
+/// Splits a command line into the arguments outside and inside of `--ros-args ... [--]` sections.
 pub fn split<A: AsRef<OsStr>>(arguments: impl IntoIterator<Item = A>) -> (Vec<A>, Vec<A>) {
     let (mut outside, mut inside, mut ros) = (Vec::new(), Vec::new(), false);
     for argument in arguments {
-        // Names of files need not be UTF-8; the words looked for here are.
+        // File names need not be UTF-8, but the markers are.
         match (ros, argument.as_ref().to_str().unwrap_or_default()) {
             (false, "--ros-args") => ros = true,
             (true, "--") => ros = false,

@@ -2,7 +2,7 @@
 
 use super::ArgsError;
 
-/// What a node is called in the graph.
+/// Namespace and name of a node in the graph.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NodeIdentity {
     /// Absolute namespace: `/` or `/a/b`.
@@ -86,16 +86,16 @@ pub fn normal_namespace(namespace: &str) -> Result<String, ArgsError> {
     Ok(format!("/{trimmed}"))
 }
 
-/// What ROS 2 does not allow of a name.
+/// Why ROS 2 does not allow a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NameProblem {
-    /// Nothing, or nothing between two slashes.
+    /// The name or a part between two slashes is empty.
     #[error("it is empty or has an empty part between two slashes")]
     Empty,
-    /// A digit or something stranger at the beginning of a part.
+    /// A part begins with a digit or another character that is not allowed there.
     #[error("a part must begin with a letter or underscore, not '{0}'")]
     Begin(char),
-    /// Within a part.
+    /// A character within a part is not allowed.
     #[error("'{0}' is not allowed; use letters, digits, underscores and slashes")]
     Character(char),
     /// Reserved by ROS 2.

@@ -1,9 +1,9 @@
-//! Why a parameter does not change.
+//! Reasons for the refusal of a parameter change.
 
 use flexdrill_config::ConfigError;
 use ros2_client::parameters::ParameterType;
 
-/// Why a change is refused: which parameter, which value, which limit, what to do.
+/// Why a change is refused, with parameter, value, limit and remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum Refusal {
     /// No such parameter.
@@ -11,15 +11,15 @@ pub enum Refusal {
     Unknown {
         /// Name, as it was given.
         name: String,
-        /// Names that are like it.
+        /// Similar names.
         hint: String,
     },
-    /// It only counts at the start.
+    /// The parameter is fixed at the start.
     #[error("'{name}' cannot change while the twin runs: {why}")]
     ReadOnly {
         /// Dotted name of the parameter.
         name: String,
-        /// Why not, and how else.
+        /// The reason, and the remedy.
         why: String,
     },
     /// A value of another type than the parameter's.
@@ -42,13 +42,13 @@ pub enum Refusal {
         /// Value, as it was given.
         value: String,
     },
-    /// The configuration does not make sense with it.
+    /// The configuration is not valid with the value.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// The solver takes nothing at the moment.
+    /// The solver's queue of commands is full.
     #[error("the values are fine but cannot be passed on: {why}; nothing was changed, set them again")]
     NotPassedOn {
-        /// What is in the way.
+        /// The reason.
         why: String,
     },
 }

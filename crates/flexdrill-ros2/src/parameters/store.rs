@@ -9,21 +9,21 @@ use ros2_client::{Parameter, ParameterValue};
 use super::refusal::Refusal;
 use crate::args::value::show;
 
-/// Which values a number may have, for people and tools; the check of the whole enforces it.
+/// The range of a number, as people and tools see it. The check of the whole configuration enforces it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NumberRange {
-    /// Smallest (see `low_is_in`).
+    /// Lower bound.
     pub low: f64,
-    /// Largest, allowed itself.
+    /// Upper bound, which is allowed.
     pub high: f64,
-    /// Whether the smallest is allowed itself.
+    /// Whether the lower bound is allowed.
     pub low_is_in: bool,
     /// Empty if dimensionless.
     pub unit: &'static str,
 }
 
 impl NumberRange {
-    /// Smallest number that is allowed: ROS 2's ranges hold both of their ends.
+    /// Smallest allowed number: the ranges of ROS 2 include both ends.
     fn smallest(&self) -> f64 {
         if self.low_is_in { self.low } else { self.low.next_up() }
     }
@@ -41,14 +41,14 @@ impl std::fmt::Display for NumberRange {
     }
 }
 
-/// What is declared about a parameter.
+/// The declaration of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Declaration {
     /// Dotted name.
     pub name: String,
     /// One sentence with the unit.
     pub description: String,
-    /// Which values a number may have.
+    /// The range of a number.
     pub range: Option<NumberRange>,
     /// Why it cannot change while the node runs.
     pub read_only: Option<String>,
@@ -63,7 +63,7 @@ pub struct ParameterStore {
 }
 
 impl ParameterStore {
-    /// A store of these declarations.
+    /// A store with these declarations.
     pub fn new(declarations: impl IntoIterator<Item = Declaration>) -> Self {
         Self {
             entries: declarations
@@ -78,7 +78,7 @@ impl ParameterStore {
         self.entries.get(name).map(|entry| &entry.value)
     }
 
-    /// A number's value; whole numbers too.
+    /// The value of a number, also of an integer.
     pub fn number(&self, name: &str) -> Option<f64> {
         match self.get(name)? {
             ParameterValue::Double(value) => Some(*value),
@@ -87,7 +87,7 @@ impl ParameterStore {
         }
     }
 
-    /// Replaces the limits that are shown, where they follow from other values.
+    /// Replaces the range of a parameter, where it follows from other values.
     pub fn set_range(&mut self, name: &str, range: NumberRange) {
         if let Some(entry) = self.entries.get_mut(name) {
             entry.range = Some(range);
@@ -110,16 +110,16 @@ impl ParameterStore {
             .collect()
     }
 
-    /// Sets all of `changes` or none. `act` sees the store as it would become and what changed, in the parameters' own
-    /// types; it lets them act as a whole or refuses them. Returns what changed.
+    /// Sets all of `changes` or none. `apply` gets the store with the new values and the changes, in the parameters' own
+    /// types; it applies them as a whole, or refuses them. Returns the changes.
     ///
     /// # Errors
-    /// When one of them is unknown, read-only or of the wrong type, or `act` refuses them together; then nothing has
+    /// When one of them is unknown, read-only or of the wrong type, or `apply` refuses them; then nothing has
     /// changed.
     pub fn set_atomically(
         &mut self,
         changes: &[Parameter],
-        act: impl FnOnce(&mut ParameterStore, &[Parameter]) -> Result<(), Refusal>,
+        apply: impl FnOnce(&mut ParameterStore, &[Parameter]) -> Result<(), Refusal>,
     ) -> Result<Vec<Parameter>, Refusal> {
         let mut candidate = self.clone();
         let mut accepted = Vec::with_capacity(changes.len());
@@ -131,12 +131,12 @@ impl ParameterStore {
                 value: entry.value.clone(),
             });
         }
-        act(&mut candidate, &accepted)?;
+        apply(&mut candidate, &accepted)?;
         *self = candidate;
         Ok(accepted)
     }
 
-    /// What `ros2 param describe` shows.
+    /// The descriptor of a parameter, for `ros2 param describe`.
     pub fn describe(&self, name: &str) -> raw::ParameterDescriptor {
         let Some(entry) = self.entries.get(name) else {
             return ParameterDescriptor::unknown(name).into();
@@ -170,7 +170,7 @@ impl ParameterStore {
         .into()
     }
 
-    /// Names at or below the prefixes, down to `depth` levels below each of them (0: no limit), as rclcpp has it.
+    /// Names at or below the prefixes, down to `depth` levels below each of them (0: no limit), as in rclcpp.
     pub fn list(&self, prefixes: &[String], depth: u64) -> ListParametersResult {
         let shallow = |rest: &str| depth == 0 || (rest.matches('.').count() as u64) < depth;
         let wanted = |name: &str| {
@@ -214,11 +214,11 @@ fn unknown(store: &ParameterStore, name: &str) -> Refusal {
     }
 }
 
-/// The value in the parameter's own type, if it may take it.
+/// The value in the parameter's own type, if it is allowed.
 fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue, Refusal> {
     let name = || entry.name.clone();
     if let Some(why) = &entry.read_only {
-        // So that a file of `ros2 param dump` can be loaded again.
+        // The present value is accepted, so that a file of `ros2 param dump` can be loaded again.
         if *value == entry.value {
             return Ok(value.clone());
         }
@@ -228,7 +228,7 @@ fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue
         });
     }
     let value = match (&entry.value, value) {
-        // A whole number is a fine way to write a real one.
+        // YAML writes a float without fraction as an integer.
         (ParameterValue::Double(_), ParameterValue::Integer(whole)) => ParameterValue::Double(*whole as f64),
         (own, given) if std::mem::discriminant(own) == std::mem::discriminant(given) => given.clone(),
         (own, given) => {
@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_numbers_are_taken_for_real_ones() {
+    fn integers_are_accepted_for_floats() {
         let mut store = store();
         store
             .set_atomically(

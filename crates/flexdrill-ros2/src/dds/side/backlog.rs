@@ -1,13 +1,13 @@
-//! Whether another program on this machine leaves its packets lying: the system tells how much waits at each socket.
+//! Detects programs on this machine that do not read their packets, by the bytes that the system queues at each socket.
 
 use std::net::{SocketAddr, UdpSocket};
 use std::time::Duration;
 
-/// Between two looks: who takes packets has emptied its socket meanwhile.
-const BETWEEN: Duration = Duration::from_millis(20);
+/// Time between two checks, in which a healthy program empties its socket.
+const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 const TABLES: [&str; 2] = ["/proc/net/udp", "/proc/net/udp6"];
 
-/// Whether packets lie at one of these sockets, of those that are on this machine, at two looks in a row.
+/// Whether packets are queued in two checks in a row at one of those sockets that are on this machine.
 pub(super) fn piles_up(sockets: &[SocketAddr]) -> bool {
     let ports: Vec<u16> = sockets
         .iter()
@@ -17,7 +17,7 @@ pub(super) fn piles_up(sockets: &[SocketAddr]) -> bool {
     if ports.is_empty() || !is_waiting(&ports) {
         return false;
     }
-    std::thread::sleep(BETWEEN);
+    std::thread::sleep(CHECK_INTERVAL);
     is_waiting(&ports)
 }
 
@@ -38,7 +38,7 @@ fn is_waiting(ports: &[u16]) -> bool {
         })
 }
 
-/// Port and waiting bytes of a line of the table: `sl local_address rem_address st tx_queue:rx_queue ...`.
+/// Port and queued bytes of a line of the table: `sl local_address rem_address st tx_queue:rx_queue ...`.
 fn waiting(line: &str) -> Option<(u16, u64)> {
     let mut fields = line.split_whitespace();
     let port = fields.nth(1)?.rsplit(':').next()?;
@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_socket_that_nobody_reads_is_seen() {
+    fn a_socket_without_a_reading_program_is_detected() {
         let read = UdpSocket::bind("127.0.0.1:0").unwrap();
         let unread = UdpSocket::bind("127.0.0.1:0").unwrap();
         let from = UdpSocket::bind("127.0.0.1:0").unwrap();
@@ -65,7 +65,7 @@ mod tests {
         read.recv(&mut [0; 16]).unwrap();
         assert!(!piles_up(&[read.local_addr().unwrap()]));
         assert!(piles_up(&[unread.local_addr().unwrap()]));
-        // Another machine's port of the same number tells nothing.
+        // The same port number on another machine does not count.
         let elsewhere = SocketAddr::from(([192, 0, 2, 1], unread.local_addr().unwrap().port()));
         assert!(!piles_up(&[elsewhere]));
     }

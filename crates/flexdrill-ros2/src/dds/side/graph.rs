@@ -1,8 +1,8 @@
-//! The node in ROS 2's graph: its endpoints, and the list of them that it announces.
+//! The node in ROS 2's graph: its endpoints, and their announcement.
 //!
 //! The endpoints are RustDDS's own. A node of ros2-client would add a second, latched writer of `/parameter_events`, which
-//! makes `ros2 topic echo` and `ros2 bag record` warn of mixed qualities of service, and would hide when a request was
-//! sent.
+//! makes `ros2 topic echo` and `ros2 bag record` warn of mixed qualities of service, and would hide the time at which a
+//! request was sent.
 
 use ros2_client::Gid;
 use rustdds::no_key::{DataWriterCdr, SimpleDataReaderCdr};
@@ -16,15 +16,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::dds::plan::Plan;
 
-/// Where ROS 2 nodes announce which endpoints are theirs.
+/// The topic on which ROS 2 nodes announce their endpoints.
 pub(super) const DISCOVERY_TOPIC: &str = "ros_discovery_info";
 const DISCOVERY_TYPE: &str = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
-/// Announcements of others that may wait.
+/// Most announcements of other nodes that wait.
 const DISCOVERY_DEPTH: i32 = 64;
 
-/// A topic that is written.
+/// The writer of a topic.
 pub(super) type Writer<M> = DataWriterCdr<M>;
-/// A topic that is read.
+/// The reader of a topic.
 pub(super) type Reader<M> = SimpleDataReaderCdr<M>;
 
 /// `rmw_dds_common/msg/ParticipantEntitiesInfo`.
@@ -62,9 +62,9 @@ impl NodeGraph {
     /// A node without endpoints of its own, not announced yet.
     ///
     /// # Errors
-    /// What RustDDS says.
+    /// The error of RustDDS.
     pub(super) fn new(participant: &DomainParticipant, plan: &Plan) -> Result<Self, String> {
-        // Each topic brings its own qualities.
+        // Each topic has its own qualities of service.
         let none = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&none).map_err(text)?;
         let subscriber = participant.create_subscriber(&none).map_err(text)?;
@@ -93,10 +93,10 @@ impl NodeGraph {
         })
     }
 
-    /// Writes a topic, by the names that DDS has for it and its type.
+    /// Creates the writer of a topic, by the DDS names of topic and type.
     ///
     /// # Errors
-    /// What RustDDS says.
+    /// The error of RustDDS.
     pub(super) fn writer<M: Serialize>(
         &mut self,
         topic: &str,
@@ -112,10 +112,10 @@ impl NodeGraph {
         Ok(writer)
     }
 
-    /// Reads a topic, by the names that DDS has for it and its type.
+    /// Creates the reader of a topic, by the DDS names of topic and type.
     ///
     /// # Errors
-    /// What RustDDS says.
+    /// The error of RustDDS.
     pub(super) fn reader<M: DeserializeOwned + 'static>(
         &mut self,
         topic: &str,
@@ -134,15 +134,15 @@ impl NodeGraph {
         Ok(reader)
     }
 
-    /// Reads what nodes announce of themselves.
+    /// Creates the reader of the announcements of nodes.
     ///
     /// # Errors
-    /// What RustDDS says.
+    /// The error of RustDDS.
     pub(super) fn announcements(&mut self) -> Result<Reader<Participant>, String> {
         self.reader(DISCOVERY_TOPIC, DISCOVERY_TYPE, &discovery_qualities(DISCOVERY_DEPTH))
     }
 
-    /// Takes a writer off the list that [`NodeGraph::announce`] sends.
+    /// Removes a writer from the announcement.
     pub(super) fn forget_writer(&mut self, writer: GUID) {
         let writer = Gid::from(writer);
         self.node.writers.retain(|known| *known != writer);
@@ -165,7 +165,7 @@ impl NodeGraph {
 }
 
 impl Drop for NodeGraph {
-    /// The participant has no node any more.
+    /// Announces that the participant has no node.
     fn drop(&mut self) {
         self.send(Vec::new());
     }

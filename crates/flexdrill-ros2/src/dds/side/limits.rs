@@ -1,16 +1,16 @@
-//! How much memory the DDS process may take. What the network makes it store is bounded by nothing else.
+//! The memory limit of the DDS process. The library itself does not limit what packets make it store.
 
 use rustix::process::{Resource, Rlimit, Signal, setrlimit};
 
-/// Most memory (bytes): a request for more fails, which ends the process.
+/// Most memory (bytes). A larger allocation fails, which ends the process.
 ///
-/// One packet may claim a sample of 4 GiB, which the library asks for at once. A tool of 200 stations with a reader that
-/// stalls needs 120 MB.
+/// One packet can announce a sample of 4 GiB, which the library allocates at once. A tool of 200 stations with a stalled
+/// reader needs 120 MB.
 pub(super) const MOST_MEMORY: u64 = 512 << 20;
-/// Resident memory (bytes) at which it begins afresh, in order.
-const ENOUGH: u64 = 320 << 20;
+/// Resident memory (bytes) at which the process ends in order, to be restarted.
+const RESTART_AT: u64 = 320 << 20;
 
-/// Sets the limits of this process; where the system refuses, the node's own watch still holds.
+/// Sets the limits of this process. Where the system refuses them, the supervision by the node remains.
 pub(super) fn set() {
     let most = Rlimit {
         current: Some(MOST_MEMORY),
@@ -21,9 +21,9 @@ pub(super) fn set() {
         maximum: Some(0),
     };
     let _ = setrlimit(Resource::Data, most);
-    // It ends by design where memory does; a core file of that tells nothing and fills the disk.
+    // The process ends by design at the limit; a core file of that would fill the disk for nothing.
     let _ = setrlimit(Resource::Core, none);
-    // Without the node there is nothing to do.
+    // The process must not outlive the node.
     #[cfg(target_os = "linux")]
     let _ = rustix::process::set_parent_process_death_signal(Some(Signal::KILL));
 }
@@ -37,14 +37,14 @@ pub(super) fn resident() -> u64 {
 }
 
 /// # Errors
-/// When it is time to begin afresh.
+/// When the process must be restarted.
 pub(super) fn judge(resident: u64) -> Result<(), String> {
-    if resident <= ENOUGH {
+    if resident <= RESTART_AT {
         return Ok(());
     }
     Err(format!(
-        "it holds {} MB, more than {} MB; packets of unknown senders pile up, or readers do not take",
+        "it uses {} MB, more than {} MB; packets of unknown senders accumulate, or readers do not acknowledge samples",
         resident >> 20,
-        ENOUGH >> 20
+        RESTART_AT >> 20
     ))
 }

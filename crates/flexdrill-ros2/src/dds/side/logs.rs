@@ -1,5 +1,5 @@
-//! Lines of the DDS library: errors go to the node's log, a few per second; one kind of debug line names a reader that does
-//! not take, and one kind of error shows that discovery jams.
+//! Log lines of the DDS library. Errors are forwarded to the node's log, a few per second. One kind of debug line names a
+//! reader that does not acknowledge samples, and one kind of error shows that discovery is jammed.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -10,15 +10,15 @@ use log::{Level, LevelFilter, Log, Metadata, Record};
 use super::outlet::Outlet;
 use crate::dds::frames::LogLevel;
 
-/// Where RustDDS tells to whom it sends samples again.
+/// Target of the lines in which RustDDS names the readers to which it sends samples again.
 const REPAIR_TARGET: &str = "rustdds::rtps::writer";
-/// How that line begins and what follows the reader's id.
+/// Text before and after the reader's id in such a line.
 const REPAIR_LINE: (&str, &str) = ("Repair data send to ", ". ReaderProxy");
-/// What discovery says of an announcement that it cannot read. It then leaves those behind it for the next time.
+/// Text of discovery about an announcement that it cannot decode. Discovery then postpones the announcements behind it.
 const BROKEN_ANNOUNCEMENT: &str = "spdp_receive:";
-/// Broken announcements that come closer together than this were waiting together.
+/// Broken announcements within this time were in the queue together.
 const TOGETHER: Duration = Duration::from_millis(2);
-/// Lines per second that go to the log; the library writes one for every broken packet.
+/// Most lines per second in the log: the library writes one for every broken packet.
 const MOST_LINES: u32 = 5;
 /// Most readers remembered.
 const MOST_REPAIRED: usize = 256;
@@ -38,27 +38,27 @@ struct SideLog {
 #[derive(Default)]
 struct Throttle {
     began: Option<Instant>,
-    told: u32,
-    left_out: u64,
+    passed: u32,
+    held_back: u64,
 }
 
-/// Announcements that could not be read.
+/// Announcements that could not be decoded.
 #[derive(Default)]
 struct Jam {
     newest: Option<Instant>,
     together: u32,
 }
 
-/// Broken announcements that came together, and how long there has been none; `None` when there were none.
+/// Number of broken announcements that came at once, and the time since the last one; none where there was none.
 pub(super) fn broken_announcements(now: Instant) -> Option<(u32, Duration)> {
     let jam = LOG.get()?.jam.lock().unwrap_or_else(PoisonError::into_inner);
     Some((jam.together, now.saturating_duration_since(jam.newest?)))
 }
 
-/// Sends the library's errors to the node; more where RUST_LOG names `rustdds`.
+/// Forwards the library's errors to the node, and further levels where RUST_LOG names `rustdds`.
 pub(super) fn start(outlet: &Outlet) {
-    let asked = std::env::var("RUST_LOG").unwrap_or_default();
-    let level = asked
+    let directives = std::env::var("RUST_LOG").unwrap_or_default();
+    let level = directives
         .split(',')
         .find_map(|part| part.strip_prefix("rustdds=")?.parse().ok())
         .unwrap_or(LevelFilter::Error);
@@ -75,7 +75,8 @@ pub(super) fn start(outlet: &Outlet) {
     }
 }
 
-/// Collects, while it lives, to which readers samples are sent again: those that acknowledge less than they were sent.
+/// Collects the readers to which samples are sent again, until it is dropped: those readers have not acknowledged all
+/// samples.
 pub(super) struct RepairWatch;
 
 impl RepairWatch {
@@ -89,7 +90,7 @@ impl RepairWatch {
         Self
     }
 
-    /// Whether samples were sent again to the reader whose id is shown so.
+    /// Whether samples were sent again to the reader, by the text of its id.
     pub(super) fn has_seen(&self, reader: &str) -> bool {
         LOG.get()
             .is_some_and(|log| log.lock().iter().any(|seen| seen == reader))
@@ -107,19 +108,19 @@ impl Drop for RepairWatch {
 }
 
 impl Throttle {
-    /// Whether a line may go, and then how many could not since the last one.
+    /// How many lines were held back since the last one, if a line may be logged at `now`.
     fn pass(&mut self, now: Instant) -> Option<u64> {
         if self
             .began
             .is_none_or(|began| now.saturating_duration_since(began) >= Duration::from_secs(1))
         {
-            (self.began, self.told) = (Some(now), 0);
+            (self.began, self.passed) = (Some(now), 0);
         }
-        if self.told < MOST_LINES {
-            self.told += 1;
-            return Some(std::mem::take(&mut self.left_out));
+        if self.passed < MOST_LINES {
+            self.passed += 1;
+            return Some(std::mem::take(&mut self.held_back));
         }
-        self.left_out += 1;
+        self.held_back += 1;
         None
     }
 }
@@ -175,12 +176,12 @@ impl Log for SideLog {
             let passed = if self.level == LevelFilter::Error {
                 self.throttle.lock().unwrap_or_else(PoisonError::into_inner).pass(now)
             } else {
-                // Asked for by RUST_LOG, all of them.
+                // RUST_LOG requests all lines.
                 Some(0)
             };
-            if let Some(left_out) = passed {
-                let more = if left_out > 0 {
-                    format!(" ({left_out} more lines of the DDS library since the last one)")
+            if let Some(held_back) = passed {
+                let more = if held_back > 0 {
+                    format!(" ({held_back} more lines of the DDS library since the last one)")
                 } else {
                     String::new()
                 };

@@ -1,6 +1,6 @@
-//! The DDS process: joins the network as one node, writes what it is given, hands over what it hears.
+//! The DDS process. It joins the network as one node, publishes the messages of the node, and forwards received ones.
 //!
-//! It keeps no state that matters. Whatever is wrong with DDS in it, it ends, and the node starts another one.
+//! It has no state that would be missed. On any failure of DDS it ends, and the node starts another one.
 
 mod backlog;
 mod graph;
@@ -39,24 +39,24 @@ use super::frames::{self, Beat, FromSide, LogLevel, ToSide};
 use super::plan::{Plan, ReaderPlan, dds_topic_name};
 use crate::dds::network::NetworkError;
 
-/// Name of the subcommand that the node starts itself with.
+/// Name of the hidden subcommand with which the program starts itself as the DDS process.
 pub const SUBCOMMAND: &str = "dds-side";
 
-/// Samples kept for a moment in which the process is busy.
+/// Most samples of a topic that wait while the process is busy.
 const DEPTH: i32 = 64;
-/// How often refused samples are tried again.
+/// How often refused samples are written again.
 const TICK: Duration = Duration::from_millis(10);
-/// How often the node is told that DDS is alive.
+/// How often the process reports to the node that DDS works.
 const BEAT: Duration = Duration::from_millis(200);
-/// How often it is looked who else is out there.
-const LOOK: Duration = Duration::from_millis(500);
-/// Broken announcements together from which on discovery may be jammed; a few can be on one network that mixes versions.
+/// How often the endpoints of other programs are read from discovery.
+const DISCOVERY_INTERVAL: Duration = Duration::from_millis(500);
+/// Number of broken announcements at once that can jam discovery. Fewer occur on a network that mixes versions.
 const MOST_BROKEN: u32 = 10;
-/// How long they must have ended: while they come a fresh start jams too.
+/// Time without broken announcements before a restart: an earlier one would jam, too.
 const CALM: Duration = Duration::from_millis(500);
-/// How long an end waits for the replies that the node has given to reach their clients.
+/// Longest wait at the end until the last replies have reached their clients.
 pub const LAST_REPLIES: Duration = Duration::from_secs(2);
-/// Replies that may wait for their client to be known.
+/// Most replies that wait until discovery knows their client.
 const REPLIES: usize = 256;
 
 /// Why the process ends.
@@ -64,7 +64,7 @@ const REPLIES: usize = 256;
 enum SideError {
     #[error("the node's socket: {0}")]
     Socket(#[from] io::Error),
-    #[error("the first frame says nothing to set up")]
+    #[error("the first frame has no endpoints to create")]
     NoPlan,
     #[error(transparent)]
     Network(#[from] NetworkError),
@@ -75,17 +75,17 @@ enum SideError {
     #[error("service {service}: {why}")]
     Service { service: String, why: String },
     #[error("{0}")]
-    Sick(String),
+    Unhealthy(String),
 }
 
-/// Runs until the node says so or goes, or DDS is not well. Its standard input is a socket to the node.
+/// Runs until the node ends it or closes the socket, or DDS fails. The standard input is the socket to the node.
 pub fn main() -> ExitCode {
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            let told = format!("error: {error}; this subcommand is for flexdrill's own use\n");
-            // Where nobody reads it, nobody is told.
-            let _ = io::stderr().write_all(told.as_bytes());
+            let text = format!("error: {error}; this subcommand is for flexdrill's own use\n");
+            // There is no other output for a failure to write this.
+            let _ = io::stderr().write_all(text.as_bytes());
             ExitCode::FAILURE
         }
     }
@@ -100,7 +100,7 @@ fn run() -> Result<(), SideError> {
     limits::set();
     let outlet = Outlet::start(socket)?;
     logs::start(&outlet);
-    // The node tells why; two tellings of it would confuse.
+    // The node logs the reason; a line of this process would repeat it.
     if let Err(error) = serve(&plan, from, &outlet) {
         outlet.send(FromSide::Failed(error.to_string()));
     }
@@ -140,10 +140,10 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
     })?;
     graph.announce();
     let book = Arc::new(Mutex::new(book));
-    let pulse = Pulse::new(&participant).map_err(|why| SideError::Sick(format!("the pulse: {why}")))?;
+    let pulse = Pulse::new(&participant).map_err(|why| SideError::Unhealthy(format!("the pulse: {why}")))?;
     let own = participant_prefix(&participant);
     let static_peers = StaticPeers::start(&plan.network, own, outlet)
-        .map_err(|why| SideError::Sick(format!("the peers are not called: {why}")))?;
+        .map_err(|why| SideError::Unhealthy(format!("the peers are not called: {why}")))?;
     let has_peers = static_peers.is_some();
     outlet.send(FromSide::Up(own));
 
@@ -158,7 +158,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
     std::thread::Builder::new()
         .name("from the node".into())
         .spawn(move || inlet.run(from))?;
-    let minder = Minder {
+    let maintenance = Maintenance {
         writers,
         graph,
         participant: participant.clone(),
@@ -169,10 +169,10 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
     };
     let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build()?;
     let result = runtime.block_on(async {
-        let mut listening: FuturesUnordered<_> = subscriptions
+        let mut forwarding: FuturesUnordered<_> = subscriptions
             .iter()
             .enumerate()
-            .map(|(index, subscription)| hear(index as u16, subscription, outlet))
+            .map(|(index, subscription)| forward(index as u16, subscription, outlet))
             .collect();
         let serving = replies::serve(&servers, answered, &book, outlet);
         let last_replies = async {
@@ -180,24 +180,24 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
             tokio::time::sleep(LAST_REPLIES).await;
         };
         tokio::select! {
-            // All replies are with their clients, or it has taken too long.
+            // The last replies have reached their clients, or time is up.
             served = serving => served,
             () = last_replies => Ok(()),
-            sick = minder.mind() => Err(sick),
-            Some(()) = listening.next() => Err(SideError::Sick("a subscription ended".into())),
+            failure = maintenance.run() => Err(failure),
+            Some(()) = forwarding.next() => Err(SideError::Unhealthy("a subscription ended".into())),
         }
     });
     if let Err(error) = &result {
         outlet.send(FromSide::Failed(error.to_string()));
         outlet.finish();
-        // DDS that is sick cannot leave the network in order, and would hang or complain of each endpoint.
+        // A failed DDS library cannot leave the network: it would hang, or log an error for each endpoint.
         std::process::exit(1);
     }
-    // The subscriptions and servers go before the participant that they belong to.
+    // The endpoints must be dropped before their participant.
     drop((subscriptions, servers));
     drop(participant);
     if has_peers {
-        static_peers::let_them_hear();
+        static_peers::wait_for_delivery();
     }
     result
 }
@@ -209,8 +209,8 @@ fn participant_prefix(participant: &DomainParticipant) -> super::plan::GuidPrefi
     prefix
 }
 
-/// Reads best effort, so that any writer matches, unless the plan says otherwise; a latched topic reliably and from its newest
-/// sample on.
+/// Subscribes best effort, so that every writer matches, unless the plan requests reliability; a latched topic reliably and
+/// from its newest sample on.
 fn subscribe(graph: &mut NodeGraph, plan: &ReaderPlan) -> Result<Reader<RawCdr>, SideError> {
     let policies = QosPolicyBuilder::new()
         .reliability(if plan.latched || plan.reliable {
@@ -235,8 +235,8 @@ fn subscribe(graph: &mut NodeGraph, plan: &ReaderPlan) -> Result<Reader<RawCdr>,
         })
 }
 
-/// Hands over all that a subscription hears.
-async fn hear(reader: u16, subscription: &Reader<RawCdr>, outlet: &Outlet) {
+/// Forwards all samples of a subscription to the node.
+async fn forward(reader: u16, subscription: &Reader<RawCdr>, outlet: &Outlet) {
     let mut samples = Box::pin(subscription.as_async_stream());
     while let Some(sample) = samples.next().await {
         outlet.send(match sample {
@@ -253,7 +253,7 @@ async fn hear(reader: u16, subscription: &Reader<RawCdr>, outlet: &Outlet) {
     }
 }
 
-/// What the node says.
+/// Reads the frames of the node.
 struct Inlet {
     writers: Arc<Mutex<Vec<TopicWriter>>>,
     answers: mpsc::Sender<Answer>,
@@ -262,7 +262,7 @@ struct Inlet {
 
 impl Inlet {
     fn run(self, mut from: BufReader<UnixStream>) {
-        // The end of the node and nonsense from it are the end here too.
+        // The process ends with the node, and on a frame that it cannot read.
         while let Ok(Some(frame)) = frames::read(&mut from) {
             match frame {
                 ToSide::Publish { writer, body } => {
@@ -271,19 +271,19 @@ impl Inlet {
                     }
                 }
                 ToSide::Reply { service, ticket, body } => {
-                    // More than that at once: the client asks again.
+                    // A reply that finds the queue full is lost; its client repeats the request.
                     let _ = self.answers.try_send(Answer { service, ticket, body });
                 }
                 ToSide::Begin(_) | ToSide::End => break,
             }
         }
         self.end.notify_one();
-        // The end of the answers: dropped with `self`.
+        // Dropping `self` closes the queue of answers.
     }
 }
 
-/// What is done at regular times.
-struct Minder {
+/// The periodic work of the process.
+struct Maintenance {
     writers: Arc<Mutex<Vec<TopicWriter>>>,
     graph: NodeGraph,
     participant: DomainParticipant,
@@ -293,17 +293,17 @@ struct Minder {
     outlet: Outlet,
 }
 
-impl Minder {
-    /// Runs until DDS is sick; why.
-    async fn mind(mut self) -> SideError {
+impl Maintenance {
+    /// Runs until DDS fails, and returns the failure.
+    async fn run(mut self) -> SideError {
         let mut tick = tokio::time::interval(TICK);
         tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
-        let (mut next_beat, mut next_look) = (Instant::now(), Instant::now());
+        let (mut next_beat, mut next_discovery) = (Instant::now(), Instant::now());
         let events = self.participant.status_listener();
         loop {
             tick.tick().await;
             let now = Instant::now();
-            self.tend_writers(now);
+            self.maintain_writers(now);
             while let Some(event) = events.try_recv_status() {
                 if let Some(text) = peers::incompatible(&event, &self.participant) {
                     self.outlet.log(LogLevel::Warning, text);
@@ -312,15 +312,15 @@ impl Minder {
             if now >= next_beat {
                 next_beat = now + BEAT;
                 if let Err(why) = self.beat(now) {
-                    return SideError::Sick(why);
+                    return SideError::Unhealthy(why);
                 }
             }
-            if now >= next_look {
-                next_look = now + LOOK;
+            if now >= next_discovery {
+                next_discovery = now + DISCOVERY_INTERVAL;
                 if let Some(peers) = &self.static_peers {
-                    peers.look(&self.participant);
+                    peers.update(&self.participant);
                 }
-                let peers = locked(&self.book).look(&self.participant);
+                let peers = locked(&self.book).update(&self.participant);
                 if let Some(peers) = peers {
                     self.outlet.send(FromSide::Peers(peers));
                 }
@@ -328,10 +328,10 @@ impl Minder {
         }
     }
 
-    fn tend_writers(&mut self, now: Instant) {
+    fn maintain_writers(&mut self, now: Instant) {
         let (mut writers, mut book) = (locked(&self.writers), locked(&self.book));
         for writer in writers.iter_mut() {
-            let stalled = writer.tend(now, &mut self.graph, &self.participant, &mut book);
+            let stalled = writer.maintain(now, &mut self.graph, &self.participant, &mut book);
             if let Some(stall) = stalled {
                 self.outlet.send(FromSide::Stalled(stall));
             }
@@ -347,14 +347,14 @@ impl Minder {
             && calm >= CALM
         {
             return Err(format!(
-                "{broken} broken announcements came together: the library's discovery jams on them and would hear of \
-                 nobody new"
+                "{broken} broken announcements came at once: the library's discovery jams on them and would find no new \
+                 participant"
             ));
         }
-        let renewals: u32 = self.with_writers(|writer| writer.renewals()).iter().sum();
-        if renewals > topic_writer::MOST_RENEWALS {
+        let replacements: u32 = self.with_writers(|writer| writer.replacements()).iter().sum();
+        if replacements > topic_writer::MOST_REPLACEMENTS {
             return Err(format!(
-                "its writers were made anew {renewals} times for readers that do not take; it begins afresh"
+                "its writers were replaced {replacements} times for readers that do not acknowledge samples; it is restarted"
             ));
         }
         let written = self.with_writers(TopicWriter::written);
@@ -362,8 +362,8 @@ impl Minder {
         Ok(())
     }
 
-    fn with_writers<T>(&self, what: impl Fn(&TopicWriter) -> T) -> Vec<T> {
-        locked(&self.writers).iter().map(what).collect()
+    fn with_writers<T>(&self, read: impl Fn(&TopicWriter) -> T) -> Vec<T> {
+        locked(&self.writers).iter().map(read).collect()
     }
 }
 

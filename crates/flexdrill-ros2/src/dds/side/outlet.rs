@@ -1,4 +1,4 @@
-//! What is told to the node: a bounded queue and a thread that writes it.
+//! The frames for the node: a bounded queue, and a thread that writes it.
 
 use std::io;
 use std::os::unix::net::UnixStream;
@@ -8,10 +8,11 @@ use std::thread::JoinHandle;
 
 use crate::dds::frames::{self, FromSide, LogLevel};
 
-/// Frames that may wait.
+/// Most frames in the queue.
 const DEPTH: usize = 1024;
 
-/// The way to the node. What does not fit is left out: then the node stands still, and will hear what is newer.
+/// Sends frames to the node. A frame that finds the queue full is dropped: the node stands still then, and newer frames
+/// follow.
 #[derive(Clone)]
 pub(super) struct Outlet {
     frames: SyncSender<Option<FromSide>>,
@@ -41,7 +42,7 @@ impl Outlet {
         });
     }
 
-    /// Writes what waits, and ends.
+    /// Writes all queued frames, and ends.
     pub(super) fn finish(&self) {
         let _ = self.frames.send(None);
         let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -54,7 +55,7 @@ impl Outlet {
 fn write(mut socket: UnixStream, queue: &Receiver<Option<FromSide>>) {
     while let Ok(Some(frame)) = queue.recv() {
         if frames::write(&mut socket, &frame).is_err() {
-            // The node has gone; the thread that reads from it notices too.
+            // The node has closed the socket, which ends the reading thread, too.
             return;
         }
     }

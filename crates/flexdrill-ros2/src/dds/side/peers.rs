@@ -1,4 +1,4 @@
-//! Who else is on the topics of the node: from DDS's discovery, and from what ROS 2 nodes say of themselves.
+//! The endpoints of other programs on the topics of the node, from DDS's discovery and the announcements of ROS 2 nodes.
 
 use std::collections::BTreeMap;
 use std::net::{IpAddr, SocketAddr};
@@ -16,13 +16,13 @@ use super::raw::RawCdr;
 use crate::dds::frames::{Peer, Peers};
 use crate::dds::plan::{Guid, GuidPrefix, Plan, dds_topic_name};
 
-/// Most participants remembered: made-up ones must not pile up.
+/// Most participants that are remembered, so that forged ones cannot exhaust memory.
 const MOST_PARTICIPANTS: usize = 1024;
 
-/// Most readers of which is remembered when they were found.
+/// Most readers of which the time of discovery is kept.
 const MOST_READERS: usize = 4096;
 
-/// What is known of others.
+/// The known nodes and endpoints of other programs.
 pub(super) struct PeerBook {
     announced: Reader<Participant>,
     nodes: BTreeMap<GuidPrefix, Vec<Entities>>,
@@ -31,8 +31,9 @@ pub(super) struct PeerBook {
     own_name: String,
     read: Vec<String>,
     written: Vec<String>,
-    told: Option<Peers>,
-    /// When each reader of what is written was found.
+    /// The latest report to the node.
+    reported: Option<Peers>,
+    /// When each reader of the node's topics was discovered.
     found: BTreeMap<GUID, Instant>,
 }
 
@@ -47,22 +48,22 @@ impl PeerBook {
             own_name: format!("{}/{}", plan.namespace.trim_end_matches('/'), plan.node),
             read: plan.readers.iter().map(|plan| dds_topic_name(&plan.topic)).collect(),
             written: plan.writers.iter().map(|plan| dds_topic_name(&plan.topic)).collect(),
-            told: None,
+            reported: None,
             found: BTreeMap::new(),
         })
     }
 
-    /// Who is there; `None` when nothing has changed since it was last asked.
-    pub(super) fn look(&mut self, participant: &DomainParticipant) -> Option<Peers> {
-        self.hear();
+    /// The present endpoints; none when they have not changed since the last call.
+    pub(super) fn update(&mut self, participant: &DomainParticipant) -> Option<Peers> {
+        self.read_announcements();
         let reading = participant.discovered_readers();
-        self.find(&reading, Instant::now());
+        self.note_readers(&reading, Instant::now());
         let written = participant.discovered_writers();
         let present: Vec<GuidPrefix> = written
             .iter()
             .map(|writer| prefix(&writer.writer_proxy.remote_writer_guid))
             .collect();
-        // A node writes at least its list of endpoints.
+        // Every node has at least the writer of its announcement.
         self.nodes.retain(|from, _| present.contains(from));
         let writers = self.read.iter().map(|topic| {
             written
@@ -107,16 +108,16 @@ impl PeerBook {
                 })
                 .collect(),
         };
-        if self.told.as_ref() == Some(&peers) {
+        if self.reported.as_ref() == Some(&peers) {
             return None;
         }
-        self.told = Some(peers.clone());
+        self.reported = Some(peers.clone());
         Some(peers)
     }
 
-    /// What is known of a writer.
+    /// The program of a writer, as far as it is known.
     pub(super) fn writer(&mut self, guid: GUID, participant: &DomainParticipant) -> Peer {
-        self.hear();
+        self.read_announcements();
         let written = participant.discovered_writers();
         let found = written
             .iter()
@@ -127,8 +128,8 @@ impl PeerBook {
         }
     }
 
-    /// Takes what nodes have said of themselves.
-    fn hear(&mut self) {
+    /// Reads new announcements of nodes.
+    fn read_announcements(&mut self) {
         self.announced.drain_read_notifications();
         while let Ok(Some(announced)) = self.announced.try_take_one() {
             let announced = announced.into_value();
@@ -139,7 +140,7 @@ impl PeerBook {
         }
     }
 
-    /// When the newest of the readers that ask for every sample of a topic was found; none where there are no such.
+    /// When the newest reliable reader of a topic was discovered; none where there is none.
     pub(super) fn newest_reader(
         &mut self,
         topic: &str,
@@ -147,7 +148,7 @@ impl PeerBook {
         now: Instant,
     ) -> Option<Instant> {
         let readers = participant.discovered_readers();
-        self.find(&readers, now);
+        self.note_readers(&readers, now);
         let topic = dds_topic_name(topic);
         let waited_for = readers.iter().filter(|reader| {
             let data = &reader.subscription_topic_data;
@@ -157,8 +158,8 @@ impl PeerBook {
         found.max().copied()
     }
 
-    /// Notes readers that are new, and forgets those that have gone.
-    fn find(&mut self, readers: &[DiscoveredReaderData], now: Instant) {
+    /// Notes new readers, and forgets those that have left.
+    fn note_readers(&mut self, readers: &[DiscoveredReaderData], now: Instant) {
         let present = readers
             .iter()
             .filter(|reader| self.written.contains(&reader.subscription_topic_data.topic_name))
@@ -168,8 +169,8 @@ impl PeerBook {
         self.found = present.take(MOST_READERS).map(noted).collect();
     }
 
-    /// The readers for which a writer refuses: those to which samples were sent again meanwhile or whose socket on this
-    /// machine piles up, else all that asked for every sample. Whether it is these for certain.
+    /// The stalled readers of a writer: those to which samples were sent again meanwhile, or whose socket on this machine
+    /// has unread packets; else all reliable readers. The flag states whether the readers are certain.
     pub(super) fn stalled(
         &self,
         writer: &Writer<RawCdr>,
@@ -223,7 +224,7 @@ impl PeerBook {
     }
 }
 
-/// What is to be said when an endpoint and ours do not match for their qualities of service.
+/// The log line for an endpoint that does not match ours because of the qualities of service.
 pub(super) fn incompatible(event: &DomainParticipantStatusEvent, participant: &DomainParticipant) -> Option<String> {
     match event {
         DomainParticipantStatusEvent::RemoteReaderQosIncompatible {
@@ -237,7 +238,7 @@ pub(super) fn incompatible(event: &DomainParticipantStatusEvent, participant: &D
                 .iter()
                 .find(|reader| reader.reader_proxy.remote_reader_guid == *remote_reader)?;
             Some(format!(
-                "a reader of {} (id {}) gets nothing: it asks for {}, offered is {}",
+                "a reader of {} (id {}) receives nothing: it requests {}, and the twin offers {}",
                 ros_name(&reader.subscription_topic_data.topic_name),
                 hexadecimal(&remote_reader.to_bytes()),
                 qualities(requested_qos),
@@ -255,7 +256,7 @@ pub(super) fn incompatible(event: &DomainParticipantStatusEvent, participant: &D
                 .iter()
                 .find(|writer| writer.writer_proxy.remote_writer_guid == *remote_writer)?;
             Some(format!(
-                "a writer of {} (id {}) is not heard: it offers {}, asked for is {}",
+                "a writer of {} (id {}) is not received: it offers {}, and the twin requests {}",
                 ros_name(&writer.publication_topic_data.topic_name),
                 hexadecimal(&remote_writer.to_bytes()),
                 qualities(offered_qos),
@@ -301,11 +302,11 @@ fn prefix(guid: &GUID) -> GuidPrefix {
 
 pub(super) fn sockets(locators: &[impl Clone + Into<SocketAddr>]) -> Vec<SocketAddr> {
     let sockets = locators.iter().map(|locator| locator.clone().into());
-    // What is no address of UDP comes out as one without a port.
+    // A locator that is no UDP address becomes one with port 0.
     sockets.filter(|socket: &SocketAddr| socket.port() != 0).collect()
 }
 
-/// The first address that is not of this machine only, else the first.
+/// The first address that other machines can reach, else the first.
 fn address(locators: &[impl Clone + Into<SocketAddr>]) -> Option<String> {
     let addresses: Vec<IpAddr> = sockets(locators).iter().map(SocketAddr::ip).collect();
     addresses

@@ -1,50 +1,51 @@
-//! Whether DDS is alive: a sample goes out and comes back through the whole of it, and its threads are counted.
+//! The self-test of DDS: a sample is sent and received through the whole library, and the library's threads are counted.
 //!
-//! Without multicast, as on a loopback interface by default, a participant does not hear itself. Then the threads tell
-//! alone: one that does nothing but compute, for seconds, is caught in what the network sent.
+//! Without multicast, as on a loopback interface by default, a participant does not receive its own samples. Then the
+//! threads are the only sign: one that computes for seconds without a pause is caught in a loop over received packets.
 
 use std::time::{Duration, Instant};
 
 use rustdds::policy::{History, Reliability};
 use rustdds::{CDRDeserializerAdapter, CDRSerializerAdapter, DomainParticipant, QosPolicyBuilder, TopicKind, no_key};
 
-/// Longest time without a sample that came back.
+/// Longest time without a received sample.
 const SILENCE: Duration = Duration::from_millis(1200);
-/// Longest time in which a thread may compute without a pause, where nothing comes back in any case.
+/// Longest time in which a thread may compute without a pause, where no sample can be received.
 const CAUGHT: Duration = Duration::from_secs(3);
-/// Share of the time between two looks that is no pause.
+/// Share of the time between two checks from which on a thread makes no pause.
 const NO_PAUSE: f64 = 0.95;
-/// Ticks of the process table per second, on every Linux that there is.
+/// Ticks of the process table per second, on all Linux systems.
 const TICKS: f64 = 100.0;
-/// A look that comes later than this after the one before was held up, and what it sees says nothing of DDS.
-const HELD_UP: Duration = Duration::from_millis(600);
-/// What the names of DDS's own topics begin with. rmw_cyclonedds passes over endpoints of such topics, and so does not
-/// complain that these give no hash of a ROS type.
+/// A longer time between two checks means that this process stood still, and says nothing about DDS.
+const OWN_DELAY: Duration = Duration::from_millis(600);
+/// Prefix of DDS's own topics. rmw_cyclonedds ignores endpoints of such topics, so that it does not warn of a missing hash
+/// of a ROS type.
 const HIDDEN: &str = "DCPS";
-/// How the library's threads are named in the process table.
+/// Prefix of the library's threads in the process table.
 const THREADS: &str = "RustDDS";
 
 type Writer = no_key::DataWriter<u64, CDRSerializerAdapter<u64, byteorder::LittleEndian>>;
 type Reader = no_key::SimpleDataReader<u64, CDRDeserializerAdapter<u64>>;
 
-/// A topic that nobody else reads, and what is heard on it.
+/// A topic for this process alone, and the samples received on it.
 pub(super) struct Pulse {
     writer: Writer,
     reader: Reader,
     count: u64,
-    /// When a sample came back last, or when there was reason to begin to wait.
-    heard: Instant,
-    has_heard: bool,
-    looked: Instant,
+    /// When the last sample was received, or when waiting for one began.
+    received: Instant,
+    has_received: bool,
+    checked: Instant,
     threads: usize,
-    /// Processor time (ticks) of the library's threads at the last look, and since when one makes no pause.
+    /// Processor time (ticks) of the library's threads at the last check.
     spent: Vec<(String, u64)>,
-    caught: Option<Instant>,
+    /// Since when a thread makes no pause.
+    busy_since: Option<Instant>,
 }
 
 impl Pulse {
     pub(super) fn new(participant: &DomainParticipant) -> Result<Self, String> {
-        let show = |error: rustdds::dds::CreateError| error.to_string();
+        let text = |error: rustdds::dds::CreateError| error.to_string();
         let policies = QosPolicyBuilder::new()
             .reliability(Reliability::BestEffort)
             .history(History::KeepLast { depth: 1 })
@@ -53,35 +54,35 @@ impl Pulse {
         let name = format!("{HIDDEN}flexdrill_pulse_{}_{}", std::process::id(), nonce());
         let topic = participant
             .create_topic(name, "flexdrill::Pulse".to_owned(), &policies, TopicKind::NoKey)
-            .map_err(show)?;
+            .map_err(text)?;
         let writer = participant
             .create_publisher(&policies)
-            .map_err(show)?
+            .map_err(text)?
             .create_datawriter_no_key(&topic, None)
-            .map_err(show)?;
+            .map_err(text)?;
         let reader = participant
             .create_subscriber(&policies)
-            .map_err(show)?
+            .map_err(text)?
             .create_simple_datareader_no_key(&topic, None)
-            .map_err(show)?;
+            .map_err(text)?;
         let now = Instant::now();
         Ok(Self {
             writer,
             reader,
             count: 0,
-            heard: now,
-            has_heard: false,
-            looked: now,
+            received: now,
+            has_received: false,
+            checked: now,
             threads: threads().len(),
             spent: threads(),
-            caught: None,
+            busy_since: None,
         })
     }
 
-    /// Sends the next sample and looks for what came back.
+    /// Sends the next sample and reads received ones.
     ///
     /// # Errors
-    /// When DDS is dead, and how that shows.
+    /// When DDS has failed, with the evidence.
     pub(super) fn check(&mut self, now: Instant) -> Result<(), String> {
         let threads = threads();
         if threads.len() < self.threads {
@@ -93,51 +94,46 @@ impl Pulse {
         }
         let _ = self.writer.write(self.count, None);
         self.count += 1;
-        let mut came = false;
+        let mut is_received = false;
         self.reader.drain_read_notifications();
         while let Ok(Some(_)) = self.reader.try_take_one() {
-            came = true;
+            is_received = true;
         }
-        let passed = now.duration_since(self.looked);
-        let held_up = passed > HELD_UP;
-        self.looked = now;
-        if came || held_up {
-            self.heard = now;
-            self.has_heard |= came;
+        let passed = now.duration_since(self.checked);
+        let held_up = passed > OWN_DELAY;
+        self.checked = now;
+        if is_received || held_up {
+            self.received = now;
+            self.has_received |= is_received;
         }
-        let silent = now.duration_since(self.heard);
-        if self.has_heard && silent > SILENCE {
+        let silent = now.duration_since(self.received);
+        if self.has_received && silent > SILENCE {
             return Err(format!(
-                "nothing has come back through DDS for {:.1} s: it is busy with what the network sends, or dead",
+                "no sample has passed through DDS for {:.1} s: it is overloaded by received packets, or has stopped",
                 silent.as_secs_f64()
             ));
         }
-        self.look_for_a_caught_one(now, passed, threads)
+        self.check_threads(now, passed, threads)
     }
 
-    fn look_for_a_caught_one(
-        &mut self,
-        now: Instant,
-        passed: Duration,
-        threads: Vec<(String, u64)>,
-    ) -> Result<(), String> {
+    fn check_threads(&mut self, now: Instant, passed: Duration, threads: Vec<(String, u64)>) -> Result<(), String> {
         let no_pause = threads.iter().any(|(id, ticks)| {
             let before = self.spent.iter().find(|(known, _)| known == id);
             before.is_some_and(|(_, before)| {
-                // A tick more than the table can tell.
+                // One tick is the resolution of the table.
                 let spent = (ticks.saturating_sub(*before) + 1) as f64 / TICKS;
                 spent >= NO_PAUSE * passed.as_secs_f64()
             })
         });
         self.spent = threads;
         if !no_pause {
-            self.caught = None;
+            self.busy_since = None;
             return Ok(());
         }
-        let since = *self.caught.get_or_insert(now);
-        if !self.has_heard && now.duration_since(since) > CAUGHT {
+        let since = *self.busy_since.get_or_insert(now);
+        if !self.has_received && now.duration_since(since) > CAUGHT {
             return Err(format!(
-                "a thread of the DDS library has computed for {:.1} s without a pause: it is caught in what the network sent",
+                "a thread of the DDS library has computed for {:.1} s without a pause: it is caught in a loop over received packets",
                 now.duration_since(since).as_secs_f64()
             ));
         }

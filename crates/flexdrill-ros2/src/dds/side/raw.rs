@@ -1,4 +1,4 @@
-//! Messages as their CDR bytes: encoded once, then given to DDS and to the bag unchanged.
+//! Messages as CDR bytes, which are encoded once for DDS, recording and viewers.
 
 use std::fmt;
 
@@ -7,8 +7,7 @@ use serde::ser::{Serialize, SerializeTuple, Serializer};
 
 /// The CDR body of a message (little endian, without the four bytes of the encapsulation header).
 ///
-/// Serialising writes the bytes as they are. Deserialising takes all that is left of the input, the padding at its end
-/// included.
+/// Serialising writes the bytes unchanged. Deserialising reads the rest of the input, including the padding at its end.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RawCdr(pub Vec<u8>);
 

@@ -1,4 +1,4 @@
-//! Services: requests are handed over with a ticket; a reply comes back with it.
+//! Service servers. A request is forwarded to the node with a ticket, and the node's reply carries the same ticket.
 
 use std::collections::{BTreeMap, HashSet};
 use std::sync::{Mutex, PoisonError};
@@ -21,16 +21,16 @@ use super::{LAST_REPLIES, SideError};
 use crate::dds::frames::{FromSide, LogLevel};
 use crate::dds::plan::{MOST_REPLY, ServicePlan, service_topics};
 
-/// Requests and replies kept per service; several clients may ask at once.
+/// Requests and replies kept per service, for several clients at once.
 const DEPTH: i32 = 64;
-/// Requests of a service that may be open.
+/// Most requests of a service without a reply.
 const MOST_OPEN: usize = 256;
-/// Clients of a service that are remembered.
+/// Most clients of a service that are remembered.
 const MOST_CLIENTS: usize = 1024;
 /// Longest wait for a new client's reply reader to be discovered.
 const CLIENT_WAIT: Duration = Duration::from_millis(500);
-/// Discovery knows a reader some time before our writer is matched with it, on another thread; nothing tells when. Paid
-/// once per client.
+/// Time from the discovery of a reader until our writer is matched with it, on another thread that does not report it. Each
+/// client waits once.
 const MATCH_WAIT: Duration = Duration::from_millis(100);
 
 /// A reply of the node.
@@ -70,8 +70,8 @@ impl ServiceServer {
         })
     }
 
-    /// Hands requests over and sends what comes back. Ends when there are no more answers and the last ones have reached
-    /// their clients; the result says whether that is why.
+    /// Forwards requests and sends replies. Returns true when the queue of answers is closed and the last replies have
+    /// reached their clients, and false when the subscription has ended.
     async fn serve(
         &self,
         service: u16,
@@ -124,7 +124,7 @@ impl ServiceServer {
             }
         }
         if let Some(replied) = replied {
-            // Older replies have arrived, or their clients have gone.
+            // Older replies have arrived, or their clients have left.
             let _ =
                 tokio::time::timeout_at(replied + LAST_REPLIES, self.replies.async_wait_for_acknowledgments()).await;
         }
@@ -137,7 +137,7 @@ impl ServiceServer {
             return outlet.log(
                 LogLevel::Error,
                 format!(
-                    "service {}: a reply of {length} bytes was not sent, it is longer than {MOST_REPLY}; ask for less at once",
+                    "service {}: a reply of {length} bytes was not sent, because it is longer than {MOST_REPLY}; request less at once",
                     self.name
                 ),
             );
@@ -172,14 +172,14 @@ impl ServiceServer {
     }
 }
 
-/// Whom a reply is for: the identity that the request gives, or else that of the request's own sample.
+/// The identity for the reply: the one that the request states, or else that of the request's own sample.
 fn reply_to(request: &DeserializedCacheChange<RawCdr>) -> SampleIdentity {
     let own = SampleIdentity {
         writer_guid: request.writer_guid(),
         sequence_number: request.sequence_number,
     };
     match request.related_sample_identity() {
-        // Fast DDS leaves the number open: it is the request's.
+        // Fast DDS leaves the number unknown; it is the request's number.
         Some(given) if given.sequence_number == SequenceNumber::UNKNOWN => SampleIdentity {
             sequence_number: own.sequence_number,
             ..given
@@ -189,7 +189,7 @@ fn reply_to(request: &DeserializedCacheChange<RawCdr>) -> SampleIdentity {
     }
 }
 
-/// An instant in ns since 1970; none for what is no instant.
+/// An instant in ns since 1970; none for the special values that are no instant.
 fn nanoseconds(stamp: Timestamp) -> Option<i64> {
     if stamp == Timestamp::INVALID || stamp == Timestamp::INFINITE {
         return None;
@@ -200,7 +200,7 @@ fn nanoseconds(stamp: Timestamp) -> Option<i64> {
     Some((seconds * 1_000_000_000 + ((parts * 1_000_000_000) >> 32)) as i64)
 }
 
-/// Runs all servers; each waits for its own clients only. Ends well after the last answer has been sent.
+/// Runs all servers, each of which waits for its own clients only. Ends after the last reply was sent.
 ///
 /// # Errors
 /// When a service has ended before.
@@ -220,7 +220,7 @@ pub(super) async fn serve(
     let ended = || SideError::Sick("a service ended".into());
     loop {
         tokio::select! {
-            // Without services there is nothing to wait for here.
+            // The pattern does not match where there are no services.
             Some(_) = serving.next() => return Err(ended()),
             answer = answers.recv() => match answer {
                 Some(answer) => {
@@ -232,7 +232,7 @@ pub(super) async fn serve(
             },
         }
     }
-    // The services end when these are gone and what waits in them is sent.
+    // The servers end when the queues are closed and the waiting replies are sent.
     drop(senders);
     while let Some(is_done) = serving.next().await {
         if !is_done {

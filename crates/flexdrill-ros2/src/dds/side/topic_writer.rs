@@ -1,9 +1,9 @@
-//! A topic that is written, and readers that do not take.
+//! The writer of a topic, and readers that do not acknowledge samples.
 //!
 //! RustDDS keeps a reliable writer's samples until the slowest reader has acknowledged them, whatever the history depth
-//! says; a full history refuses the newest sample, for all readers. A topic here has a resource limit and never waits. When
-//! it refuses, the writer is made anew: those who take go on with the new one within moments, and who does not take has
-//! lost what it left lying.
+//! is; a full history refuses the newest sample, for all readers. A topic here has a resource limit and never waits. When
+//! it refuses samples, the writer is replaced: healthy readers continue with the new one within moments, and a stalled
+//! reader loses its pending samples.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -19,16 +19,16 @@ use super::raw::RawCdr;
 use crate::dds::frames::Stall;
 use crate::dds::plan::{Offer, WriterPlan, dds_topic_name};
 
-/// How long a writer may refuse before it is made anew. Others wait as long; a healthy reader that has found it acknowledges
-/// within 0.1 s.
+/// Time for which a writer may refuse samples before it is replaced. The other readers wait as long; a healthy reader that
+/// is matched acknowledges within 0.1 s.
 const PATIENCE: Duration = Duration::from_millis(400);
-/// A reader that was found so short ago is not there yet: it acknowledges once it has found the writer too. Of this library
-/// that takes up to four seconds on a busy machine, and begins anew with each writer that it must find.
+/// Time after its discovery in which a reader counts as not matched yet. A reader of this library needs up to four seconds
+/// on a busy machine, for each new writer.
 const SETTLING: Duration = Duration::from_secs(5);
-/// States of a latched topic that may wait for the one before to be acknowledged.
+/// Most states of a latched topic that wait until the previous one is acknowledged.
 const WAITING: usize = 16;
-/// Every participant on the network is sent each new writer, so after this many the process begins afresh.
-pub(super) const MOST_RENEWALS: u32 = 200;
+/// Most replaced writers before the process is restarted: each one is announced to every participant.
+pub(super) const MOST_REPLACEMENTS: u32 = 200;
 
 /// Writes one topic.
 pub(super) struct TopicWriter {
@@ -38,12 +38,12 @@ pub(super) struct TopicWriter {
     refusing: Option<Refusing>,
     sent: u64,
     dropped: u64,
-    renewals: u32,
+    replacements: u32,
 }
 
-/// A writer that refuses, and what is learned meanwhile.
+/// A writer that refuses samples, and the readers that are observed meanwhile.
 struct Refusing {
-    /// Then it is made anew.
+    /// When the writer is replaced.
     until: Instant,
     watch: RepairWatch,
 }
@@ -58,21 +58,21 @@ impl TopicWriter {
             refusing: None,
             sent: 0,
             dropped: 0,
-            renewals: 0,
+            replacements: 0,
         })
     }
 
-    /// Samples taken by DDS, and samples refused.
+    /// Samples accepted by DDS, and samples refused.
     pub(super) fn written(&self) -> (u64, u64) {
         (self.sent, self.dropped)
     }
 
-    /// How often the writer was made anew.
-    pub(super) fn renewals(&self) -> u32 {
-        self.renewals
+    /// How often the writer was replaced.
+    pub(super) fn replacements(&self) -> u32 {
+        self.replacements
     }
 
-    /// Publishes; the newest state of a latched topic waits until there is room.
+    /// Publishes a sample. The newest states of a latched topic wait for room.
     pub(super) fn publish(&mut self, body: Vec<u8>) {
         if self.plan.offer.latched {
             if self.waiting.len() == WAITING {
@@ -86,8 +86,8 @@ impl TopicWriter {
         }
     }
 
-    /// Writes what waits and, when readers have not taken for too long, makes the writer anew.
-    pub(super) fn tend(
+    /// Writes waiting samples, and replaces the writer when readers have not acknowledged samples for too long.
+    pub(super) fn maintain(
         &mut self,
         now: Instant,
         graph: &mut NodeGraph,
@@ -104,13 +104,13 @@ impl TopicWriter {
         }
         let refusing = self.refusing.take()?;
         let (readers, is_certain) = book.stalled(&self.writer, &self.plan.topic, participant, &refusing.watch);
-        // A new writer that cannot be made leaves the old one, to be tried again.
+        // Where the new writer cannot be created, the old one remains until the next attempt.
         let renewed = create(graph, &self.plan).ok()?;
         graph.forget_writer(self.writer.guid());
         self.writer = renewed;
         graph.announce();
-        self.renewals += 1;
-        // Of states only the newest counts.
+        self.replacements += 1;
+        // Only the newest state counts.
         while self.waiting.len() > 1 {
             self.waiting.pop_front();
             self.dropped += 1;
@@ -133,7 +133,7 @@ impl TopicWriter {
     }
 
     /// # Errors
-    /// Gives the body back when there is no room for it.
+    /// Returns the body when DDS has no room for it.
     fn write(&mut self, body: Vec<u8>) -> Result<(), Vec<u8>> {
         match self.writer.write(RawCdr(body), Some(Timestamp::now())) {
             Ok(()) => {
@@ -148,7 +148,7 @@ impl TopicWriter {
                 });
                 Err(data.0)
             }
-            // Of no use to try again.
+            // Another attempt would fail, too.
             Err(_) => {
                 self.dropped += 1;
                 Ok(())

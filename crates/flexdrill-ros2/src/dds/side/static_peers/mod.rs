@@ -1,11 +1,12 @@
-//! Machines that multicast does not reach, which are named: each is sent by unicast what DDS here sends by multicast.
+//! Static peers: configured machines that multicast does not reach. Each receives by unicast what DDS here sends by
+//! multicast.
 //!
-//! RustDDS knows no peers. But it announces itself on 127.0.0.1 too, at the ports of this machine's first participants:
-//! a socket at one that is free hears the announcements, and passes them on without the multicast group. Whoever hears
-//! them answers by unicast, and is sent all of discovery by unicast.
+//! RustDDS has no static peers. But it announces itself also on 127.0.0.1, at the ports of this machine's first
+//! participants. A socket at a free one of these ports receives the announcements, and forwards them to the peers without
+//! the multicast group. A participant that receives them answers by unicast, and all of discovery follows by unicast.
 //!
-//! Samples still go by multicast, since RustDDS offers its readers' group with every reader and uses that of others. So
-//! what it sends there is sent once more to each reader of a peer; readers drop what they have.
+//! RustDDS sends samples to a reader's multicast group if the reader has one, and those samples do not reach a peer. They
+//! are therefore sent again to each reader of a peer by unicast; readers drop duplicates.
 
 mod announcement;
 
@@ -32,31 +33,31 @@ const PER_DOMAIN: u16 = 250;
 const SAMPLES: u16 = 1;
 const DISCOVERY: u16 = 10;
 const PER_PARTICIPANT: u16 = 2;
-/// Participants of this machine that RustDDS calls (`SPDP_LOCALHOST_PEER_COUNT`).
-const CALLED_HERE: u16 = 12;
-/// Participants of a peer that are called, as many as rmw_cyclonedds looks for.
-const CALLED_THERE: u16 = 32;
-/// How often a peer is called that may have come meanwhile: it is to be found within seconds.
+/// Participants of this machine to which RustDDS announces itself (`SPDP_LOCALHOST_PEER_COUNT`).
+const LOCAL_PARTICIPANTS: u16 = 12;
+/// Participants of a peer to which the announcement is forwarded, as many as rmw_cyclonedds tries.
+const PEER_PARTICIPANTS: u16 = 32;
+/// How often the announcement is repeated, so that a new peer is found within seconds.
 const REPEAT: Duration = Duration::from_secs(2);
-/// Shortest time between two calls: the library announces itself anew to each newcomer, also to those that are made up.
+/// Shortest time between two announcements: the library announces itself again to each new participant, also to forged ones.
 const PAUSE: Duration = Duration::from_millis(200);
-/// How often names are looked up again, and whether a port has become free.
-const AGAIN: Duration = Duration::from_secs(30);
+/// How often names are resolved again and ports are tried again.
+const RETRY: Duration = Duration::from_secs(30);
 /// Longest datagram (bytes).
 const MOST_BYTES: usize = 1 << 16;
 
-/// The named machines.
+/// The static peers.
 pub(super) struct StaticPeers {
     addresses: Arc<Mutex<Vec<Ipv4Addr>>>,
-    /// Where their readers hear samples.
+    /// The sockets of their readers.
     readers: Arc<Mutex<Vec<SocketAddr>>>,
 }
 
 impl StaticPeers {
-    /// Begins to call them, if there are any.
+    /// Starts to announce this participant to the peers, if there are any.
     ///
     /// # Errors
-    /// When the system gives no thread or socket.
+    /// When a thread or a socket cannot be created.
     pub(super) fn start(network: &Network, own: GuidPrefix, outlet: &Outlet) -> io::Result<Option<Self>> {
         if network.peers.is_empty() {
             return Ok(None);
@@ -66,11 +67,11 @@ impl StaticPeers {
             readers: Arc::default(),
         };
         let thread = |name: &str| std::thread::Builder::new().name(name.to_owned());
-        let (names, addresses, told) = (network.peers.clone(), Arc::clone(&peers.addresses), outlet.clone());
-        thread("peers' names").spawn(move || look_up(&names, &addresses, &told))?;
+        let (names, addresses, log) = (network.peers.clone(), Arc::clone(&peers.addresses), outlet.clone());
+        thread("peers' names").spawn(move || resolve(&names, &addresses, &log))?;
         let base = FIRST_PORT + PER_DOMAIN * network.domain_id;
         let out = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0))?;
-        let caller = Caller {
+        let announcer = Announcer {
             base,
             own,
             out: out.try_clone()?,
@@ -78,20 +79,20 @@ impl StaticPeers {
             failing: BTreeSet::new(),
             outlet: outlet.clone(),
         };
-        thread("peers").spawn(move || caller.run())?;
+        thread("peers").spawn(move || announcer.run())?;
         let samples = samples_socket(base + SAMPLES)?;
         let readers = Arc::clone(&peers.readers);
-        thread("peers' samples").spawn(move || pass_on(&samples, &out, own, &readers))?;
+        thread("peers' samples").spawn(move || forward_samples(&samples, &out, own, &readers))?;
         Ok(Some(peers))
     }
 
-    /// Looks who reads there.
-    pub(super) fn look(&self, participant: &DomainParticipant) {
+    /// Reads the readers of the peers from discovery.
+    pub(super) fn update(&self, participant: &DomainParticipant) {
         let addresses = locked(&self.addresses).clone();
         let reading = participant.discovered_readers();
         let found: BTreeSet<SocketAddr> = reading
             .iter()
-            // Others are sent their samples by unicast anyway.
+            // Readers without a multicast group receive samples by unicast anyway.
             .filter(|reader| !reader.reader_proxy.multicast_locator_list.is_empty())
             .flat_map(|reader| sockets(&reader.reader_proxy.unicast_locator_list))
             .filter(|socket| addresses.iter().any(|address| socket.ip() == *address))
@@ -100,32 +101,32 @@ impl StaticPeers {
     }
 }
 
-/// Waits until what was announced last is passed on: that this participant has gone.
-pub(super) fn let_them_hear() {
+/// Waits until the last announcement, that this participant leaves, is forwarded.
+pub(super) fn wait_for_delivery() {
     std::thread::sleep(PAUSE + PAUSE / 2);
 }
 
-/// Keeps the addresses of the names.
-fn look_up(names: &[String], addresses: &Mutex<Vec<Ipv4Addr>>, outlet: &Outlet) {
-    // Addresses need not wait for a name that nobody answers for.
+/// Keeps the addresses of the names up to date.
+fn resolve(names: &[String], addresses: &Mutex<Vec<Ipv4Addr>>, outlet: &Outlet) {
+    // Numeric addresses must not wait for a name that is slow to resolve.
     let mut known: Vec<Vec<Ipv4Addr>> = names.iter().map(|name| name.parse().into_iter().collect()).collect();
     *locked(addresses) = known.concat();
-    let mut told = vec![false; names.len()];
+    let mut is_logged = vec![false; names.len()];
     loop {
         for (index, name) in names.iter().enumerate() {
             match addresses_of(name) {
                 Ok(found) => {
                     known[index] = found;
-                    told[index] = false;
+                    is_logged[index] = false;
                 }
-                // What was known of it stays.
-                Err(why) if !told[index] => {
-                    told[index] = true;
+                // The former addresses remain.
+                Err(why) if !is_logged[index] => {
+                    is_logged[index] = true;
                     outlet.log(
                         LogLevel::Warning,
                         format!(
                             "the peer {name} has no IPv4 address: {why}; it is looked up again every {} s",
-                            AGAIN.as_secs()
+                            RETRY.as_secs()
                         ),
                     );
                 }
@@ -133,7 +134,7 @@ fn look_up(names: &[String], addresses: &Mutex<Vec<Ipv4Addr>>, outlet: &Outlet) 
             }
             *locked(addresses) = known.concat();
         }
-        std::thread::sleep(AGAIN);
+        std::thread::sleep(RETRY);
     }
 }
 
@@ -151,8 +152,8 @@ fn addresses_of(name: &str) -> Result<Vec<Ipv4Addr>, String> {
     Ok(found)
 }
 
-/// Passes announcements on.
-struct Caller {
+/// Forwards announcements to the peers.
+struct Announcer {
     base: u16,
     own: GuidPrefix,
     out: UdpSocket,
@@ -161,35 +162,35 @@ struct Caller {
     outlet: Outlet,
 }
 
-impl Caller {
+impl Announcer {
     fn run(mut self) {
-        let mut told = false;
-        let ear = loop {
-            // From the last one on, where another participant is least likely to want to be.
-            let mut ports = (0..CALLED_HERE).rev().map(|number| self.port(number));
-            if let Some(ear) = ports.find_map(|port| UdpSocket::bind((Ipv4Addr::LOCALHOST, port)).ok()) {
-                break ear;
+        let mut is_logged = false;
+        let socket = loop {
+            // The last port is tried first, because other participants use the first ones.
+            let mut ports = (0..LOCAL_PARTICIPANTS).rev().map(|number| self.port(number));
+            if let Some(socket) = ports.find_map(|port| UdpSocket::bind((Ipv4Addr::LOCALHOST, port)).ok()) {
+                break socket;
             }
-            if !told {
-                told = true;
+            if !is_logged {
+                is_logged = true;
                 let text = format!(
                     "the peers are not called: all of the UDP ports {} to {} of 127.0.0.1 are in use; too many DDS \
                      programs are on this machine",
                     self.port(0),
-                    self.port(CALLED_HERE - 1)
+                    self.port(LOCAL_PARTICIPANTS - 1)
                 );
                 self.outlet.log(LogLevel::Warning, text);
             }
-            std::thread::sleep(AGAIN);
+            std::thread::sleep(RETRY);
         };
         let mut buffer = vec![0; MOST_BYTES];
         let mut announced: Option<Vec<u8>> = None;
         let (mut called, mut due) = (Instant::now(), Instant::now());
         loop {
             let wait = due.saturating_duration_since(Instant::now());
-            // A timeout of nothing would be none at all.
-            let _ = ear.set_read_timeout(Some(wait.max(Duration::from_millis(1))));
-            if let Ok(length) = ear.recv(&mut buffer)
+            // A timeout of zero would mean none.
+            let _ = socket.set_read_timeout(Some(wait.max(Duration::from_millis(1))));
+            if let Ok(length) = socket.recv(&mut buffer)
                 && announcement::is_from(&buffer[..length], &self.own)
             {
                 announced = Some(announcement::without_multicast(&buffer[..length]));
@@ -235,7 +236,7 @@ fn call_all(
     mut told: impl FnMut(Ipv4Addr, Option<io::Error>),
 ) {
     for address in addresses {
-        let mut calls = (0..CALLED_THERE).map(|participant| {
+        let mut calls = (0..PEER_PARTICIPANTS).map(|participant| {
             let port = base + DISCOVERY + PER_PARTICIPANT * participant;
             out.send_to(announced, (*address, port))
         });
@@ -254,7 +255,7 @@ fn samples_socket(port: u16) -> io::Result<UdpSocket> {
 }
 
 /// Passes on what this participant sends to the group.
-fn pass_on(samples: &UdpSocket, out: &UdpSocket, own: GuidPrefix, readers: &Mutex<Vec<SocketAddr>>) {
+fn forward_samples(samples: &UdpSocket, out: &UdpSocket, own: GuidPrefix, readers: &Mutex<Vec<SocketAddr>>) {
     let mut buffer = vec![0; MOST_BYTES];
     let mut last = Vec::new();
     loop {
