@@ -1,4 +1,4 @@
-//! The node. A run has four stages: [`prepare`] checks names and files and declares all endpoints, `start` brings DDS and
+//! The node. A run has four stages: `prepare` checks names and files and declares all endpoints, `start` brings DDS and
 //! the threads up, `wait` lasts until the end of the run, `end` stops them in order.
 //!
 //! - the solver's thread: [`flexdrill_realtime`];

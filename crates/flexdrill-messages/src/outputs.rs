@@ -249,11 +249,7 @@ impl Outputs {
         ticks: u64,
         send: impl FnMut(Encoded<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut known = self
-            .last_applied
-            .take()
-            .map(|last| last.changes)
-            .unwrap_or_default();
+        let mut known = self.last_applied.take().map(|last| last.changes).unwrap_or_default();
         known.extend(changes.iter().map(|change| (change.name.clone(), change.clone())));
         self.last_applied = Some(LastApplied {
             inputs: *inputs,

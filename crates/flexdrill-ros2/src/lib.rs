@@ -2,7 +2,7 @@
 //!
 //! This crate alone depends on ros2-client and RustDDS; everything above it handles names, CDR bytes and the types of
 //! `flexdrill-messages`. DDS runs in a child process ([`dds`]): the program that uses this crate must run
-//! [`dds::side::run`] for the hidden subcommand [`dds::side::SUBCOMMAND`]. The crate knows nothing of the model.
+//! [`dds::side::main`] for the hidden subcommand [`dds::side::SUBCOMMAND`]. The crate knows nothing of the model.
 //!
 //! # Layout
 //! - [`dds`]: the DDS process, and the [`dds::port`] to it.

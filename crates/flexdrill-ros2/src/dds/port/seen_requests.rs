@@ -310,7 +310,7 @@ mod tests {
         for number in 0..2 * MOST_CLIENTS {
             assert_eq!(seen.judge(&from(number, START + number as i64)), Verdict::New);
         }
-        assert_eq!(taken.clients.len(), MOST_CLIENTS);
+        assert_eq!(seen.clients.len(), MOST_CLIENTS);
         assert_eq!(seen.judge(&from(3, START + 3)), Verdict::Forgotten);
         assert_eq!(seen.judge(&from(MOST_CLIENTS + 3, START + 3)), Verdict::Repeated);
         assert_eq!(seen.judge(&from(usize::MAX, now)), Verdict::New);

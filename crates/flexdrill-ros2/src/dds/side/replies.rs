@@ -217,7 +217,7 @@ pub(super) async fn serve(
         .enumerate()
         .map(|(index, (server, answers))| server.serve(index as u16, answers, book, outlet))
         .collect();
-    let ended = || SideError::Sick("a service ended".into());
+    let ended = || SideError::Unhealthy("a service ended".into());
     loop {
         tokio::select! {
             // The pattern does not match where there are no services.
