@@ -222,16 +222,14 @@ fn a_drive_that_runs_up_suppresses_the_tool_by_design() {
 #[test]
 fn a_model_that_contradicts_itself_calls_also_while_the_drive_stands() {
     let mut book = AlarmBook::fresh(config(), 0);
-    let poor = Snapshot {
-        quality: ModelQuality {
-            level: QualityLevel::Poor,
-            cause: Some(QualityCause::EnergyError),
-            value: 0.56,
-            bound: 0.53,
-            judged: true,
-            ..ModelQuality::default()
-        },
-        ..Snapshot::default()
+    let mut poor = Snapshot::default();
+    poor.quality = ModelQuality {
+        level: QualityLevel::Poor,
+        cause: Some(QualityCause::EnergyError),
+        value: 0.56,
+        bound: 0.53,
+        judged: true,
+        ..ModelQuality::default()
     };
     show(&mut book, 10, 1, &poor);
     let list = publish(&mut book, 11).1.unwrap();

@@ -109,6 +109,9 @@ impl Default for AdviceTable {
     }
 }
 
+/// Of a speed (r/min) and of a weight (kN).
+const TARGET: Bound = Bound::within(0.0, 1000.0);
+
 /// The limits of a rule. The twin advises on one limit at a time: the first, in the order lower speed, lower weight,
 /// raise speed, raise weight, that changes the present inputs within their limits and agrees with the rules of the
 /// other standing alarms.
@@ -117,15 +120,19 @@ impl Default for AdviceTable {
 pub struct Advice {
     /// Bring the weight on bit below this value (kN).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = TARGET.in_schema())]
     pub lower_weight_on_bit_kn: Option<f64>,
     /// Bring the weight on bit above this value (kN).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = TARGET.in_schema())]
     pub raise_weight_on_bit_kn: Option<f64>,
     /// Bring the rotary speed below this value (r/min).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = TARGET.in_schema())]
     pub lower_rotary_speed_rpm: Option<f64>,
     /// Bring the rotary speed above this value (r/min).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = TARGET.in_schema())]
     pub raise_rotary_speed_rpm: Option<f64>,
 }
 
@@ -148,7 +155,7 @@ impl Advice {
         ] {
             if let Some(value) = value {
                 let reason = "far above any drive and any rig";
-                c.number(key, value, Bound::within(0.0, 1000.0), unit, reason);
+                c.number(key, value, TARGET, unit, reason);
             }
         }
     }

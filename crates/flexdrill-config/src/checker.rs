@@ -1,6 +1,9 @@
 //! Holds values against their bounds and collects what is wrong, with the place in the file.
 
+use schemars::Schema;
+use schemars::transform::Transform;
 use serde::Serialize;
+use serde_json::Number;
 
 use super::error::{ConfigError, Problem};
 use super::lines::Lines;
@@ -11,6 +14,43 @@ pub struct Bound {
     low: f64,
     high: f64,
     low_is_in: bool,
+}
+
+/// Writes a bound into the JSON Schema of a key, as a `transform` of schemars. A side that is infinite stays out: there
+/// the limit depends on other keys, which a schema cannot express.
+pub(crate) struct InSchema(Bound);
+
+impl Transform for InSchema {
+    fn transform(&mut self, schema: &mut Schema) {
+        let is_integer = schema.get("type").is_some_and(|kind| kind == "integer");
+        let number = |value: f64| {
+            if is_integer && value.is_finite() {
+                Some(Number::from(value as i64))
+            } else {
+                Number::from_f64(value)
+            }
+        };
+        if let Some(low) = number(self.0.low) {
+            // An unsigned type brings a minimum of 0 with it.
+            schema.remove("minimum");
+            let name = if self.0.low_is_in { "minimum" } else { "exclusiveMinimum" };
+            schema.insert(name.to_owned(), low.into());
+        }
+        if let Some(high) = number(self.0.high) {
+            schema.insert("maximum".to_owned(), high.into());
+        }
+    }
+}
+
+/// Limits of every item of a list, as a `transform` of schemars.
+pub(crate) struct EachItem(pub(crate) Bound);
+
+impl Transform for EachItem {
+    fn transform(&mut self, schema: &mut Schema) {
+        if let Some(Ok(items)) = schema.get_mut("items").map(<&mut Schema>::try_from) {
+            self.0.in_schema().transform(items);
+        }
+    }
 }
 
 impl Bound {
@@ -30,6 +70,11 @@ impl Bound {
             high,
             low_is_in: false,
         }
+    }
+
+    /// This bound as a `transform` of the key's JSON Schema.
+    pub(crate) const fn in_schema(self) -> InSchema {
+        InSchema(self)
     }
 
     fn holds(self, value: f64) -> bool {
@@ -71,30 +116,14 @@ pub struct NumberKey {
     pub reason: &'static str,
 }
 
-/// What a number or a count was held against.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Limit {
-    /// Dotted path.
-    pub key: String,
-    /// Smallest (see `low_is_in`).
-    pub low: f64,
-    /// Largest, allowed itself.
-    pub high: f64,
-    /// Whether the smallest is allowed itself.
-    pub low_is_in: bool,
-}
-
-/// Walks a configuration.
+/// Walks a configuration, holds its values against their bounds and collects the problems.
 pub struct Checker<'a> {
     file: &'a str,
     lines: &'a Lines,
     path: Vec<String>,
-    /// Found so far.
     problems: Vec<Problem>,
-    /// Every number read so far, with its bounds.
+    /// Every number read so far, with its bounds; counts are not among them.
     pub numbers: Vec<NumberKey>,
-    /// The same for the JSON Schema, with the counts.
-    pub limits: Vec<Limit>,
 }
 
 impl<'a> Checker<'a> {
@@ -106,7 +135,6 @@ impl<'a> Checker<'a> {
             path: Vec::new(),
             problems: Vec::new(),
             numbers: Vec::new(),
-            limits: Vec::new(),
         }
     }
 
@@ -136,15 +164,8 @@ impl<'a> Checker<'a> {
         if !bound.holds(value) {
             self.wrong(key, number(value), unit, bound.words(unit), reason);
         }
-        let path = self.path_of(key);
-        self.limits.push(Limit {
-            key: path.clone(),
-            low: bound.low,
-            high: bound.high,
-            low_is_in: bound.low_is_in,
-        });
         self.numbers.push(NumberKey {
-            key: path,
+            key: self.path_of(key),
             value,
             low: bound.low,
             high: bound.high,
@@ -154,17 +175,11 @@ impl<'a> Checker<'a> {
         });
     }
 
-    /// A count against its limits, both allowed.
-    pub fn count(&mut self, key: &str, value: usize, low: usize, high: usize, reason: &str) {
-        if value < low || value > high {
-            self.wrong(key, value, "", format!("{low} to {high}"), reason);
+    /// A count against its limits.
+    pub fn count(&mut self, key: &str, value: usize, bound: Bound, reason: &str) {
+        if !bound.holds(value as f64) {
+            self.wrong(key, value, "", bound.words(""), reason);
         }
-        self.limits.push(Limit {
-            key: self.path_of(key),
-            low: low as f64,
-            high: high as f64,
-            low_is_in: true,
-        });
     }
 
     /// Reports `value` unless `holds`.

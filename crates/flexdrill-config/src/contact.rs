@@ -83,11 +83,9 @@ impl Layer {
     };
 
     pub(super) fn describe(&self) -> GapDescription {
-        GapDescription {
-            stiffness: self.stiffness,
-            damping: self.damping,
-            friction_tangential: self.friction_tangential,
-            friction_axial: self.friction_axial,
-        }
+        let mut gap = GapDescription::new(self.stiffness, self.friction_tangential);
+        gap.friction_axial = self.friction_axial;
+        gap.damping = self.damping;
+        gap
     }
 }

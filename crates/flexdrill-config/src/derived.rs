@@ -3,8 +3,7 @@
 use super::Config;
 use std::f64::consts::PI;
 
-use flexdrill_core::tool::JointKind;
-use flexdrill_core::tool::section::SectionProperties;
+use flexdrill_core::tool::{JointKind, SectionProperties};
 use flexdrill_core::units::rad_to_deg;
 
 /// How large the system is, held directions included.

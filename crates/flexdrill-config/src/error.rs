@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 /// Why a configuration was refused.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ConfigError {
     /// The file could not be read.
     #[error("{}: cannot be read: {reason}", path.display())]
@@ -54,6 +55,7 @@ pub enum ConfigError {
 
 /// One value that is out of its bounds or contradicts another.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Problem {
     /// Name of the file.
     pub file: String,

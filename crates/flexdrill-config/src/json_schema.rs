@@ -2,22 +2,13 @@
 //!
 //! Words of the mechanics stand here again, since `flexdrill-core` knows nothing of files; a test holds them together.
 
-mod bounds;
-
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
-/// The schema of a configuration file: JSON Schema, draft 2020-12. Bounds are those of the checks; those that depend on
-/// other keys stand in the descriptions only.
+/// The schema of a configuration file: JSON Schema, draft 2020-12. `minimum` and `maximum` are the bounds of the checks;
+/// limits that depend on other keys stand in the descriptions only.
 pub fn json_schema() -> Value {
-    let mut schema = plain_schema();
-    bounds::add(&mut schema);
-    schema
-}
-
-/// The same without bounds, which take a search.
-pub(super) fn plain_schema() -> Value {
     let generator = SchemaSettings::draft2020_12().into_generator();
     let mut schema = generator.into_root_schema_for::<super::Schema>().to_value();
     if let Some(root) = schema.as_object_mut() {

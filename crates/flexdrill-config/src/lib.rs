@@ -37,6 +37,10 @@ mod warnings;
 mod well;
 mod whirl;
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 use std::ops::Deref;
 use std::path::Path;
 
@@ -268,63 +272,59 @@ impl Config {
     /// The tool, for the mechanics.
     pub fn tool(&self) -> ToolDescription {
         let mesh = self.mesh();
-        let tool = &self.tool;
-        let elements = tool.elements_per_link;
-        ToolDescription {
-            well: self.well.describe(),
-            links: tool.links,
-            elements_per_link: elements,
-            material: tool.material.describe(),
-            pipe_sections: tool.pipe.element_sections(elements),
-            pipe_contact_diameters: tool.pipe.contact_diameters(elements),
-            guide_section: tool.guide.section(),
-            guide_bending_factor: tool.guide.bending_factor,
-            guide_fixed: tool.guide.fixed,
-            hole_diameter: self.well.hole_diameter,
-            joint: tool.joint.describe(),
-            rayleigh: tool.damping.describe(),
-            inner: self.contact.inner.describe(),
-            outer: self.contact.outer.describe(),
-            slip_speed: self.contact.slip_speed,
-            bit: tool.bit.describe(),
-            gravity: self.environment.effective_gravity(),
-            supports: self.boundary.describe(&mesh),
-            drive_top: self.boundary.drive == Drive::Top,
-            wob_path: self.boundary.wob_path,
-            loads: self.loads.iter().map(|load| load.describe(&mesh)).collect(),
-            masses: self.masses.iter().map(|mass| mass.describe(&mesh)).collect(),
-            initial_pipe_velocity: self.initial.velocity,
-            initial_pipe_displacement: self.initial.displacement,
-            initial_spin_rate: rpm_to_rad_per_s(self.initial.spin_rpm),
-            static_start: self.start == Start::Static,
-        }
+        let (elements, pipe, guide) = (self.tool.elements_per_link, &self.tool.pipe, &self.tool.guide);
+        let hole = self.well.hole_diameter;
+        let (links, uniform) = (self.tool.links, pipe.uniform_section().unwrap_or_default());
+        ToolDescription::new(self.well.describe(), hole, links, uniform, guide.section()).with(|tool| {
+            tool.elements_per_link = elements;
+            tool.material = self.tool.material.describe();
+            tool.pipe_sections = pipe.element_sections(elements);
+            tool.pipe_contact_diameters = pipe.contact_diameters(elements);
+            tool.guide_bending_factor = guide.bending_factor;
+            tool.guide_fixed = guide.fixed;
+            tool.joint = self.tool.joint.describe();
+            tool.rayleigh = self.tool.damping.describe();
+            tool.inner = self.contact.inner.describe();
+            tool.outer = self.contact.outer.describe();
+            tool.slip_speed = self.contact.slip_speed;
+            tool.bit = self.tool.bit.describe();
+            tool.gravity = self.environment.effective_gravity();
+            tool.supports = self.boundary.describe(&mesh);
+            tool.drive_top = self.boundary.drive == Drive::Top;
+            tool.wob_path = self.boundary.wob_path;
+            tool.loads = self.loads.iter().map(|load| load.describe(&mesh)).collect();
+            tool.masses = self.masses.iter().map(|mass| mass.describe(&mesh)).collect();
+            tool.initial_pipe_velocity = self.initial.velocity;
+            tool.initial_pipe_displacement = self.initial.displacement;
+            tool.initial_spin_rate = rpm_to_rad_per_s(self.initial.spin_rpm);
+            tool.static_start = self.start == Start::Static;
+        })
     }
 
     /// How the simulation runs.
     pub fn simulation(&self) -> SimulationSettings {
         let (speed, weight) = (&self.inputs.rotary_speed, &self.inputs.weight_on_bit);
-        SimulationSettings {
-            time_step: self.solver.time_step,
-            step: self.solver.rule(),
-            scheme: self.solver.describe(),
-            max_iterations: self.solver.max_iterations,
-            residual_factor: 1.0,
-            max_halvings: self.solver.max_halvings,
-            initial_inputs: Inputs {
+        SimulationSettings::default().with(|settings| {
+            settings.time_step = self.solver.time_step;
+            settings.step = self.solver.rule();
+            settings.scheme = self.solver.describe();
+            settings.max_iterations = self.solver.max_iterations;
+            settings.max_halvings = self.solver.max_halvings;
+            settings.initial_inputs = Inputs {
                 rotary_speed: rpm_to_rad_per_s(speed.initial_rpm),
                 weight_on_bit: kn_to_n(weight.initial_kn),
-            },
-            rotary_speed_slew: rpm_to_rad_per_s(speed.fastest_change_rpm_per_s()),
-            weight_on_bit_slew: kn_to_n(weight.slew_kn_per_s),
-            whirl: self.whirl_settings(),
-            stick_slip: self.stick_slip.describe(),
-            shock: self.shock.describe(),
-            joint_load: self.joint_load.describe(),
-            chaotic_whirl: self.chaotic_whirl.describe(),
-            ageing: self.joint_load.describe_ageing(),
-            watched: self.whirl.places(self.mesh().last_station()),
-            whirl_sample_interval: 1.0 / self.whirl.sample_rate,
-        }
+            };
+            settings.rotary_speed_slew = rpm_to_rad_per_s(speed.fastest_change_rpm_per_s());
+            settings.weight_on_bit_slew = kn_to_n(weight.slew_kn_per_s);
+            settings.whirl = self.whirl_settings();
+            settings.stick_slip = self.stick_slip.describe();
+            settings.shock = self.shock.describe();
+            settings.joint_load = self.joint_load.describe();
+            settings.chaotic_whirl = self.chaotic_whirl.describe();
+            settings.ageing = self.joint_load.describe_ageing();
+            settings.watched = self.whirl.watched_stations(self.mesh().last_station());
+            settings.whirl_sample_interval = 1.0 / self.whirl.sample_rate;
+        })
     }
 
     /// Parameters that may change while running, as configured.

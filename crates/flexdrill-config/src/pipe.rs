@@ -7,6 +7,9 @@ use super::checker::{Bound, Checker};
 use flexdrill_core::tool::Tube;
 
 const DIAMETER: Bound = Bound::above(0.0, 2.0);
+/// 0 is a solid bar.
+const INNER_DIAMETER: Bound = Bound::within(0.0, 2.0);
+const BENDING_FACTOR: Bound = Bound::above(0.0, 10.0);
 const DIAMETER_REASON: &str = "given in metres";
 
 /// The links of the flexible pipe, all identical: either uniform (`outer_diameter`, `inner_diameter`) or stepped
@@ -16,12 +19,15 @@ const DIAMETER_REASON: &str = "given in metres";
 pub struct Pipe {
     /// Outer diameter (m). Required unless there are pieces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = DIAMETER.in_schema())]
     pub outer_diameter: Option<f64>,
     /// Inner diameter (m), 0 is a solid bar. Required unless there are pieces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = INNER_DIAMETER.in_schema())]
     pub inner_diameter: Option<f64>,
     /// Diameter at which the pipe contacts the guide (m). Default: the outer diameter of the steel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = DIAMETER.in_schema())]
     pub contact_diameter: Option<f64>,
     /// Pieces of a stepped link, from top to bottom without gaps. Default: a uniform link.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -35,10 +41,13 @@ pub struct Piece {
     /// Beginning of the piece, as a fraction of the link from its top.
     pub from: f64,
     /// End of the piece, as a fraction of the link from its top.
+    #[schemars(transform = Bound::within(f64::NEG_INFINITY, 1.0).in_schema())]
     pub to: f64,
     /// Outer diameter (m).
+    #[schemars(transform = DIAMETER.in_schema())]
     pub outer_diameter: f64,
     /// Inner diameter (m).
+    #[schemars(transform = INNER_DIAMETER.in_schema())]
     pub inner_diameter: f64,
 }
 
@@ -47,11 +56,14 @@ pub struct Piece {
 #[serde(deny_unknown_fields)]
 pub struct Guide {
     /// Outer diameter (m). Required.
+    #[schemars(transform = DIAMETER.in_schema())]
     pub outer_diameter: f64,
     /// Inner diameter (m). Required.
+    #[schemars(transform = INNER_DIAMETER.in_schema())]
     pub inner_diameter: f64,
     /// Factor on the bending stiffness: 1 for a plain tube, less for a slotted one. Default 1.
     #[serde(default = "one")]
+    #[schemars(transform = BENDING_FACTOR.in_schema())]
     pub bending_factor: f64,
     /// `true` holds every node in all directions, like the outer beam of the paper's Fig. 8. Default false.
     #[serde(default)]
@@ -64,7 +76,7 @@ fn one() -> f64 {
 
 fn check_tube(c: &mut Checker, outer: f64, inner: f64) {
     c.number("outer_diameter", outer, DIAMETER, "m", DIAMETER_REASON);
-    c.number("inner_diameter", inner, Bound::within(0.0, 2.0), "m", DIAMETER_REASON);
+    c.number("inner_diameter", inner, INNER_DIAMETER, "m", DIAMETER_REASON);
     if inner >= outer {
         c.wrong(
             "inner_diameter",
@@ -141,28 +153,23 @@ impl Pipe {
         });
     }
 
+    /// The section of a pipe without pieces.
+    pub(super) fn uniform_section(&self) -> Option<Tube> {
+        Some(Tube {
+            outer_diameter: self.outer_diameter?,
+            inner_diameter: self.inner_diameter?,
+        })
+    }
+
     fn piece_at(&self, fraction: f64) -> Tube {
-        if let (Some(outer_diameter), Some(inner_diameter)) = (self.outer_diameter, self.inner_diameter) {
-            return Tube {
-                outer_diameter,
-                inner_diameter,
-            };
-        }
-        let piece = self
-            .pieces
-            .iter()
-            .find(|piece| fraction <= piece.to)
-            .or(self.pieces.last());
-        piece.map_or(
-            Tube {
-                outer_diameter: 0.0,
-                inner_diameter: 0.0,
-            },
-            |piece| Tube {
+        self.uniform_section().unwrap_or_else(|| {
+            let at = self.pieces.iter().find(|piece| fraction <= piece.to);
+            let piece = at.or(self.pieces.last());
+            piece.map_or(Tube::default(), |piece| Tube {
                 outer_diameter: piece.outer_diameter,
                 inner_diameter: piece.inner_diameter,
-            },
-        )
+            })
+        })
     }
 
     /// Section of each of a link's elements: the piece at the element's middle.
@@ -206,7 +213,7 @@ impl Guide {
         c.number(
             "bending_factor",
             self.bending_factor,
-            Bound::above(0.0, 10.0),
+            BENDING_FACTOR,
             "",
             "1 is a plain tube; without any bending stiffness the guide would fold",
         );

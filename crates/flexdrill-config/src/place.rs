@@ -22,7 +22,7 @@ pub enum At {
     /// By number.
     Joint(usize),
     /// The station nearest to this distance from the kick-off (m).
-    MeasuredDepth(f64),
+    MeasuredDepth(#[schemars(transform = Bound::within(0.0, f64::INFINITY).in_schema())] f64),
 }
 
 /// The mesh that locations refer to.
@@ -37,6 +37,11 @@ impl Mesh {
     pub(super) fn last_station(&self) -> usize {
         self.links * self.elements_per_link
     }
+
+    /// Station numbers from the top to the bottom.
+    pub(super) fn stations(&self) -> Bound {
+        Bound::within(0.0, self.last_station() as f64)
+    }
 }
 
 impl At {
@@ -44,13 +49,7 @@ impl At {
         match *self {
             Self::Top | Self::Bottom | Self::All => {}
             Self::Station(station) => c.below("at", |c| {
-                c.count(
-                    "station",
-                    station,
-                    0,
-                    mesh.last_station(),
-                    "stations count from 0 at the top",
-                );
+                c.count("station", station, mesh.stations(), "stations count from 0 at the top");
             }),
             Self::Joint(joint) => c.below("at", |c| {
                 let bound = match mesh.links {

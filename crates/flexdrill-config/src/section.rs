@@ -3,9 +3,10 @@
 /// Makes the structure of a section, its `Default` and `check_numbers`, which holds its numbers against their bounds.
 ///
 /// A row is `key: type = default, bound(low, high), unit, why these limits;`. The bound is `within` or `above`
-/// ([`Bound`](crate::checker::Bound)) and may refer to other keys through the name that stands behind the section's.
-/// A row without bound is checked elsewhere; `below` instead of a bound holds the numbers of a section within this one.
-/// In a section whose rows have no defaults every key must be given, unless serde has a default for it.
+/// ([`Bound`](crate::checker::Bound)). A limit is a literal, which the JSON Schema of the key then carries too, or an
+/// expression that refers to other keys through the name in parentheses after the section's name, which only the check
+/// can evaluate. A row without a bound is checked elsewhere; `below` instead of a bound checks the numbers of a section
+/// within this one. In a section whose rows have no defaults every key must be given, unless serde has a default for it.
 macro_rules! section {
     (
         $(#[$outer:meta])*
@@ -13,7 +14,7 @@ macro_rules! section {
             $(
                 $(#[$inner:meta])*
                 $field:ident: $type:ty = $default:expr
-                $(, $bound:ident $(($low:expr, $high:expr), $unit:literal, $reason:literal)?)?;
+                $(, $bound:ident $(($($limits:tt)*), $unit:literal, $reason:literal)?)?;
             )*
         }
     ) => {
@@ -24,8 +25,8 @@ macro_rules! section {
             $(
                 $(#[$inner])*
                 $($(
-                    #[doc = concat!("\n\nAllowed: ", stringify!($bound), " ", stringify!($low), " to ",
-                        stringify!($high), " ", $unit)]
+                    #[doc = section!(@words $bound($($limits)*), $unit)]
+                    #[schemars(transform = section!(@constant $bound($($limits)*)).in_schema())]
                 )?)?
                 pub $field: $type,
             )*
@@ -37,14 +38,14 @@ macro_rules! section {
             }
         }
 
-        section!(@check $name, $this, $($field $(, $bound $(($low, $high), $unit, $reason)?)?;)*);
+        section!(@check $name, $this, $($field $(, $bound $(($($limits)*), $unit, $reason)?)?;)*);
     };
     (
         $(#[$outer:meta])*
         pub struct $name:ident($this:ident) {
             $(
                 $(#[$inner:meta])*
-                $field:ident: $type:ty $(, $bound:ident $(($low:expr, $high:expr), $unit:literal, $reason:literal)?)?;
+                $field:ident: $type:ty $(, $bound:ident $(($($limits:tt)*), $unit:literal, $reason:literal)?)?;
             )*
         }
     ) => {
@@ -55,28 +56,44 @@ macro_rules! section {
             $(
                 $(#[$inner])*
                 $($(
-                    #[doc = concat!("\n\nAllowed: ", stringify!($bound), " ", stringify!($low), " to ",
-                        stringify!($high), " ", $unit)]
+                    #[doc = section!(@words $bound($($limits)*), $unit)]
+                    #[schemars(transform = section!(@constant $bound($($limits)*)).in_schema())]
                 )?)?
                 pub $field: $type,
             )*
         }
 
-        section!(@check $name, $this, $($field $(, $bound $(($low, $high), $unit, $reason)?)?;)*);
+        section!(@check $name, $this, $($field $(, $bound $(($($limits)*), $unit, $reason)?)?;)*);
     };
     (
         @check $name:ident, $this:ident,
-        $($field:ident $(, $bound:ident $(($low:expr, $high:expr), $unit:literal, $reason:literal)?)?;)*
+        $($field:ident $(, $bound:ident $(($($limits:tt)*), $unit:literal, $reason:literal)?)?;)*
     ) => {
         impl $name {
             /// Holds the numbers against their bounds.
             pub(crate) fn check_numbers(&self, c: &mut crate::checker::Checker) {
                 let $this = self;
                 $(
-                    $(section!(@row c, $this, $field, $bound $(($low, $high), $unit, $reason)?);)?
+                    $(section!(@row c, $this, $field, $bound $(($($limits)*), $unit, $reason)?);)?
                 )*
             }
         }
+    };
+    (@words $bound:ident($low:expr, $high:expr), $unit:literal) => {
+        concat!("\n\nAllowed: ", stringify!($bound), " ", stringify!($low), " to ", stringify!($high), " ", $unit)
+    };
+    // The limits that no other key moves.
+    (@constant $bound:ident($low:literal, $high:literal)) => {
+        crate::checker::Bound::$bound($low, $high)
+    };
+    (@constant $bound:ident($low:literal, $high:expr)) => {
+        crate::checker::Bound::$bound($low, f64::INFINITY)
+    };
+    (@constant $bound:ident($low:expr, $high:literal)) => {
+        crate::checker::Bound::$bound(f64::NEG_INFINITY, $high)
+    };
+    (@constant $bound:ident($low:expr, $high:expr)) => {
+        crate::checker::Bound::$bound(f64::NEG_INFINITY, f64::INFINITY)
     };
     (@row $c:ident, $this:ident, $field:ident, below) => {
         $c.below(stringify!($field), |c| $this.$field.check_numbers(c));

@@ -7,12 +7,20 @@ use super::checker::{Bound, Checker};
 use flexdrill_core::dynamics::Scheme;
 use flexdrill_core::twin::StepRule;
 
+const TIME_STEP: Bound = Bound::within(1e-7, 0.01);
+const GAMMA: Bound = Bound::within(0.5, 1.0);
+/// Over all schemes; HHT's begins at [`HHT_LEAST`].
+const RHO_INFINITY: Bound = Bound::within(0.0, 1.0);
+const ITERATIONS: Bound = Bound::within(2.0, 100.0);
+const HALVINGS: Bound = Bound::within(0.0, 20.0);
+
 /// Time scheme with Newton-Raphson, Eq. 36 to 44.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "Given")]
 #[schemars(!from, default, deny_unknown_fields)]
 pub struct Solver {
     /// Model step (s). Larger steps lose accuracy in collisions. Default 0.0005.
+    #[schemars(transform = TIME_STEP.in_schema())]
     pub time_step: f64,
     /// `auto` solves each step in two parts, in four where the motion requires it, or whole where the machine is too
     /// slow; `fixed` always whole. Default `auto`.
@@ -21,13 +29,17 @@ pub struct Solver {
     pub scheme: TimeScheme,
     /// Newmark's gamma; beta = (gamma + 1/2)^2 / 4. Values above 1/2 add numerical damping. Default 0.55. Without
     /// `scheme`, this key selects `scheme: newmark`.
+    #[schemars(transform = GAMMA.in_schema())]
     pub gamma: f64,
     /// Spectral radius at infinite frequency of the other schemes: the share of the amplitude at the highest
     /// frequencies that remains after a step. A smaller value damps more. Default 0.45; for `hht` 0.5.
+    #[schemars(transform = RHO_INFINITY.in_schema())]
     pub rho_infinity: f64,
     /// Largest number of Newton iterations per sub-step. Default 15.
+    #[schemars(transform = ITERATIONS.in_schema())]
     pub max_iterations: u32,
     /// Largest number of times that a step without convergence is halved. Default 6.
+    #[schemars(transform = HALVINGS.in_schema())]
     pub max_halvings: u32,
 }
 
@@ -149,9 +161,9 @@ impl Solver {
 
     pub(super) fn check(&self, c: &mut Checker) {
         let reason = "a stiff contact lasts some milliseconds: a longer step would jump over it";
-        c.number("time_step", self.time_step, Bound::within(1e-7, 0.01), "s", reason);
+        c.number("time_step", self.time_step, TIME_STEP, "s", reason);
         let reason = "below 1/2 the integration gains energy, above 1 it takes nearly all motion";
-        c.number("gamma", self.gamma, Bound::within(0.5, 1.0), "", reason);
+        c.number("gamma", self.gamma, GAMMA, "", reason);
         let newmark = self.scheme == TimeScheme::Newmark;
         let default = Self::default();
         if !newmark {
@@ -161,8 +173,12 @@ impl Solver {
         }
         let reason =
             "above 1 high frequencies grow; below 0 they change sign with every step, and hht damps no more below 0.5";
-        let least = if self.scheme == TimeScheme::Hht { HHT_LEAST } else { 0.0 };
-        c.number("rho_infinity", self.rho_infinity, Bound::within(least, 1.0), "", reason);
+        let bound = if self.scheme == TimeScheme::Hht {
+            Bound::within(HHT_LEAST, 1.0)
+        } else {
+            RHO_INFINITY
+        };
+        c.number("rho_infinity", self.rho_infinity, bound, "", reason);
         if newmark {
             let bound = format!("left at {} with solver.scheme newmark", default.rho_infinity);
             let reason = "Newmark has gamma instead";
@@ -170,12 +186,11 @@ impl Solver {
             c.require(given == default.rho_infinity, "rho_infinity", given, "", bound, reason);
         }
         let reason = "a linear step takes 2, a healthy contact 3 to 5";
-        c.count("max_iterations", self.max_iterations as usize, 2, 100, reason);
+        c.count("max_iterations", self.max_iterations as usize, ITERATIONS, reason);
         c.count(
             "max_halvings",
             self.max_halvings as usize,
-            0,
-            20,
+            HALVINGS,
             "each doubles the work of a step",
         );
     }

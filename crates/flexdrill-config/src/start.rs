@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::checker::{Bound, Checker};
+use super::checker::{Bound, Checker, EachItem};
 
 /// How a run begins.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -16,15 +16,22 @@ pub enum Start {
     AsGiven,
 }
 
+const VELOCITY: Bound = Bound::within(-100.0, 100.0);
+const DISPLACEMENT: Bound = Bound::within(-1.0, 1.0);
+const SPIN: Bound = Bound::within(-10_000.0, 10_000.0);
+
 /// Motion of every pipe node at the start; only with `start: as_given`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Initial {
     /// Velocity (u, v, w) in the station frame (m/s). Default 0.
+    #[schemars(transform = EachItem(VELOCITY))]
     pub velocity: [f64; 3],
     /// Displacement (u, v, w) in the station frame (m). Default 0.
+    #[schemars(transform = EachItem(DISPLACEMENT))]
     pub displacement: [f64; 3],
     /// Spin of every pipe node. Default 0.
+    #[schemars(transform = SPIN.in_schema())]
     pub spin_rpm: f64,
 }
 
@@ -33,21 +40,15 @@ impl Initial {
         for (index, name) in ["0", "1", "2"].into_iter().enumerate() {
             c.below("velocity", |c| {
                 let reason = "a drilling tool does not move faster";
-                c.number(name, self.velocity[index], Bound::within(-100.0, 100.0), "m/s", reason);
+                c.number(name, self.velocity[index], VELOCITY, "m/s", reason);
             });
             c.below("displacement", |c| {
                 let reason = "of the order of the clearances";
-                c.number(name, self.displacement[index], Bound::within(-1.0, 1.0), "m", reason);
+                c.number(name, self.displacement[index], DISPLACEMENT, "m", reason);
             });
         }
         let reason = "far above any drive";
-        c.number(
-            "spin_rpm",
-            self.spin_rpm,
-            Bound::within(-10_000.0, 10_000.0),
-            "r/min",
-            reason,
-        );
+        c.number("spin_rpm", self.spin_rpm, SPIN, "r/min", reason);
         c.require(
             start == Start::AsGiven || *self == Self::default(),
             "",

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
-use super::json_schema::plain_schema;
+use super::json_schema::json_schema;
 
 /// The meaning of every key, in a sentence or two, with the words that it takes; no two keys have the same text. Bounds
 /// are not in it.
 pub fn key_texts() -> BTreeMap<String, String> {
-    let schema = plain_schema();
+    let schema = json_schema();
     let mut keys = Vec::new();
     walk(&schema, &schema, &Place::default(), &mut Vec::new(), &mut keys);
     let mut count: BTreeMap<&str, usize> = BTreeMap::new();

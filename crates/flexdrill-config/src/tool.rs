@@ -3,21 +3,27 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::checker::Checker;
+use super::checker::{Bound, Checker};
 use super::json_schema;
 use super::pipe::{Guide, Pipe};
 use super::section::section;
 use flexdrill_core::tool::{BitDescription, HingeAngle, JointDescription, JointKind, Material as Steel, Rayleigh};
 use flexdrill_core::units::deg_to_rad;
 
+const LINKS: Bound = Bound::within(1.0, 500.0);
+const ELEMENTS: Bound = Bound::within(1.0, MOST_ELEMENTS as f64);
+const MOST_ELEMENTS: usize = 50;
+
 /// The tool.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
     /// Number of links; they share the well's length equally. Required.
+    #[schemars(transform = LINKS.in_schema())]
     pub links: usize,
     /// Beam elements per link. Default 5, the paper's.
     #[serde(default = "five")]
+    #[schemars(transform = ELEMENTS.in_schema())]
     pub elements_per_link: usize,
     /// Material of both pipes. Default steel.
     #[serde(default)]
@@ -152,21 +158,19 @@ impl Tool {
         c.count(
             "links",
             self.links,
-            1,
-            500,
+            LINKS,
             "more than 500 links cannot be stepped in useful time",
         );
         c.count(
             "elements_per_link",
             self.elements_per_link,
-            1,
-            50,
+            ELEMENTS,
             "a link is short and stiff; the paper takes 5",
         );
         c.below("material", |c| self.material.check_numbers(c));
         c.below("pipe", |c| self.pipe.check(c));
         c.below("guide", |c| self.guide.check(c));
-        if (1..=50).contains(&self.elements_per_link) {
+        if (1..=MOST_ELEMENTS).contains(&self.elements_per_link) {
             let widest = self
                 .pipe
                 .contact_diameters(self.elements_per_link)
@@ -199,15 +203,13 @@ impl Material {
 
 impl Joint {
     pub(super) fn describe(&self) -> JointDescription {
-        JointDescription {
-            kind: self.kind,
-            limit: deg_to_rad(self.limit_deg),
-            stop_stiffness: self.stop_stiffness,
-            stop_damping: self.stop_damping,
-            cross_phase: deg_to_rad(self.cross_phase_deg),
-            cross_phase_step: deg_to_rad(self.cross_phase_step_deg),
-            hinge_angle: self.hinge_angle,
-        }
+        let mut joint = JointDescription::new(self.kind, deg_to_rad(self.limit_deg));
+        joint.stop_stiffness = self.stop_stiffness;
+        joint.stop_damping = self.stop_damping;
+        joint.cross_phase = deg_to_rad(self.cross_phase_deg);
+        joint.cross_phase_step = deg_to_rad(self.cross_phase_step_deg);
+        joint.hinge_angle = self.hinge_angle;
+        joint
     }
 }
 
@@ -222,11 +224,9 @@ impl Damping {
 
 impl Bit {
     pub(super) fn describe(&self) -> BitDescription {
-        BitDescription {
-            diameter: self.diameter,
-            friction_factor: self.friction_factor,
-            slip_rate: self.slip_rate,
-            inertia: self.inertia,
-        }
+        let mut bit = BitDescription::new(self.diameter, self.friction_factor);
+        bit.slip_rate = self.slip_rate;
+        bit.inertia = self.inertia;
+        bit
     }
 }

@@ -56,15 +56,20 @@ section! {
     }
 }
 
+const REPEATS: Bound = Bound::within(1.0, MOST_REPEATS as f64);
+
 /// Numbers of impulses of three levels.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Repeats {
     /// Threshold of WATCH.
+    #[schemars(transform = REPEATS.in_schema())]
     pub watch: u32,
     /// Threshold of WARNING.
+    #[schemars(transform = REPEATS.in_schema())]
     pub warning: u32,
     /// Threshold of CRITICAL.
+    #[schemars(transform = REPEATS.in_schema())]
     pub critical: u32,
 }
 
@@ -121,15 +126,21 @@ section! {
     }
 }
 
+/// The widest bound of a threshold: that of an impulse (N s) and of a power (W/m).
+const THRESHOLD: Bound = Bound::above(0.0, 1e6);
+
 /// Thresholds of three levels.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Steps {
     /// Threshold of WATCH.
+    #[schemars(transform = THRESHOLD.in_schema())]
     pub watch: f64,
     /// Threshold of WARNING.
+    #[schemars(transform = THRESHOLD.in_schema())]
     pub warning: f64,
     /// Threshold of CRITICAL.
+    #[schemars(transform = THRESHOLD.in_schema())]
     pub critical: f64,
 }
 
@@ -149,6 +160,7 @@ impl Steps {
         [self.watch, self.warning, self.critical]
     }
 
+    /// `most` is at most that of [`THRESHOLD`].
     pub(super) fn check(&self, c: &mut Checker, most: f64, unit: &'static str) {
         let keys = [
             ("watch", self.watch),
@@ -173,15 +185,15 @@ impl StickSlip {
     }
 
     pub(super) fn describe(&self) -> StickSlipSettings {
-        StickSlipSettings {
-            window: self.window,
-            gate_speed: rpm_to_rad_per_s(self.gate_speed_rpm),
-            thresholds: AlarmThresholds {
-                levels: self.levels.levels(),
-                hysteresis: self.hysteresis,
-                hold_off: self.hold_off,
-            },
-        }
+        let mut settings = StickSlipSettings::default();
+        settings.window = self.window;
+        settings.gate_speed = rpm_to_rad_per_s(self.gate_speed_rpm);
+        settings.thresholds = AlarmThresholds {
+            levels: self.levels.levels(),
+            hysteresis: self.hysteresis,
+            hold_off: self.hold_off,
+        };
+        settings
     }
 }
 
@@ -197,23 +209,23 @@ impl Shock {
             } = self.repeats;
             for (key, repeats) in [("watch", watch), ("warning", warning), ("critical", critical)] {
                 let reason = "so many times are kept for each level";
-                c.count(key, repeats as usize, 1, MOST_REPEATS, reason);
+                c.count(key, repeats as usize, REPEATS, reason);
             }
         });
     }
 
     pub(super) fn describe(&self) -> ShockSettings {
-        ShockSettings {
-            interval: self.interval,
-            mean_time: self.mean_time,
-            thresholds: AlarmThresholds {
-                levels: self.levels.levels(),
-                hysteresis: self.hysteresis,
-                hold_off: self.hold_off,
-            },
-            repeats: [self.repeats.watch, self.repeats.warning, self.repeats.critical],
-            span: self.span,
-        }
+        let mut settings = ShockSettings::default();
+        settings.interval = self.interval;
+        settings.mean_time = self.mean_time;
+        settings.thresholds = AlarmThresholds {
+            levels: self.levels.levels(),
+            hysteresis: self.hysteresis,
+            hold_off: self.hold_off,
+        };
+        settings.repeats = [self.repeats.watch, self.repeats.warning, self.repeats.critical];
+        settings.span = self.span;
+        settings
     }
 }
 
@@ -224,23 +236,23 @@ impl ChaoticWhirl {
     }
 
     pub(super) fn describe(&self) -> ChaoticWhirlSettings {
-        ChaoticWhirlSettings {
-            window: self.window,
-            thresholds: AlarmThresholds {
-                levels: self.levels.levels(),
-                hysteresis: self.hysteresis,
-                hold_off: self.hold_off,
-            },
-        }
+        let mut settings = ChaoticWhirlSettings::default();
+        settings.window = self.window;
+        settings.thresholds = AlarmThresholds {
+            levels: self.levels.levels(),
+            hysteresis: self.hysteresis,
+            hold_off: self.hold_off,
+        };
+        settings
     }
 }
 
 impl JointLoad {
     pub(super) fn describe_ageing(&self) -> AgeingSettings {
-        AgeingSettings {
-            slope: self.woehler_slope,
-            rated_moment: self.rated_moment_nm,
-        }
+        let mut settings = AgeingSettings::default();
+        settings.slope = self.woehler_slope;
+        settings.rated_moment = self.rated_moment_nm;
+        settings
     }
 
     pub(super) fn check(&self, c: &mut Checker) {
@@ -249,14 +261,14 @@ impl JointLoad {
     }
 
     pub(super) fn describe(&self) -> JointLoadSettings {
-        JointLoadSettings {
-            rated_moment: self.rated_moment_nm,
-            interval: self.interval,
-            thresholds: AlarmThresholds {
-                levels: self.levels.levels(),
-                hysteresis: self.hysteresis,
-                hold_off: self.hold_off,
-            },
-        }
+        let mut settings = JointLoadSettings::default();
+        settings.rated_moment = self.rated_moment_nm;
+        settings.interval = self.interval;
+        settings.thresholds = AlarmThresholds {
+            levels: self.levels.levels(),
+            hysteresis: self.hysteresis,
+            hold_off: self.hold_off,
+        };
+        settings
     }
 }

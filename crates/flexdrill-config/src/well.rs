@@ -7,16 +7,24 @@ use super::checker::{Bound, Checker};
 use flexdrill_core::tool::{WellDescription, WellSection};
 use flexdrill_core::units::deg_to_rad;
 
+const INCLINATION: Bound = Bound::within(0.0, 180.0);
+const HOLE: Bound = Bound::above(0.0, 2.0);
+const LENGTH: Bound = Bound::above(0.0, 1000.0);
+const RADIUS: Bound = Bound::within(0.5, 10_000.0);
+const BUILD: Bound = Bound::above(0.0, 180.0);
+
 /// The bore: its centre line from the kick-off down and its diameter. The tool fills it from end to end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Well {
     /// Inclination at the top: 0 is vertical, 90 horizontal. Default 0.
     #[serde(default)]
+    #[schemars(transform = INCLINATION.in_schema())]
     pub start_inclination_deg: f64,
     /// Sections of the bore, from the top down. Required.
     pub sections: Vec<Section>,
     /// Diameter of the hole (m). Required.
+    #[schemars(transform = HOLE.in_schema())]
     pub hole_diameter: f64,
 }
 
@@ -27,13 +35,16 @@ pub enum Section {
     /// `straight: {length: 1.0}`.
     Straight {
         /// Length of the section (m).
+        #[schemars(transform = LENGTH.in_schema())]
         length: f64,
     },
     /// `arc: {radius: 3.2, build_angle_deg: 90}`.
     Arc {
         /// Radius of the arc (m).
+        #[schemars(transform = RADIUS.in_schema())]
         radius: f64,
         /// Increase of the inclination over the arc.
+        #[schemars(transform = BUILD.in_schema())]
         build_angle_deg: f64,
     },
 }
@@ -84,7 +95,7 @@ impl Well {
         c.number(
             "start_inclination_deg",
             self.start_inclination_deg,
-            Bound::within(0.0, 180.0),
+            INCLINATION,
             "deg",
             "0 is straight down, 180 straight up",
         );
@@ -113,7 +124,7 @@ impl Well {
         c.number(
             "hole_diameter",
             self.hole_diameter,
-            Bound::above(0.0, 2.0),
+            HOLE,
             "m",
             "a bore of a slim drilling tool, given in metres",
         );
@@ -141,7 +152,7 @@ impl Section {
                 c.number(
                     "length",
                     length,
-                    Bound::above(0.0, 1000.0),
+                    LENGTH,
                     "m",
                     "the model is of one tool, not of a whole drill string",
                 );
@@ -153,14 +164,14 @@ impl Section {
                 c.number(
                     "radius",
                     radius,
-                    Bound::within(0.5, 10_000.0),
+                    RADIUS,
                     "m",
                     "below 0.5 m the frames of neighbouring stations differ too much for small tilts",
                 );
                 c.number(
                     "build_angle_deg",
                     build_angle_deg,
-                    Bound::above(0.0, 180.0),
+                    BUILD,
                     "deg",
                     "arcs build inclination; use `straight` for none",
                 );

@@ -128,7 +128,7 @@ impl Whirl {
                 c.below("stations", |c| {
                     for (index, station) in stations.iter().enumerate() {
                         let reason = "stations count from 0 at the top";
-                        c.count(&index.to_string(), *station, 0, mesh.last_station(), reason);
+                        c.count(&index.to_string(), *station, mesh.stations(), reason);
                     }
                 });
             });
@@ -151,7 +151,7 @@ impl Whirl {
     }
 
     /// Stations and pipes to watch, up to `last_station`; empty stands for both pipes at every joint.
-    pub(super) fn places(&self, last_station: usize) -> Vec<(usize, Body)> {
+    pub(super) fn watched_stations(&self, last_station: usize) -> Vec<(usize, Body)> {
         let both = |station: usize| [(station, Body::Pipe), (station, Body::Guide)];
         match &self.watched {
             Watched::Joints => Vec::new(),
@@ -161,24 +161,23 @@ impl Whirl {
     }
 
     pub(super) fn describe(&self) -> WhirlSettings {
-        WhirlSettings {
-            window_turns: self.window_turns,
-            max_window: self.max_window,
-            min_rotary_speed: rpm_to_rad_per_s(self.gate_speed_rpm),
-            standstill_time: self.standstill_time,
-            min_orbit_ratio: self.min_orbit_ratio,
-            steady_direction: self.steady_direction,
-            min_repetition: self.min_repetition,
-            rolling_tolerance: self.rolling_tolerance,
-            input_trust: self.input_trust.describe(),
-            min_confidence: self.min_confidence,
-            hysteresis: self.hysteresis,
-            hold_off: self.hold_off,
-            large_orbit_ratio: self.large_orbit_ratio,
-            backward_cycles: self.backward_cycles.levels(),
-            forward_power: [self.forward_power.watch, self.forward_power.warning],
-            lasting_turns: self.lasting_turns.levels(),
-            ..WhirlSettings::default()
-        }
+        let mut settings = WhirlSettings::default();
+        settings.window_turns = self.window_turns;
+        settings.max_window = self.max_window;
+        settings.min_rotary_speed = rpm_to_rad_per_s(self.gate_speed_rpm);
+        settings.standstill_time = self.standstill_time;
+        settings.min_orbit_ratio = self.min_orbit_ratio;
+        settings.steady_direction = self.steady_direction;
+        settings.min_repetition = self.min_repetition;
+        settings.rolling_tolerance = self.rolling_tolerance;
+        settings.input_trust = self.input_trust.describe();
+        settings.min_confidence = self.min_confidence;
+        settings.hysteresis = self.hysteresis;
+        settings.hold_off = self.hold_off;
+        settings.large_orbit_ratio = self.large_orbit_ratio;
+        settings.backward_cycles = self.backward_cycles.levels();
+        settings.forward_power = [self.forward_power.watch, self.forward_power.warning];
+        settings.lasting_turns = self.lasting_turns.levels();
+        settings
     }
 }

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
-    Body, Direction, GapDescription, LoadHistory, Location, PointLoad, Rayleigh, Support, ToolDescription, Tube,
-    WellDescription, WellSection, WobPath,
+    Body, Direction, LoadHistory, Location, PointLoad, Rayleigh, Support, ToolDescription, Tube, WellDescription,
+    WellSection, WobPath,
 };
 use flexdrill_core::twin::{Simulation, SimulationSettings};
 
@@ -20,34 +20,28 @@ const DIAMETER: f64 = 0.03;
 /// A horizontal bar, clamped at the top, alone: no gravity, no contact, the guide held.
 fn bar(load: PointLoad) -> ToolDescription {
     use Direction::{PhiY, PhiZ, Psi, U, V, W};
-    let paper = ToolDescription::paper();
-    let no_contact = GapDescription {
-        stiffness: 0.0,
-        ..paper.inner
+    let well = WellDescription {
+        start_inclination: 0.5 * PI,
+        sections: vec![WellSection::Straight { length: LENGTH }],
     };
-    let tool = ToolDescription {
-        well: WellDescription {
-            start_inclination: 0.5 * PI,
-            sections: vec![WellSection::Straight { length: LENGTH }],
-        },
-        guide_fixed: true,
-        rayleigh: Rayleigh { alpha: 0.0, beta: 0.0 },
-        inner: no_contact,
-        outer: no_contact,
-        gravity: 0.0,
-        supports: vec![Support {
+    let bar = Tube {
+        outer_diameter: DIAMETER,
+        inner_diameter: 0.0,
+    };
+    let guide = ToolDescription::paper().guide_section;
+    ToolDescription::new(well, 0.118, 1, bar, guide).with(|tool| {
+        tool.guide_fixed = true;
+        tool.rayleigh = Rayleigh { alpha: 0.0, beta: 0.0 };
+        (tool.inner.stiffness, tool.outer.stiffness) = (0.0, 0.0);
+        tool.gravity = 0.0;
+        tool.supports = vec![Support {
             location: Location::Top,
             body: Body::Pipe,
             directions: vec![U, V, W, Psi, PhiY, PhiZ],
-        }],
-        drive_top: false,
-        wob_path: WobPath::Guide,
-        loads: vec![load],
-        ..paper.with_mesh(1, 5)
-    };
-    tool.with_pipe(Tube {
-        outer_diameter: DIAMETER,
-        inner_diameter: 0.0,
+        }];
+        tool.drive_top = false;
+        tool.wob_path = WobPath::Guide;
+        tool.loads = vec![load];
     })
 }
 
@@ -95,10 +89,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         history: LoadHistory::Table(vec![(0.0, force), (1e-9, 0.0)]),
     };
     let tool = bar(gone);
-    let settings = SimulationSettings {
-        time_step: 0.1e-3,
-        ..settings
-    };
+    let settings = settings.with(|settings| settings.time_step = 0.1e-3);
     let mut twin = Simulation::new(&tool, &settings)?;
     let mut crossings = Vec::new();
     let mut before = 0.0;

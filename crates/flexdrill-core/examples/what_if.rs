@@ -60,10 +60,7 @@ fn main() -> Result<()> {
     }
 
     // A checkpoint goes back to its own tool only.
-    let other = ToolDescription {
-        slip_speed: 0.02,
-        ..tool
-    };
+    let other = tool.with(|tool| tool.slip_speed = 0.02);
     if let Err(refused) = Simulation::new(&other, &SimulationSettings::default())?.restore(&saved) {
         println!("another tool: {refused}");
     }

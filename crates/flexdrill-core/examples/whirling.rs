@@ -40,10 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn run(tool: &ToolDescription, inputs: &Inputs, parts: u32) -> Result<(), Box<dyn std::error::Error>> {
-    let mut settings = SimulationSettings {
-        rotary_speed_slew: rpm_to_rad_per_s(200.0),
-        ..SimulationSettings::default()
-    };
+    let mut settings =
+        SimulationSettings::default().with(|settings| settings.rotary_speed_slew = rpm_to_rad_per_s(200.0));
     settings.initial_inputs.weight_on_bit = inputs.weight_on_bit;
     let mut simulation = Simulation::new(tool, &settings)?;
     simulation.set_refinement(parts);

@@ -39,6 +39,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! A description is built in code, as here, or read from a YAML file: the crate `flexdrill-config` checks the file and
+//! returns the [`tool::ToolDescription`] and the [`twin::SimulationSettings`] (`Config::load("tool.yaml")?.tool()`).
+//!
+//! # Features
+//! `checkpoints`, on by default, adds [`twin::Simulation::checkpoint`] and [`twin::Simulation::restore`].
+//!
 //! # Layout
 //! - [`tool`]: what is modelled, as plain structs, and its checks.
 //! - [`twin`]: simulation, settings, snapshots, checkpoints, the schedule of outputs.
@@ -75,6 +81,10 @@ pub mod units;
 pub mod validation;
 
 pub use simd::Instructions;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 #[cfg(test)]
 extern crate self as flexdrill_core;

@@ -4,10 +4,11 @@
 //! These bounds are those without which the mechanics cannot compute: a mass above zero, a step above zero, lists of
 //! the right length. What is sensible in practice is narrower and stands with the YAML schema.
 
-use crate::tool::description::Location;
+use crate::tool::Location;
 
 /// A description, settings or parameters that cannot be computed with.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ValidationError {
     /// A number out of its bounds, NaN and infinity included.
     #[error("{field} = {value}{}{unit}: must be {bound}", if unit.is_empty() { "" } else { " " })]

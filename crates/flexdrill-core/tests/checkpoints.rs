@@ -82,11 +82,10 @@ fn other_limits_on_iterations_and_halvings_are_taken() {
     let saved = simulation(&tiny(), &SimulationSettings::default())
         .checkpoint()
         .unwrap();
-    let settings = SimulationSettings {
-        max_iterations: 30,
-        max_halvings: 8,
-        ..SimulationSettings::default()
-    };
+    let settings = SimulationSettings::default().with(|settings| {
+        settings.max_iterations = 30;
+        settings.max_halvings = 8;
+    });
     simulation(&tiny(), &settings).restore(&saved).unwrap();
 }
 

@@ -21,10 +21,7 @@ const LOOK: f64 = 0.1;
 /// Drives the paper's tool at 10 kN with the speed that `rpm` gives for a time (s), no faster than `slew` (r/min per s),
 /// and shows every tenth of a second.
 fn drive(slew: f64, seconds: f64, rpm: impl Fn(f64) -> f64, mut look: impl FnMut(&Snapshot)) {
-    let settings = SimulationSettings {
-        rotary_speed_slew: rpm_to_rad_per_s(slew),
-        ..SimulationSettings::default()
-    };
+    let settings = SimulationSettings::default().with(|settings| settings.rotary_speed_slew = rpm_to_rad_per_s(slew));
     let mut twin = Simulation::new(&ToolDescription::paper(), &settings).unwrap();
     let mut snapshot = twin.new_snapshot();
     for number in 1..=(seconds / LOOK).round() as u32 {

@@ -40,12 +40,11 @@ fn run(tool: &ToolDescription, time_step: f64, duration: f64) -> Snapshot {
         rotary_speed: SPEED,
         weight_on_bit: 0.0,
     };
-    let settings = SimulationSettings {
-        time_step,
-        scheme: Scheme::newmark(0.5),
-        initial_inputs: inputs,
-        ..SimulationSettings::default()
-    };
+    let settings = SimulationSettings::default().with(|settings| {
+        settings.time_step = time_step;
+        settings.scheme = Scheme::newmark(0.5);
+        settings.initial_inputs = inputs;
+    });
     let mut twin = Simulation::new(tool, &settings).unwrap();
     while twin.time() < duration - 1e-9 {
         twin.advance(&inputs).ok().unwrap();
@@ -83,11 +82,10 @@ fn inertia_slows_the_bit() {
             rotary_speed: 4.0,
             weight_on_bit: 10e3,
         };
-        let settings = SimulationSettings {
-            initial_inputs: inputs,
-            rotary_speed_slew: 1e3,
-            ..SimulationSettings::default()
-        };
+        let settings = SimulationSettings::default().with(|settings| {
+            settings.initial_inputs = inputs;
+            settings.rotary_speed_slew = 1e3;
+        });
         let mut twin = Simulation::new(&tool, &settings).unwrap();
         let mut snapshot = twin.new_snapshot();
         let mut fastest = 0.0_f64;

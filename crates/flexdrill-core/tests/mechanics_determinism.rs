@@ -95,11 +95,10 @@ fn a_checkpoint_of_another_mesh_is_refused_and_changes_nothing() {
 #[test]
 fn a_step_that_cannot_converge_is_reported_and_changes_nothing_but_counters() {
     // Two iterations and no halving: the first collision cannot be solved.
-    let settings = SimulationSettings {
-        max_iterations: 2,
-        max_halvings: 0,
-        ..SimulationSettings::default()
-    };
+    let settings = SimulationSettings::default().with(|settings| {
+        settings.max_iterations = 2;
+        settings.max_halvings = 0;
+    });
     let mut simulation = Simulation::new(&coarse(), &settings).unwrap();
     for _ in 0..4000 {
         let before = simulation.state();

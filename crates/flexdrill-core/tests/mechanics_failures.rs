@@ -108,13 +108,12 @@ fn inputs_out_of_bounds() {
         weight_on_bit: 1e7,
     };
     assert_eq!(bound.out_of_bounds(), None);
-    let settings = SimulationSettings {
-        initial_inputs: Inputs {
+    let settings = SimulationSettings::default().with(|settings| {
+        settings.initial_inputs = Inputs {
             rotary_speed: 1e6,
             ..INPUTS
-        },
-        ..SimulationSettings::default()
-    };
+        }
+    });
     let refused = Simulation::new(&tiny(), &settings).err().map(|error| error.to_string());
     assert_eq!(
         refused.as_deref(),

@@ -37,10 +37,7 @@ fn run(tool: &ToolDescription, instructions: Instructions, steps: u64) -> (Vec<f
 fn machines_agree_to_the_bit() {
     let default = ToolDescription::paper();
     // The guide on the wall at many stations: spans eliminated together and alone.
-    let soft = ToolDescription {
-        guide_bending_factor: 0.05,
-        ..default.clone()
-    };
+    let soft = default.clone().with(|tool| tool.guide_bending_factor = 0.05);
     // Joints with two rotational rows.
     let hinged = hinged();
     for (name, tool) in [("default", &default), ("soft guide", &soft), ("hinged", &hinged)] {

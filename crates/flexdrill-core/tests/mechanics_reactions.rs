@@ -21,13 +21,12 @@ const AT_REST: f64 = 166.0 * 2.0 * 0.010;
 
 /// Under a weight on bit of 10 kN from the start.
 fn simulation(tool: &ToolDescription, solver: SolverKind) -> Simulation {
-    let settings = SimulationSettings {
-        initial_inputs: Inputs {
+    let settings = SimulationSettings::default().with(|settings| {
+        settings.initial_inputs = Inputs {
             rotary_speed: 0.0,
             weight_on_bit: 10e3,
-        },
-        ..SimulationSettings::default()
-    };
+        }
+    });
     Simulation::with_solver(tool, &settings, solver, Instructions::best()).unwrap()
 }
 

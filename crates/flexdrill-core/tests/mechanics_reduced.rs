@@ -43,18 +43,12 @@ fn calm(tool: &ToolDescription, solver: SolverKind, weight_on_bit: f64, steps: u
 #[test]
 fn calm_joints_are_where_they_are_with_all_stations() {
     let default = ToolDescription::paper();
-    let tied = ToolDescription {
-        wob_path: WobPath::Shared,
-        ..default.clone()
-    };
+    let tied = default.clone().with(|tool| tool.wob_path = WobPath::Shared);
     // Between its joints such a guide gives way by a micrometre under its contacts.
     let mut soft = default.clone();
     soft.guide_bending_factor = 0.05;
     let hinged = support::hinged();
-    let fixed = ToolDescription {
-        guide_fixed: true,
-        ..default.clone()
-    };
+    let fixed = default.clone().with(|tool| tool.guide_fixed = true);
     for (name, tool, load, steps) in [
         ("default", &default, 10e3, 6000),
         ("tied", &tied, 10e3, 6000),

@@ -25,10 +25,7 @@ fn calm() -> ToolDescription {
 }
 
 fn simulation(tool: &ToolDescription, time_step: f64) -> Simulation {
-    let mut settings = SimulationSettings {
-        time_step,
-        ..SimulationSettings::default()
-    };
+    let mut settings = SimulationSettings::default().with(|settings| settings.time_step = time_step);
     settings.initial_inputs.weight_on_bit = LOAD;
     Simulation::new(tool, &settings).unwrap()
 }
@@ -147,11 +144,10 @@ fn a_checkpoint_keeps_the_parts() {
 fn a_motion_whose_steps_err_asks_for_more_parts() {
     let tool = ToolDescription::paper();
     let run = |step: StepRule, time_step: f64, model_time: f64| {
-        let mut settings = SimulationSettings {
-            time_step,
-            step,
-            ..SimulationSettings::default()
-        };
+        let mut settings = SimulationSettings::default().with(|settings| {
+            settings.time_step = time_step;
+            settings.step = step;
+        });
         settings.initial_inputs.weight_on_bit = LOAD;
         let simulation = Simulation::new(&tool, &settings).unwrap();
         let mut run = Run::new(simulation, Schedule::new(time_step, |_| 0.0));

@@ -22,11 +22,10 @@ fn first_swing(time_step: f64) -> (f64, f64, f64) {
         rotary_speed: tool.initial_spin_rate,
         weight_on_bit: 10e3,
     };
-    let settings = SimulationSettings {
-        time_step,
-        initial_inputs: inputs,
-        ..SimulationSettings::default()
-    };
+    let settings = SimulationSettings::default().with(|settings| {
+        settings.time_step = time_step;
+        settings.initial_inputs = inputs;
+    });
     let mut twin = Simulation::new(&tool, &settings).unwrap();
     let mut snapshot = twin.new_snapshot();
     let (mut lowest, mut highest) = (f64::MAX, f64::MIN);

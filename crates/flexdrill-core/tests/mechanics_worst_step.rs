@@ -11,17 +11,15 @@ mod support;
 use flexdrill_core::dynamics::State;
 use flexdrill_core::dynamics::{FailureCause, StepOutcome};
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::twin::{Simulation, SimulationSettings};
+use flexdrill_core::twin::Simulation;
 use flexdrill_core::units::rpm_to_rad_per_s;
 use support::{coarse, hard_settings};
 
 /// The tool at 120 r/min and 30 kN with `max_iterations` and `max_halvings`, in steps of 2 ms, eight times what
 /// converges well: joints strike their stops and the pipe strikes the guide within a step.
 fn hard(max_iterations: u32, max_halvings: u32) -> (Simulation, Inputs) {
-    let settings = SimulationSettings {
-        rotary_speed_slew: rpm_to_rad_per_s(120.0),
-        ..hard_settings(max_iterations, max_halvings)
-    };
+    let settings = hard_settings(max_iterations, max_halvings)
+        .with(|settings| settings.rotary_speed_slew = rpm_to_rad_per_s(120.0));
     let inputs = Inputs {
         rotary_speed: 12.57,
         weight_on_bit: 30e3,

@@ -54,7 +54,7 @@ fn advance_and_snapshot_allocate_nothing() {
         rotary_speed: 4.19,
         weight_on_bit: 10e3,
     };
-    simulation.advance(&inputs);
+    simulation.advance(&inputs).ok().unwrap();
     let before = ALLOCATIONS.get();
     // Long enough for contacts, stops, evaluations of the whirl analysis and a slew of both inputs.
     for step in 0..2000 {

@@ -16,14 +16,13 @@ use flexdrill_core::units::rpm_to_rad_per_s;
 const JUDGED: f64 = 10.5;
 
 fn run(tool: &ToolDescription, time_step: f64) -> (Simulation, Snapshot) {
-    let settings = SimulationSettings {
-        time_step,
-        initial_inputs: Inputs {
+    let settings = SimulationSettings::default().with(|settings| {
+        settings.time_step = time_step;
+        settings.initial_inputs = Inputs {
             rotary_speed: 0.0,
             weight_on_bit: 10e3,
-        },
-        ..SimulationSettings::default()
-    };
+        };
+    });
     let mut twin = Simulation::new(tool, &settings).unwrap();
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(40.0),

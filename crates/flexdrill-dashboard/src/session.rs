@@ -4,8 +4,7 @@
 use serde_json::{Value, json};
 
 use flexdrill_config::Config;
-use flexdrill_core::tool::ToolDescription;
-use flexdrill_core::tool::well::{WellPath, frame_along, tangent};
+use flexdrill_core::tool::{ToolDescription, WellPath, frame_along, tangent};
 use flexdrill_messages::SessionInfo;
 
 /// Longest configuration that is read (bytes): ten times that of the default tool with all its comments.

@@ -405,8 +405,7 @@ impl Hookload {
         c.count(
             "tare_min_rows",
             self.tare_min_rows,
-            1,
-            100_000,
+            Bound::within(1.0, 100_000.0),
             "a median of too few rows is chance",
         );
         let reason = "the noise of a hookload";

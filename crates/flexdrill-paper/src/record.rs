@@ -309,10 +309,8 @@ impl Recorder {
             axis.acceleration_square.iter_mut().for_each(scale);
         }
         self.record.energy = *simulation.energy();
-        self.record.solver = SolverCounters {
-            last_iterations: 0,
-            ..simulation.solver_counters()
-        };
+        self.record.solver = simulation.solver_counters();
+        self.record.solver.last_iterations = 0;
         self.record.steps = simulation.step();
         self.record
     }

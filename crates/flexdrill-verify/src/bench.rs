@@ -112,10 +112,9 @@ impl Bench {
                 what: "its configuration",
             })?;
         let config = change(Config::from_text(&format!("config/verify/{case}.yaml"), text)?)?;
-        let settings = SimulationSettings {
-            residual_factor,
-            ..config.simulation()
-        };
+        let settings = config
+            .simulation()
+            .with(|settings| settings.residual_factor = residual_factor);
         let simulation =
             Simulation::new(&config.tool(), &settings).map_err(|source| VerifyError::Build { case, source })?;
         Ok(Self {

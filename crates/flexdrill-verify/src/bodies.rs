@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use super::bench::{Bench, crossing_frequency};
 use super::{Row, VerifyError};
 use flexdrill_config::{Config, ConfigError};
-use flexdrill_core::tool::section::SectionProperties;
+use flexdrill_core::tool::SectionProperties;
 use flexdrill_core::tool::{Body, Direction};
 
 /// 20 elements give the first frequency within (b / 20)^2 / 24 = 1e-4, the step within 1e-5.

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::bench::Bench;
 use super::{Row, VerifyError};
-use flexdrill_core::tool::section::SectionProperties;
+use flexdrill_core::tool::SectionProperties;
 use flexdrill_core::tool::{Body, Direction};
 
 pub(super) fn mass_onto_gap() -> Result<Vec<Row>, VerifyError> {

@@ -2,7 +2,7 @@
 
 use super::bench::Bench;
 use super::{Row, VerifyError};
-use flexdrill_core::tool::section::SectionProperties;
+use flexdrill_core::tool::SectionProperties;
 use flexdrill_core::tool::{Body, Direction};
 
 const CASE: &str = "free_vibration";

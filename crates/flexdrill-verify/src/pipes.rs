@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::bench::{Bench, crossing_frequency};
 use super::{HingedBeam, Row, VerifyError};
-use flexdrill_core::tool::section::SectionProperties;
+use flexdrill_core::tool::SectionProperties;
 use flexdrill_core::tool::{Body, Direction};
 
 /// Statics of a linear beam: rounding of the solve.

@@ -9,6 +9,7 @@ use crate::tool::description::Body;
 
 /// Result of one advance by the configured step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[must_use]
 pub enum StepOutcome {
     /// The step was taken.
     Advanced {
@@ -36,6 +37,7 @@ impl StepOutcome {
 
 /// Why and where a step or sub-step was not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[must_use]
 pub struct StepFailure {
     /// Why the sub-step was not accepted.
     pub cause: FailureCause,
@@ -55,6 +57,7 @@ pub struct StepFailure {
 /// Causes of a rejected step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum FailureCause {
     /// Newton's corrections did not shrink below the limits in the allowed iterations.
     NotConverged,
@@ -119,6 +122,7 @@ impl std::error::Error for StepFailure {}
 /// Energy since the start (J). Signs: `drive`, `weight_on_bit`, `gravity` and `loads` are work done on the tool; `bit`,
 /// `friction`, `contact_damping`, `rayleigh_damping`, `numerical_damping` are taken from it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct EnergyAudit {
     /// Work of the top drive.
     pub drive: f64,

@@ -11,6 +11,7 @@ use crate::linear::Singular;
 
 /// Why the tool could not be started.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StartError {
     /// The mass matrix with the constraints is singular.
     #[error("station {}: the accelerations at the start have no solution (pivot {:e}); \

@@ -11,7 +11,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::tool::section::SectionProperties;
+use crate::tool::SectionProperties;
 
 /// Displacements, Eq. 2, or forces of an element's two nodes.
 pub type ElementVector = SVector<f64, 12>;
@@ -136,7 +136,7 @@ fn element(stretch: RodMatrix, twist: RodMatrix, bending: BendingMatrix) -> Elem
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tool::description::{Material, Tube};
+    use crate::tool::{Material, Tube};
 
     fn beam() -> Beam {
         let steel = Material {

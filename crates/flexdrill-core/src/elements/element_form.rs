@@ -255,8 +255,8 @@ mod tests {
     use super::*;
     use crate::elements::beam::ElementVector;
     use crate::simd::vector::Portable;
-    use crate::tool::description::{Material, Tube};
-    use crate::tool::section::SectionProperties;
+    use crate::tool::SectionProperties;
+    use crate::tool::{Material, Tube};
     use nalgebra::Rotation3;
 
     fn beam() -> Beam {

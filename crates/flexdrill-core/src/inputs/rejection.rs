@@ -21,6 +21,7 @@ pub struct Rejection {
 
 /// Why a sample was refused. Bounds are in the unit of the sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum RejectionReason {
     /// NaN or infinite.
     NotFinite,

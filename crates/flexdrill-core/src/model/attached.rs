@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::Model;
 use crate::elements::point_body::PointBody;
-use crate::tool::description::{Body, Direction, Location, PointLoad, ToolDescription};
+use crate::tool::{Body, Direction, Location, PointLoad, ToolDescription};
 use crate::validation::ValidationError;
 
 /// A load with its unknown resolved.

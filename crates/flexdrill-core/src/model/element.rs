@@ -4,9 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::station::{Bore, Station};
 use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
-use crate::tool::description::ToolDescription;
-use crate::tool::section::SectionProperties;
-use crate::tool::well::frame_along;
+use crate::tool::SectionProperties;
+use crate::tool::ToolDescription;
+use crate::tool::frame_along;
 
 /// A pipe element, in its link's frame.
 #[derive(Debug, Clone)]

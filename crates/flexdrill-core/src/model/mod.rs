@@ -15,7 +15,7 @@ use crate::elements::beam::{Beam, ElementVector};
 use crate::elements::element_form::{ElementForms, Elements};
 use crate::elements::joint::Joint;
 use crate::linear::Layout;
-use crate::tool::description::{Direction, ToolDescription, WobPath};
+use crate::tool::{Direction, ToolDescription, WobPath};
 use crate::validation::ValidationError;
 
 pub use attached::{HeldNode, ResolvedLoad, ResolvedMass};

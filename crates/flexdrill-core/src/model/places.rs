@@ -1,7 +1,7 @@
 //! Where what acts on the tool acts, in a numbering of its unknowns: the model's own, or a reduced one.
 
 use super::Model;
-use crate::tool::description::Direction;
+use crate::tool::Direction;
 
 /// Unknowns of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

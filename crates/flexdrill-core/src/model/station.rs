@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use crate::tool::description::ToolDescription;
-use crate::tool::well::{WellPath, frame_along, tangent};
+use crate::tool::ToolDescription;
+use crate::tool::{WellPath, frame_along, tangent};
 
 /// An arc-length position that carries a pipe node and a guide node.
 #[derive(Debug, Clone)]

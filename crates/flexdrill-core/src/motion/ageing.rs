@@ -13,6 +13,7 @@ const LEAST_RANGE: f64 = 0.05;
 
 /// How ageing is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct AgeingSettings {
     /// Slope m of the Woehler line: 3 for welds and sharp notches, 5 for machined steel.
     pub slope: f64,

@@ -16,6 +16,7 @@ const BLOCKS: usize = 6;
 
 /// How chaotic whirl is judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ChaoticWhirlSettings {
     /// Time over which the power is averaged (s): two turns at 40 r/min, so that a blow once per turn counts as often as
     /// it comes, and a single one is none.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Severity, ShockLevel, WhirlKind, WhirlReport};
-use crate::tool::description::Body;
+use crate::tool::Body;
 
 /// The kind of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -11,6 +11,7 @@ use super::hysteresis::{Alarm, AlarmThresholds};
 
 /// How the stops are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct JointLoadSettings {
     /// Moment (N m) that the stop of a joint may carry for as long as one likes.
     pub rated_moment: f64,

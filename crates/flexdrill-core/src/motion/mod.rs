@@ -13,7 +13,7 @@
 //! - [`AgeingWatch`]: what ages fastest, by cycles counted in `rainflow` and the work of the friction.
 //! - [`EpisodeLog`] makes a table of all this over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] sum up what happens between two outputs.
-//! - [`settings`]: every threshold, with its reason.
+//! - [`WhirlSettings`] and the settings of the other watches: every threshold, with its reason.
 
 mod ageing;
 mod chaotic_whirl;
@@ -29,7 +29,7 @@ mod orbit;
 mod orbit_window;
 mod rainflow;
 mod report;
-pub mod settings;
+mod settings;
 mod severity;
 mod shock;
 mod stick_slip;

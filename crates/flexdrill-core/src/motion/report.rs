@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::tool::description::Body;
+use crate::tool::Body;
 
 /// Kinds of motion, in the words of D-WIS where it has one. The discriminants are those of the messages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -6,6 +6,7 @@ use crate::units::rpm_to_rad_per_s;
 
 /// How whirl is found and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct WhirlSettings {
     /// Length of the long window in turns of the tool. Four turns hold one turn of a whirl at a quarter of the tool's
     /// speed, the slowest that is told apart from a drift.

@@ -19,6 +19,7 @@ pub const MOST_REPEATS: usize = 64;
 
 /// How shocks are measured and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ShockSettings {
     /// Interval over which the force is summed up (s). Longer than a collision, pi sqrt(m / k) = 1.7 ms of a link on
     /// the default contact with its rebounds, and shorter than a quarter turn of a rolling whirl (0.1 s at 40 r/min).

@@ -43,6 +43,7 @@ const SEARCH: u32 = 10;
 
 /// How the stick-slip index is formed and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct StickSlipSettings {
     /// Length of the window (s). A string that is held at its top swings at c / 4 L with c = 3177 m/s: at 0.8 Hz with
     /// 1000 m, at 0.2 Hz with 4000 m, of which the window holds two periods. Swings of up to its own length are judged.

@@ -9,7 +9,7 @@ use super::orbit_window::OrbitWindow;
 use super::settings::WhirlSettings;
 use super::severity::{Elapsed, Evidence, Moment, StationSeverity};
 use super::{Severity, WhirlKind};
-use crate::tool::description::Body;
+use crate::tool::Body;
 
 /// How much faster time that did not look chaotic takes away from time that did.
 const CHAOS_FADES: f64 = 1.5;

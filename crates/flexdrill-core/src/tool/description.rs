@@ -3,10 +3,13 @@
 //! A [`ToolDescription`] is what the configuration is turned into and what the model is built from. It is
 //! checked when the model is built; after that nothing of it changes but the [`LiveParameters`].
 
+use std::f64::consts::FRAC_PI_2;
+
 use serde::{Deserialize, Serialize};
 
 /// Everything the mechanics needs to know, in SI units and radians.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ToolDescription {
     /// The bore's centre line, from the kick-off (measured depth 0) on.
     pub well: WellDescription,
@@ -74,6 +77,7 @@ pub struct WellDescription {
 
 /// One section of the well path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum WellSection {
     /// Straight over `length` (m).
     Straight {
@@ -135,6 +139,7 @@ pub enum HingeAngle {
 
 /// All joints of the pipe.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct JointDescription {
     /// Which rows hold.
     pub kind: JointKind,
@@ -152,6 +157,23 @@ pub struct JointDescription {
     pub hinge_angle: HingeAngle,
 }
 
+impl JointDescription {
+    /// Joints of one kind that bend up to `limit` (rad), with the stop of the paper's case and crosses that turn by 90
+    /// degrees from joint to joint.
+    #[must_use]
+    pub const fn new(kind: JointKind, limit: f64) -> Self {
+        Self {
+            kind,
+            limit,
+            stop_stiffness: 2e5,
+            stop_damping: 0.5,
+            cross_phase: 0.0,
+            cross_phase_step: FRAC_PI_2,
+            hinge_angle: HingeAngle::Straight,
+        }
+    }
+}
+
 /// Rayleigh damping C = alpha M + beta K, Eq. 7.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rayleigh {
@@ -163,6 +185,7 @@ pub struct Rayleigh {
 
 /// One layer of gap elements, Eq. 20 to 34.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct GapDescription {
     /// Normal stiffness per station (N/m).
     pub stiffness: f64,
@@ -174,8 +197,23 @@ pub struct GapDescription {
     pub friction_axial: f64,
 }
 
+impl GapDescription {
+    /// A layer of penalty stiffness `stiffness` (N/m) with the same Coulomb coefficient `friction` in both directions and
+    /// the damping of the paper's case. A stiffness of 0 switches the layer off.
+    #[must_use]
+    pub const fn new(stiffness: f64, friction: f64) -> Self {
+        Self {
+            stiffness,
+            damping: 0.5,
+            friction_tangential: friction,
+            friction_axial: friction,
+        }
+    }
+}
+
 /// The bit, Eq. 1: torque = eta D WOB / 3 against its rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BitDescription {
     /// Bit diameter (m).
     pub diameter: f64,
@@ -185,6 +223,19 @@ pub struct BitDescription {
     pub slip_rate: f64,
     /// Rotary inertia about the axis (kg m2), a thin disc's.
     pub inertia: f64,
+}
+
+impl BitDescription {
+    /// A bit of `diameter` (m) with the friction factor eta of Eq. 1, without inertia of its own.
+    #[must_use]
+    pub const fn new(diameter: f64, friction_factor: f64) -> Self {
+        Self {
+            diameter,
+            friction_factor,
+            slip_rate: 0.1,
+            inertia: 0.0,
+        }
+    }
 }
 
 /// Which of the two pipes.
@@ -216,6 +267,7 @@ impl std::fmt::Display for Body {
 
 /// A location along the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Location {
     /// The first station, at the kick-off.
     Top,
@@ -270,6 +322,7 @@ pub enum WobPath {
 
 /// How a load changes in time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum LoadHistory {
     /// Constant (N or N m).
     Constant(f64),

@@ -1,9 +1,15 @@
 //! What is modelled: the tool, its well and its loads, as described.
 
-pub mod description;
+pub(crate) mod description;
 mod paper;
-pub mod section;
+pub(crate) mod section;
 mod validation;
-pub mod well;
+pub(crate) mod well;
 
-pub use description::*;
+pub use description::{
+    BitDescription, Body, Direction, GapDescription, HingeAngle, JointDescription, JointKind, LiveParameters,
+    LoadHistory, Location, Material, PointLoad, PointMass, Rayleigh, Support, ToolDescription, Tube, WellDescription,
+    WellSection, WobPath,
+};
+pub use section::SectionProperties;
+pub use well::{WellPath, frame_along, tangent};

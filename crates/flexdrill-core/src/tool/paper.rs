@@ -5,9 +5,9 @@
 //! All else is assumed; the reasons stand beside the same numbers in `config/default.yaml`, and a test holds the two
 //! together.
 
-use super::description::{
-    BitDescription, Body, Direction, GapDescription, HingeAngle, JointDescription, JointKind, Location, Material,
-    Rayleigh, Support, ToolDescription, Tube, WellDescription, WellSection, WobPath,
+use super::{
+    BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, Location, Material, Rayleigh,
+    Support, ToolDescription, Tube, WellDescription, WellSection, WobPath,
 };
 use crate::units::deg_to_rad;
 
@@ -21,12 +21,10 @@ impl ToolDescription {
     /// ```
     /// use flexdrill_core::tool::ToolDescription;
     ///
-    /// let softer = ToolDescription {
-    ///     guide_bending_factor: 0.05,
-    ///     ..ToolDescription::paper()
-    /// };
+    /// let softer = ToolDescription::paper().with(|tool| tool.guide_bending_factor = 0.05);
     /// assert_eq!(softer.links, 33);
     /// ```
+    #[must_use]
     pub fn paper() -> Self {
         let pipe = Tube {
             outer_diameter: 0.063,
@@ -53,35 +51,12 @@ impl ToolDescription {
             guide_bending_factor: 1.0,
             guide_fixed: false,
             hole_diameter: 0.118,
-            joint: JointDescription {
-                kind: JointKind::Universal,
-                limit: deg_to_rad(6.0),
-                stop_stiffness: 2e5,
-                stop_damping: 0.5,
-                cross_phase: 0.0,
-                cross_phase_step: deg_to_rad(90.0),
-                hinge_angle: HingeAngle::Straight,
-            },
+            joint: JointDescription::new(JointKind::Universal, deg_to_rad(6.0)),
             rayleigh: Rayleigh { alpha: 2.0, beta: 1e-4 },
-            inner: GapDescription {
-                stiffness: 1e7,
-                damping: 0.5,
-                friction_tangential: 0.2,
-                friction_axial: 0.2,
-            },
-            outer: GapDescription {
-                stiffness: 2e7,
-                damping: 0.5,
-                friction_tangential: 0.3,
-                friction_axial: 0.3,
-            },
+            inner: GapDescription::new(1e7, 0.2),
+            outer: GapDescription::new(2e7, 0.3),
             slip_speed: 0.01,
-            bit: BitDescription {
-                diameter: 0.118,
-                friction_factor: 0.235,
-                slip_rate: 0.1,
-                inertia: 0.0,
-            },
+            bit: BitDescription::new(0.118, 0.235),
             gravity: GRAVITY_IN_MUD,
             supports: table_1(),
             drive_top: true,
@@ -93,6 +68,47 @@ impl ToolDescription {
             initial_spin_rate: 0.0,
             static_start: true,
         }
+    }
+
+    /// A tool of `links` equal links of `pipe` inside `guide`, which fill the well from end to end. All else is as in
+    /// [`ToolDescription::paper`]: five elements per link, universal joints, steel, the supports of Table 1, the drive
+    /// at the top, a bit of 118 mm.
+    ///
+    /// ```
+    /// use flexdrill_core::tool::{ToolDescription, Tube, WellDescription, WellSection};
+    ///
+    /// let well = WellDescription {
+    ///     start_inclination: 0.0,
+    ///     sections: vec![WellSection::Arc { radius: 2.0, angle: 1.2 }, WellSection::Straight { length: 0.6 }],
+    /// };
+    /// let pipe = Tube { outer_diameter: 0.058, inner_diameter: 0.030 };
+    /// let guide = Tube { outer_diameter: 0.098, inner_diameter: 0.076 };
+    /// let tool = ToolDescription::new(well, 0.114, 20, pipe, guide).with(|tool| {
+    ///     tool.bit.diameter = 0.114;
+    ///     tool.joint.limit = 0.14;
+    /// });
+    /// tool.validate()?;
+    /// # Ok::<(), flexdrill_core::validation::ValidationError>(())
+    /// ```
+    #[must_use]
+    pub fn new(well: WellDescription, hole_diameter: f64, links: usize, pipe: Tube, guide: Tube) -> Self {
+        let paper = Self::paper();
+        let elements_per_link = paper.elements_per_link;
+        Self {
+            well,
+            hole_diameter,
+            guide_section: guide,
+            ..paper
+        }
+        .with_mesh(links, elements_per_link)
+        .with_pipe(pipe)
+    }
+
+    /// The description after `change`.
+    #[must_use]
+    pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
+        self
     }
 
     /// The same tool of `links` links with `elements_per_link` elements each, all elements with the section of the

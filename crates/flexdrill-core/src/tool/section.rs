@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::tool::description::{Material, Tube};
+use crate::tool::{Material, Tube};
 
 /// Stiffness (D of Eq. 6) and mass (Eq. 5) per length of a beam section.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::tool::description::{WellDescription, WellSection};
+use crate::tool::{WellDescription, WellSection};
 
 /// A well path that can be asked for points and frames at any measured depth.
 #[derive(Debug, Clone)]

@@ -9,11 +9,15 @@
 //! iterations and halvings, which say when a step is given up, so that a run that failed can go on with others. What
 //! may change while running (live parameters, slew limits, whirl thresholds) is part of the state and is restored.
 
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use super::observe::Observer;
 use super::settings::SimulationSettings;
+use super::simulation::Simulation;
+use super::snapshot::Applied;
+use crate::dynamics::stepper::StepperCheckpoint;
 use crate::tool::ToolDescription;
 
 const MAGIC: [u8; 8] = *b"flexdrCP";
@@ -26,6 +30,7 @@ const HEADER: usize = MAGIC.len() + size_of::<u32>() + HASH;
 
 /// Why bytes could not be restored. Nothing has changed then.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum CheckpointError {
     /// Other bytes, or a checkpoint from before there were format numbers.
     #[error(
@@ -66,7 +71,54 @@ pub enum CheckpointError {
     Encoding(#[from] postcard::Error),
 }
 
-/// What a checkpoint belongs to.
+/// The state in a checkpoint. A change of it is a new format.
+#[derive(Serialize, Deserialize)]
+struct Saved<S, O> {
+    stepper: S,
+    observer: O,
+    applied: Applied,
+    step: u64,
+    /// Slew limits of rotary speed (rad/s2) and weight on bit (N/s).
+    slew: [f64; 2],
+}
+
+impl Simulation {
+    /// The whole state as bytes; [`Simulation::restore`] continues from it bit for bit.
+    ///
+    /// # Errors
+    /// When the state cannot be encoded.
+    pub fn checkpoint(&self) -> Result<Vec<u8>, CheckpointError> {
+        let saved = Saved {
+            stepper: self.stepper.checkpoint(),
+            observer: &self.observer,
+            applied: self.applied,
+            step: self.step,
+            slew: [self.settings.rotary_speed_slew, self.settings.weight_on_bit_slew],
+        };
+        write(&self.identity, &saved)
+    }
+
+    /// Continues from a checkpoint of the same tool and settings: state, live parameters, slew limits and whirl
+    /// thresholds are then those at which it was made. After an error the simulation is unchanged.
+    ///
+    /// # Errors
+    /// When the bytes are no checkpoint, of another format, damaged, or of another tool or other settings.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError> {
+        let saved: Saved<StepperCheckpoint, Observer> = read(&self.identity, bytes)?;
+        // The checksum holds here, so only bytes that were forged can still have the wrong sizes.
+        if !saved.observer.fits(&self.observer) || !self.stepper.restore(&saved.stepper) {
+            return Err(CheckpointError::Damaged { length: bytes.len() });
+        }
+        let before = std::mem::replace(&mut self.observer, saved.observer);
+        self.observer.continue_sequence_of(&before);
+        self.applied = saved.applied;
+        self.step = saved.step;
+        self.replace_slew(saved.slew);
+        Ok(())
+    }
+}
+
+/// The tool and the settings that a checkpoint belongs to, as a hash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Identity([u8; HASH]);
 

@@ -1,7 +1,8 @@
 //! The twin: mechanics, inputs and analysis joined into one deterministic [`Simulation`].
 //!
-//! The node, replay, verification and sweeps all drive this one thing.
+//! The node, replay, verification and sweeps all drive a [`Simulation`], so that they compute the same motion.
 
+#[cfg(feature = "checkpoints")]
 mod checkpoint;
 mod observe;
 mod quality;
@@ -14,6 +15,7 @@ mod snapshot;
 mod step_choice;
 mod validation;
 
+#[cfg(feature = "checkpoints")]
 pub use checkpoint::CheckpointError;
 pub use quality::{
     ENERGY_ERROR_BOUNDS, ModelQuality, NUMERICAL_COUNTS_FROM, NUMERICAL_DAMPING_BOUNDS, QualityCause, QualityLevel,

@@ -16,7 +16,7 @@ use crate::motion::{
     RootMeanSquare, ShockWatch, StationSample, StickSlip, ToolLocation, WatchedStation, WhirlAnalysis, WhirlSettings,
     ended,
 };
-use crate::tool::description::{Body, Direction, JointKind};
+use crate::tool::{Body, Direction, JointKind};
 
 /// Statistics between outputs, and the analysis.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -85,6 +85,7 @@ impl Observer {
     }
 
     /// Whether both watch the same stations.
+    #[cfg(feature = "checkpoints")]
     pub(super) fn fits(&self, other: &Self) -> bool {
         self.watched == other.watched && self.decimation == other.decimation
     }
@@ -119,8 +120,9 @@ impl Observer {
         self.quality.quality()
     }
 
-    /// Follows one whose warnings may have counted further: the sequence goes on from there.
-    pub(super) fn follow(&mut self, before: &Self) {
+    /// Numbers the next warning after the last one of `before`, so that no number is used twice after a restore.
+    #[cfg(feature = "checkpoints")]
+    pub(super) fn continue_sequence_of(&mut self, before: &Self) {
         self.whirl.continue_sequence(before.whirl.level().sequence);
     }
 

@@ -15,10 +15,11 @@ use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::State;
 use crate::elements::gap::Touch;
 use crate::model::Station;
-use crate::tool::description::{Body, Direction};
+use crate::tool::{Body, Direction};
 
 /// Where a station lies and what room it has; the same however the tool moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct StationGeometry {
     /// Along the path from the kick-off (m).
     pub measured_depth: f64,

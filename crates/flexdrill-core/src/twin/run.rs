@@ -9,7 +9,7 @@ use crate::dynamics::outcome::StepOutcome;
 use crate::inputs::InputState;
 use crate::inputs::Inputs;
 use crate::motion::WhirlSettings;
-use crate::tool::description::LiveParameters;
+use crate::tool::LiveParameters;
 
 /// What drives the model from a step on.
 #[derive(Debug, Clone, Copy, PartialEq)]

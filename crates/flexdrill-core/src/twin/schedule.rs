@@ -100,6 +100,7 @@ impl Schedule {
 
 /// A set of outputs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[must_use]
 pub struct Due(u16);
 
 impl Due {

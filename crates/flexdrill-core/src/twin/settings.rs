@@ -11,8 +11,16 @@ use crate::motion::{
 use crate::tool::Body;
 use crate::units::{kn_to_n, rpm_to_rad_per_s};
 
-/// How the simulation runs, beside the tool itself.
+/// How a simulation runs: the step, the scheme, the first inputs, and how the motion is judged.
+///
+/// ```
+/// use flexdrill_core::twin::SimulationSettings;
+///
+/// let settings = SimulationSettings::default().with(|settings| settings.time_step = 0.25e-3);
+/// assert_eq!(settings.max_halvings, 6);
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct SimulationSettings {
     /// Model step (s).
     pub time_step: f64,
@@ -78,6 +86,13 @@ impl Default for SimulationSettings {
 }
 
 impl SimulationSettings {
+    /// The settings after `change`.
+    #[must_use]
+    pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
+        self
+    }
+
     /// Steps between two samples of the whirl analysis.
     pub(super) fn whirl_sample_steps(&self) -> u64 {
         ((self.whirl_sample_interval / self.time_step).round() as u64).max(1)

@@ -1,9 +1,8 @@
 //! One tool, stepped.
 
-use serde::{Deserialize, Serialize};
-
 use super::Snapshot;
-use super::checkpoint::{self, CheckpointError, Identity};
+#[cfg(feature = "checkpoints")]
+use super::checkpoint::{CheckpointError, Identity};
 use super::observe::Observer;
 use super::settings::SimulationSettings;
 use super::snapshot::Applied;
@@ -12,16 +11,17 @@ use crate::dynamics::outcome::StepOutcome;
 use crate::dynamics::phases::{Clock, Phase, PhaseTimes};
 use crate::dynamics::state::State;
 use crate::dynamics::statics::StartError;
-use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperCheckpoint, StepperSettings};
+use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
 use crate::inputs::Inputs;
 use crate::motion::WhirlSettings;
 use crate::simd::Instructions;
-use crate::tool::description::{LiveParameters, ToolDescription};
+use crate::tool::{LiveParameters, ToolDescription};
 use crate::validation::ValidationError;
 
 /// Why a simulation could not be built or restored.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum BuildError {
     /// The description cannot be computed with.
     #[error("tool: {0}")]
@@ -33,30 +33,21 @@ pub enum BuildError {
     #[error("start of the run: {0}")]
     Start(#[from] StartError),
     /// A checkpoint could not be made or restored.
+    #[cfg(feature = "checkpoints")]
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
 }
 
 /// The running twin of one tool.
 pub struct Simulation {
-    settings: SimulationSettings,
-    stepper: Stepper,
+    pub(super) settings: SimulationSettings,
+    pub(super) stepper: Stepper,
     start: State,
     pub(super) observer: Observer,
     pub(super) applied: Applied,
-    step: u64,
-    identity: Identity,
-}
-
-/// The state in a checkpoint. A change of it is a new format.
-#[derive(Serialize, Deserialize)]
-struct Saved<S, O> {
-    stepper: S,
-    observer: O,
-    applied: Applied,
-    step: u64,
-    /// Slew limits of rotary speed (rad/s2) and weight on bit (N/s).
-    slew: [f64; 2],
+    pub(super) step: u64,
+    #[cfg(feature = "checkpoints")]
+    pub(super) identity: Identity,
 }
 
 impl Simulation {
@@ -113,6 +104,7 @@ impl Simulation {
             start,
             observer,
             step: 0,
+            #[cfg(feature = "checkpoints")]
             identity: Identity::of(tool, settings)?,
         };
         simulation.reset();
@@ -291,40 +283,6 @@ impl Simulation {
             drive_torque: self.stepper.drive_torque(),
         };
         self.observer.reset();
-    }
-
-    /// The whole state as bytes; [`Simulation::restore`] continues from it bit for bit.
-    ///
-    /// # Errors
-    /// When the state cannot be encoded.
-    pub fn checkpoint(&self) -> Result<Vec<u8>, CheckpointError> {
-        let saved = Saved {
-            stepper: self.stepper.checkpoint(),
-            observer: &self.observer,
-            applied: self.applied,
-            step: self.step,
-            slew: [self.settings.rotary_speed_slew, self.settings.weight_on_bit_slew],
-        };
-        checkpoint::write(&self.identity, &saved)
-    }
-
-    /// Goes on from a checkpoint of the same tool and settings: state, live parameters, slew limits and whirl
-    /// thresholds are then those at which it was made. On an error nothing has changed.
-    ///
-    /// # Errors
-    /// When the bytes are no checkpoint, of another format, damaged, or of another tool or other settings.
-    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError> {
-        let saved: Saved<StepperCheckpoint, Observer> = checkpoint::read(&self.identity, bytes)?;
-        // Only bytes made on purpose come this far and do not fit.
-        if !saved.observer.fits(&self.observer) || !self.stepper.restore(&saved.stepper) {
-            return Err(CheckpointError::Damaged { length: bytes.len() });
-        }
-        let before = std::mem::replace(&mut self.observer, saved.observer);
-        self.observer.follow(&before);
-        self.applied = saved.applied;
-        self.step = saved.step;
-        self.replace_slew(saved.slew);
-        Ok(())
     }
 }
 

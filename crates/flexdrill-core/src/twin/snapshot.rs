@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::quality::ModelQuality;
 use crate::dynamics::outcome::{EnergyAudit, StepFailure};
 use crate::motion::{Ageing, Hazards, Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
-use crate::tool::description::Body;
+use crate::tool::Body;
 
 /// State of the tool at the end of a step, with statistics over the publishing interval.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Snapshot {
     /// Model steps taken since the start.
     pub step: u64,
@@ -48,6 +49,7 @@ pub struct Snapshot {
 
 /// Inputs as they act on the model in this step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Applied {
     /// Speed of the top drive (rad/s).
     pub rotary_speed: f64,
@@ -62,6 +64,7 @@ pub struct Applied {
 /// Per joint, all arrays of the same length. Forces are those of the link above on the link below, in the upper
 /// link's frame.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Joints {
     /// Along the path from the kick-off (m).
     pub measured_depth: Vec<f64>,
@@ -92,6 +95,7 @@ pub struct Joints {
 
 /// Per station, all arrays of the same length.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Contacts {
     /// Measured depth from the kick-off (m).
     pub measured_depth: Vec<f64>,
@@ -107,6 +111,7 @@ pub struct Contacts {
 
 /// One gap layer, per station.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct ContactLayer {
     /// Clearance left (m), negative is penetration.
     pub gap: Vec<f64>,
@@ -126,6 +131,7 @@ pub struct ContactLayer {
 
 /// The bit at one instant, with statistics since the last output.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Bit {
     /// Torque of the rock against the bit (N m).
     pub torque: f64,
@@ -153,6 +159,7 @@ pub struct Bit {
 /// The forces on the tool from outside, in the world frame (X horizontal in the build's direction, Y horizontal, Z down).
 /// The sums of forces and [`Reactions::inertia`] and [`Reactions::damping`] balance but for [`Reactions::unbalance`].
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Reactions {
     /// Per support, a node held in some directions: measured depth from the kick-off (m).
     pub measured_depth: Vec<f64>,
@@ -184,6 +191,7 @@ pub struct Reactions {
 
 /// Lines in the world frame (X horizontal in the build's direction, Y horizontal, Z down), m.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Shape {
     /// Bore axis at each station.
     pub bore: Vec<[f64; 3]>,
@@ -197,6 +205,7 @@ pub struct Shape {
 
 /// Counters since the start.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct SolverCounters {
     /// Newton iterations of all accepted steps and sub-steps.
     pub newton_iterations: u64,

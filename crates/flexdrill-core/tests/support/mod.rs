@@ -7,7 +7,7 @@ mod random;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-use flexdrill_core::tool::{GapDescription, HingeAngle, JointKind, ToolDescription, Tube, WellSection};
+use flexdrill_core::tool::{HingeAngle, JointKind, ToolDescription, Tube, WellSection};
 use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
 pub use random::Random;
 
@@ -39,31 +39,20 @@ pub fn hinged() -> ToolDescription {
         outer_diameter: 0.0703,
         inner_diameter: 0.0461,
     });
-    let mut tool = ToolDescription {
-        guide_section: Tube {
+    paper.with(|tool| {
+        tool.guide_section = Tube {
             outer_diameter: 0.110,
             inner_diameter: 0.0743,
-        },
-        guide_bending_factor: 0.05,
-        inner: GapDescription {
-            stiffness: 1.57e7,
-            friction_tangential: 0.423,
-            friction_axial: 0.423,
-            ..paper.inner
-        },
-        outer: GapDescription {
-            stiffness: 1.8e8,
-            friction_tangential: 0.195,
-            friction_axial: 0.195,
-            ..paper.outer
-        },
-        ..paper
-    };
-    tool.joint.kind = JointKind::Revolute;
-    tool.joint.hinge_angle = HingeAngle::AsBuilt;
-    tool.joint.cross_phase = 122_f64.to_radians();
-    tool.rayleigh.beta = 1e-3;
-    tool
+        };
+        tool.guide_bending_factor = 0.05;
+        (tool.inner.stiffness, tool.outer.stiffness) = (1.57e7, 1.8e8);
+        (tool.inner.friction_tangential, tool.inner.friction_axial) = (0.423, 0.423);
+        (tool.outer.friction_tangential, tool.outer.friction_axial) = (0.195, 0.195);
+        tool.joint.kind = JointKind::Revolute;
+        tool.joint.hinge_angle = HingeAngle::AsBuilt;
+        tool.joint.cross_phase = 122_f64.to_radians();
+        tool.rayleigh.beta = 1e-3;
+    })
 }
 
 /// A simulation with the default settings.
@@ -73,12 +62,11 @@ pub fn simulation(tool: &ToolDescription) -> Simulation {
 
 /// Large steps with few corrections and halvings: collisions are hard to get through.
 pub fn hard_settings(max_iterations: u32, max_halvings: u32) -> SimulationSettings {
-    SimulationSettings {
-        time_step: 2e-3,
-        max_iterations,
-        max_halvings,
-        ..SimulationSettings::default()
-    }
+    SimulationSettings::default().with(|settings| {
+        settings.time_step = 2e-3;
+        settings.max_iterations = max_iterations;
+        settings.max_halvings = max_halvings;
+    })
 }
 
 /// Nanoseconds since the first call.

@@ -20,22 +20,20 @@ fn header() -> Header {
 }
 
 fn layer(normal: [f64; 2]) -> ContactLayer {
-    ContactLayer {
-        gap: vec![0.0; 2],
-        normal: normal.to_vec(),
-        tangential: vec![0.0; 2],
-        axial: vec![0.0; 2],
-        normal_peak: normal.iter().map(|force| force * 2.0).collect(),
-        normal_rms: normal.to_vec(),
-        shock: normal.iter().map(|force| force * 1e-3).collect(),
-    }
+    let mut layer = ContactLayer::default();
+    layer.gap = vec![0.0; 2];
+    layer.normal = normal.to_vec();
+    layer.tangential = vec![0.0; 2];
+    layer.axial = vec![0.0; 2];
+    layer.normal_peak = normal.iter().map(|force| force * 2.0).collect();
+    layer.normal_rms = normal.to_vec();
+    layer.shock = normal.iter().map(|force| force * 1e-3).collect();
+    layer
 }
 
 fn snapshot() -> Snapshot {
-    let mut snapshot = Snapshot {
-        time: 3.0,
-        ..Snapshot::default()
-    };
+    let mut snapshot = Snapshot::default();
+    snapshot.time = 3.0;
     snapshot.hazards.drive = DriveState::Turning;
     snapshot.joints.bend_angle = vec![0.01, 0.06, 0.05];
     snapshot.joints.limit_angle = vec![0.05; 3];
@@ -98,16 +96,14 @@ fn ageing_is_told_per_hour_and_relative_to_the_worst() {
 fn reactions_are_vectors_by_axis_and_support() {
     let mut snapshot = snapshot();
     snapshot.applied.drive_torque = 300.0;
-    snapshot.reactions = flexdrill_core::twin::Reactions {
-        measured_depth: vec![0.0, 5.0],
-        inclination: vec![0.0, 1.5],
-        body: vec![Body::Pipe, Body::Guide],
-        force: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
-        moment: vec![[0.0; 3], [7.0, 8.0, 9.0]],
-        supports: [5.0, 7.0, 9.0],
-        unbalance: [0.0, 0.0, 0.1],
-        ..flexdrill_core::twin::Reactions::default()
-    };
+    let reactions = &mut snapshot.reactions;
+    reactions.measured_depth = vec![0.0, 5.0];
+    reactions.inclination = vec![0.0, 1.5];
+    reactions.body = vec![Body::Pipe, Body::Guide];
+    reactions.force = vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
+    reactions.moment = vec![[0.0; 3], [7.0, 8.0, 9.0]];
+    reactions.supports = [5.0, 7.0, 9.0];
+    reactions.unbalance = [0.0, 0.0, 0.1];
     let mut message = Reactions::default();
     fill::reactions(&snapshot, &header(), &mut message);
     // A second time: what was there is gone.

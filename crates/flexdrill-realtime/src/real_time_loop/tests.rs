@@ -58,16 +58,15 @@ struct Bench {
 }
 
 fn settings() -> SimulationSettings {
-    SimulationSettings {
-        time_step: 1e-3,
-        initial_inputs: Inputs {
+    SimulationSettings::default().with(|settings| {
+        settings.time_step = 1e-3;
+        settings.initial_inputs = Inputs {
             rotary_speed: 1.0,
             weight_on_bit: 2.0,
-        },
+        };
         // Every speed is reached within a step.
-        rotary_speed_slew: 1e300,
-        ..SimulationSettings::default()
-    }
+        settings.rotary_speed_slew = 1e300;
+    })
 }
 
 fn run() -> Run {

@@ -1,5 +1,6 @@
 //! The tool in motion: steps that are halved and retried until they converge, or reported as failed.
 
+#[cfg(feature = "checkpoints")]
 mod checkpoint;
 mod looks;
 mod outside;
@@ -31,6 +32,7 @@ use crate::simd::Instructions;
 use crate::tool::description::{Body, Direction, LiveParameters, ToolDescription};
 use crate::validation::ValidationError;
 
+#[cfg(feature = "checkpoints")]
 pub use checkpoint::StepperCheckpoint;
 
 /// Inputs over one step: both change linearly from its start to its end.

@@ -65,7 +65,7 @@ impl LayerMemory {
 mod tests {
     use crate::elements::gap::{GapLaw, Layer};
     use crate::simd::vector::{Portable, Vector};
-    use crate::tool::description::GapDescription;
+    use crate::tool::GapDescription;
 
     /// A contact that slides around at `speed` (m/s).
     fn slide(layer: &mut Layer, speed: f64) -> [f64; 2] {

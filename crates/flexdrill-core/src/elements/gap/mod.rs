@@ -22,7 +22,7 @@ use nalgebra::{SVector, Vector2};
 
 use super::slip::Slip;
 use crate::simd::number::{Lane, Number};
-use crate::tool::description::GapDescription;
+use crate::tool::GapDescription;
 
 /// Local motion or force of a gap.
 pub type GapVector = SVector<f64, 6>;

@@ -145,7 +145,7 @@ mod tests {
     use super::super::law::moments;
     use super::*;
     use crate::simd::vector::Portable;
-    use crate::tool::description::{JointDescription, JointKind};
+    use crate::tool::{JointDescription, JointKind};
 
     #[test]
     fn eight_joints_are_eight_times_one() {

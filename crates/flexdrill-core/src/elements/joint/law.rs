@@ -9,7 +9,7 @@ use super::jet::Jet;
 use super::rotation::{DirectionJet, shaft_axis, transverse_axis};
 use super::stop::Stop;
 use crate::simd::number::Number;
-use crate::tool::description::JointKind;
+use crate::tool::JointKind;
 
 /// A scalar function of a joint's six rotations with its derivatives.
 #[derive(Debug, Clone, Copy, Default)]
@@ -250,7 +250,7 @@ pub(super) mod tests {
 
     use super::*;
     use crate::elements::joint::Joint;
-    use crate::tool::description::JointDescription;
+    use crate::tool::JointDescription;
 
     pub fn joint(kind: JointKind) -> Joint {
         let description = JointDescription {

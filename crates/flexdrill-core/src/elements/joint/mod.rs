@@ -19,7 +19,7 @@ pub mod stop;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::tool::description::{HingeAngle, JointDescription, JointKind};
+use crate::tool::{HingeAngle, JointDescription, JointKind};
 use law::JointLaw;
 use rotation::shaft_direction;
 
@@ -95,7 +95,7 @@ impl Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tool::well::{frame_along, tangent};
+    use crate::tool::{frame_along, tangent};
 
     /// With the angle as built, the undeflected joint is at rest whatever its bend; half a turn on, the bend is kept to
     /// the other side, so that the row is off by twice its cosine.

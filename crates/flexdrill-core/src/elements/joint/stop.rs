@@ -131,7 +131,7 @@ impl<M> JointLaw<M> {
 mod tests {
     use super::super::law::tests::{AT, joint};
     use super::*;
-    use crate::tool::description::JointKind;
+    use crate::tool::JointKind;
 
     #[test]
     fn the_angle_beyond_the_limit_is_that_of_the_arc_tangent() {
