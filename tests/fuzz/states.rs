@@ -33,7 +33,7 @@ fn checkpoint() {
     };
     let mut seeds = vec![twin.checkpoint().unwrap()];
     for _ in 0..400 {
-        twin.advance(&inputs);
+        twin.advance(&inputs).ok().unwrap();
     }
     let whole = twin.checkpoint().unwrap();
     seeds.push(whole.clone());
@@ -53,7 +53,7 @@ fn checkpoint() {
                     Ok(()) => {
                         // Whatever the state is, a step is a step or has failed.
                         for _ in 0..20 {
-                            twin.advance(&inputs);
+                            let _ = twin.advance(&inputs);
                         }
                         twin.snapshot(&mut snapshot, true);
                         accepted = true;

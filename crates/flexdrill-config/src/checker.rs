@@ -33,7 +33,11 @@ impl Transform for InSchema {
         if let Some(low) = number(self.0.low) {
             // An unsigned type brings a minimum of 0 with it.
             schema.remove("minimum");
-            let name = if self.0.low_is_in { "minimum" } else { "exclusiveMinimum" };
+            let name = if self.0.low_is_in {
+                "minimum"
+            } else {
+                "exclusiveMinimum"
+            };
             schema.insert(name.to_owned(), low.into());
         }
         if let Some(high) = number(self.0.high) {

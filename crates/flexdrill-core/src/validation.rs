@@ -1,12 +1,12 @@
-//! What the core asks of its input: one error type and the few kinds of bounds, for [`crate::tool`] and
+//! Checks of descriptions and settings: one error type and a few kinds of bounds, for [`crate::tool`] and
 //! [`crate::twin`].
 //!
-//! These bounds are those without which the mechanics cannot compute: a mass above zero, a step above zero, lists of
-//! the right length. What is sensible in practice is narrower and stands with the YAML schema.
+//! The bounds here are those that the mechanics needs to compute at all: a mass above zero, a step above zero, lists of
+//! the right length. The YAML schema has the narrower bounds of sensible practice.
 
 use crate::tool::Location;
 
-/// A description, settings or parameters that cannot be computed with.
+/// A description, settings or parameters that the mechanics cannot compute with.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ValidationError {
@@ -19,7 +19,7 @@ pub enum ValidationError {
         value: f64,
         /// Its SI unit; empty if dimensionless.
         unit: &'static str,
-        /// What it must be, in the same unit.
+        /// The bound, in the same unit.
         bound: String,
     },
     /// A list that does not fit the mesh, or is empty.
@@ -52,7 +52,7 @@ pub enum ValidationError {
     Contradiction {
         /// Path of the field to change.
         field: String,
-        /// What contradicts what, and what to do.
+        /// The contradiction, and the remedy.
         conflict: &'static str,
     },
 }
@@ -98,7 +98,7 @@ impl Bound {
         }
     }
 
-    /// Holds the value of `field` against the bound.
+    /// Checks the value of `field`.
     ///
     /// # Errors
     /// [`ValidationError::Value`].
@@ -131,7 +131,7 @@ impl Bound {
     }
 }
 
-/// Holds a count against its limits, both allowed.
+/// Checks a count against its limits, both allowed.
 ///
 /// # Errors
 /// [`ValidationError::Value`].
@@ -139,7 +139,7 @@ pub(crate) fn count(field: &str, value: usize, least: usize, most: usize) -> Res
     Bound::Within(least as f64, most as f64).check(field, value as f64, "")
 }
 
-/// Holds the length of a list against that needed.
+/// Checks the length of a list.
 ///
 /// # Errors
 /// [`ValidationError::Length`].
@@ -155,7 +155,7 @@ pub(crate) fn length(field: &str, got: usize, expected: usize, why: &str) -> Res
     }
 }
 
-/// Refuses what excludes each other.
+/// Refuses values that exclude each other.
 ///
 /// # Errors
 /// [`ValidationError::Contradiction`].

@@ -5,7 +5,7 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{Body, Direction};
-use flexdrill_core::twin::{Simulation, SimulationSettings};
+use flexdrill_core::twin::Simulation;
 
 /// Texts of `config/verify/`, so that the installed program needs no files.
 const FILES: &[(&str, &str)] = &[

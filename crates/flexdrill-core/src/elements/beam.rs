@@ -5,15 +5,15 @@
 //! second derivatives in the bending rows. The torsional inertia is rho I_x (Eq. 5 prints rho A in every row).
 //!
 //! The four motions of a straight symmetric beam (stretch, twist, bending in x-y and in x-z) do not couple, so each
-//! matrix is one of a rod twice and one of a bending beam twice. They are written here once, as the integrals come out;
-//! what runs is made from them ([`crate::elements::element_form`]), and a test holds them to the integrals of Eq. 5 and
-//! 6 themselves.
+//! matrix consists of the matrix of a rod, twice, and that of a bending beam, twice. This file has them once, as the
+//! integrals yield them. The kernels use packed copies ([`crate::elements::element_form`]); a test compares the matrices
+//! with the integrals of Eq. 5 and 6.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::tool::SectionProperties;
 
-/// Displacements, Eq. 2, or forces of an element's two nodes.
+/// Displacements (Eq. 2) or forces of the two nodes of an element.
 pub type ElementVector = SVector<f64, 12>;
 /// A full element matrix.
 pub type ElementMatrix = SMatrix<f64, 12, 12>;
@@ -115,18 +115,19 @@ fn scaled<const N: usize>(factor: f64, matrix: [[f64; N]; N]) -> [[f64; N]; N] {
 /// The element's matrix from those of its motions: (u), (psi), (v, phi_z) and (w, -phi_y).
 fn element(stretch: RodMatrix, twist: RodMatrix, bending: BendingMatrix) -> ElementMatrix {
     let mut out = ElementMatrix::zeros();
-    for (places, rod) in [([0, 6], stretch), ([3, 9], twist)] {
+    for (rows, rod) in [([0, 6], stretch), ([3, 9], twist)] {
         for i in 0..2 {
             for j in 0..2 {
-                out[(places[i], places[j])] = rod[i][j];
+                out[(rows[i], rows[j])] = rod[i][j];
             }
         }
     }
-    for (places, slope) in [([1, 5, 7, 11], 1.0), ([2, 4, 8, 10], -1.0)] {
+    // phi_z = dv/dx, but phi_y = -dw/dx: in the x-z plane the slopes enter with the opposite sign.
+    for (rows, slope) in [([1, 5, 7, 11], 1.0), ([2, 4, 8, 10], -1.0)] {
         let signs = [1.0, slope, 1.0, slope];
         for i in 0..4 {
             for j in 0..4 {
-                out[(places[i], places[j])] = signs[i] * signs[j] * bending[i][j];
+                out[(rows[i], rows[j])] = signs[i] * signs[j] * bending[i][j];
             }
         }
     }

@@ -1,21 +1,34 @@
-//! Beam elements as the residual needs them: matrices times nodal values, a node at a time in one vector of eight.
+//! Beam matrices packed for the residual, which multiplies them with nodal values, one node per vector of eight lanes.
 //!
 //! In its own frame an element couples u with u, psi with psi and, in each bending plane, a deflection with a slope:
-//! (v, phi_z) and (w, phi_y). So every 6 x 6 part of its matrices is a diagonal and an anti-diagonal over 1..=5, and a
-//! product is two products by entry.
+//! (v, phi_z) and (w, phi_y). Each 6 x 6 part of an element matrix therefore has two non-zero entries per row at most:
+//!
+//! ```text
+//!          u   v   w  psi  phi_y phi_z
+//!   u      d   .   .   .    .    .
+//!   v      .   d   .   .    .    p          d: diagonal
+//!   w      .   .   d   .    p    .          p: paired, deflection with slope
+//!   psi    .   .   .   d    .    .
+//!   phi_y  .   .   p   .    d    .
+//!   phi_z  .   p   .   .    .    d
+//! ```
+//!
+//! A product with a node is then the diagonal times the lanes, plus the paired entries times the lanes in paired order
+//! ([`Vector::paired`]): two fused operations instead of six.
 
 use nalgebra::Matrix3;
 
 use crate::elements::beam::{Beam, ElementMatrix};
 use crate::simd::vector::{Vector, part};
 
-/// A node's six values (u, v, w, psi, phi_y, phi_z) and two that do not count.
+/// A node's six values (u, v, w, psi, phi_y, phi_z), and two unused lanes.
 pub type Lanes = [f64; 8];
 
 /// The other unknown of the same bending plane.
 const PAIR: [usize; 6] = [0, 5, 4, 3, 2, 1];
 
-/// The values of a node that begins at `first`; what follows in the array fills the vector up.
+/// Loads the node that begins at `first`. The two unused lanes hold the values that follow in the array, which spares a
+/// mask; the matrices have zeros there.
 #[inline(always)]
 pub fn load<V: Vector>(values: &[f64], first: usize) -> V {
     match part(values, first) {
@@ -28,7 +41,8 @@ pub fn load<V: Vector>(values: &[f64], first: usize) -> V {
     }
 }
 
-/// Adds a node's forces, whose last two lanes are zero, to those that begin at `first`.
+/// Adds a node's forces to those that begin at `first`. The two unused lanes of `force` are zero, so that a full store
+/// leaves the next node unchanged.
 #[inline(always)]
 pub fn add<V: Vector>(values: &mut [f64], first: usize, force: V) {
     match values.get_mut(first..first + 8).and_then(|part| part.first_chunk_mut()) {
@@ -43,7 +57,7 @@ pub fn add<V: Vector>(values: &mut [f64], first: usize, force: V) {
     }
 }
 
-/// A node's values at both ends of an element.
+/// Values of both nodes of an element.
 pub type Both<V> = [V; 2];
 
 /// An element matrix in its own frame.
@@ -51,12 +65,12 @@ pub type Both<V> = [V; 2];
 pub struct ElementForm {
     /// Diagonals by row node and column node.
     diagonal: [[Lanes; 2]; 2],
-    /// Anti-diagonals by row node and column node: what couples a deflection with a slope.
+    /// Couplings of a deflection with a slope, by row node and column node.
     paired: [[Lanes; 2]; 2],
 }
 
 impl ElementForm {
-    /// Of `matrix`, which has no other entries.
+    /// Packs `matrix`, whose entries elsewhere are zero.
     pub fn of(matrix: &ElementMatrix) -> Self {
         let filled = |entry: &dyn Fn(usize, usize, usize) -> f64| {
             std::array::from_fn(|row| {
@@ -80,6 +94,7 @@ impl ElementForm {
     /// Adds the matrix times `x` to `out`.
     #[inline(always)]
     pub fn add_product<V: Vector>(&self, x: Both<V>, out: &mut Both<V>) {
+        // Both nodes are needed in paired order for both rows: permute once.
         let swapped = [x[0].paired(), x[1].paired()];
         for ((out, d), p) in out.iter_mut().zip(&self.diagonal).zip(&self.paired) {
             *out = out
@@ -108,10 +123,12 @@ impl ElementForm {
     }
 }
 
-/// Relative difference below which two elements count as one: the rounding of their lengths in the well's geometry.
+/// Relative difference below which two elements share their matrices: the rounding of their lengths in the well's
+/// geometry.
 const SAME: f64 = 1e-13;
 
-/// Turn from node frames to the chord's frame.
+/// Rotation from the node frames to the chord's frame. A turn about y mixes u with w and psi with phi_z only,
+/// so that it is one product with the lanes and one with the lanes in crossed order ([`Vector::across`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LaneTurn {
     direct: [Lanes; 2],
@@ -119,7 +136,7 @@ pub struct LaneTurn {
 }
 
 impl LaneTurn {
-    /// Of the rotations of both nodes' frames into the chord's, Eq. 8: turns about y, since wells lie in a plane.
+    /// Packs the rotations of both node frames into the chord's, Eq. 8: turns about y, since wells lie in a plane.
     fn of(rotation: &[Matrix3<f64>; 2]) -> Self {
         let each = |make: fn([f64; 2]) -> Lanes| rotation.map(|r| make([r[(0, 0)], r[(0, 2)]]));
         Self {
@@ -128,7 +145,7 @@ impl LaneTurn {
         }
     }
 
-    /// Nodal values to the chord's frame, Eq. 8.
+    /// Rotates nodal values into the chord's frame, Eq. 8.
     #[inline(always)]
     pub fn to_chord<V: Vector>(&self, x: Both<V>) -> Both<V> {
         let mut out = x;
@@ -139,7 +156,7 @@ impl LaneTurn {
         out
     }
 
-    /// Forces in the chord's frame to the nodes' frames.
+    /// Rotates forces in the chord's frame into the node frames: the transpose.
     #[inline(always)]
     pub fn to_nodes<V: Vector>(&self, f: Both<V>) -> Both<V> {
         let mut out = f;
@@ -168,12 +185,12 @@ pub struct ElementForms {
     pub mass: ElementForm,
     /// G, geometric stiffness per unit of tension (Eq. 41).
     pub geometric: ElementForm,
-    /// Turn to its frame, for the guide.
+    /// Rotation into the element's frame; the pipe's node frames are its own, so it has none.
     pub turn: Option<LaneTurn>,
 }
 
 impl ElementForms {
-    /// Of `beam`, between node frames that `turn` takes to its own.
+    /// Packs the matrices of `beam`; `turn` holds the rotations of its node frames into its own.
     pub fn of(beam: &Beam, turn: Option<&[Matrix3<f64>; 2]>) -> Self {
         Self {
             stiffness: ElementForm::of(&beam.stiffness()),
@@ -183,7 +200,7 @@ impl ElementForms {
         }
     }
 
-    /// Whether `other` is the same but for rounding.
+    /// Whether `other` differs by rounding at most.
     pub fn is_close(&self, other: &Self) -> bool {
         let turns = match (&self.turn, &other.turn) {
             (Some(a), Some(b)) => a.is_close(b),
@@ -196,7 +213,7 @@ impl ElementForms {
             && self.geometric.is_close(&other.geometric)
     }
 
-    /// Values to the element's frame.
+    /// Rotates nodal values into the element's frame.
     #[inline(always)]
     pub fn to_element<V: Vector>(&self, x: Both<V>) -> Both<V> {
         match &self.turn {
@@ -205,7 +222,7 @@ impl ElementForms {
         }
     }
 
-    /// Forces from the element's frame.
+    /// Rotates forces from the element's frame into the node frames.
     #[inline(always)]
     pub fn to_nodes<V: Vector>(&self, f: Both<V>) -> Both<V> {
         match &self.turn {
@@ -215,18 +232,18 @@ impl ElementForms {
     }
 }
 
-/// Elements of both pipes, those of one kind sharing their matrices.
+/// Elements of both pipes. Equal elements share their matrices, so that these stay in the cache.
 #[derive(Debug, Clone, Default)]
 pub struct Elements {
-    /// Matrices of elements that differ.
+    /// The different sets of matrices.
     pub kinds: Vec<ElementForms>,
     /// Pipe elements, then guide elements.
-    pub list: Vec<Placed>,
+    pub list: Vec<MeshedElement>,
 }
 
-/// An element in its place.
+/// An element between two nodes of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Placed {
+pub struct MeshedElement {
     /// First unknowns of its nodes.
     pub nodes: [u32; 2],
     /// Index of its matrices among [`Elements::kinds`].
@@ -243,7 +260,7 @@ impl Elements {
                 self.kinds.len() - 1
             }
         };
-        self.list.push(Placed {
+        self.list.push(MeshedElement {
             nodes: nodes.map(|node| node as u32),
             kind: kind as u32,
         });
@@ -275,7 +292,7 @@ mod tests {
         }
     }
 
-    /// Values of two nodes; the two lanes that do not count hold something too.
+    /// Values of two nodes, the unused lanes included.
     fn values(seed: f64) -> [Lanes; 2] {
         std::array::from_fn(|n| std::array::from_fn(|k| (seed + 1.7 * (6 * n + k) as f64).sin()))
     }
@@ -308,7 +325,7 @@ mod tests {
             assert!((vector(&out) - expected).amax() < 1e-14 * expected.amax());
             assert!(
                 out.iter().all(|node| node[6..] == [0.0; 2]),
-                "lanes that do not count got a force"
+                "an unused lane has a force"
             );
         }
     }

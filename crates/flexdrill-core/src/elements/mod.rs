@@ -1,4 +1,4 @@
-//! The laws of the parts: beam, joint, gap, bodies on nodes, bit.
+//! The laws of the tool's parts, one per file: beam, joint, gap, rigid body on a node, bit.
 
 pub mod beam;
 pub mod bit;

@@ -1,4 +1,4 @@
-//! A rigid body on a node: mass, rotary inertia, and a centre of mass that may lie beside the axis.
+//! A rigid body on a node: mass, rotary inertia, and a centre of mass that may lie off the axis.
 //!
 //! With the spin psi, the tilts phi, and theta = psi + phase, seen from the axis the centre of mass is at
 //!
@@ -12,8 +12,8 @@
 //! Omega = psi' + (phi_z phi_y' - phi_y phi_z') / 2
 //! ```
 //!
-//! to second. The forces are Lagrange's of T = m |u' + r'|^2 / 2 + J_p Omega^2 / 2 + J_t (phi_y'^2 + phi_z'^2) / 2, so
-//! that what they take is exactly what T gains: on the node the unbalance m e psi'^2 that turns with the spin, on the
+//! to second. The forces follow by Lagrange's equations from T = m |u' + r'|^2 / 2 + J_p Omega^2 / 2 + J_t (phi_y'^2 +
+//! phi_z'^2) / 2, so that their work is exactly the gain of T: on the node the unbalance m e psi'^2 that turns with the spin, on the
 //! tilts the gyroscopic moment J_p psi' phi'. Damping is alpha dT/dq' (Eq. 7), on the velocity of the centre of mass.
 
 use std::ops::{Add, Mul, Neg, Sub};
@@ -38,10 +38,10 @@ pub struct PointBody {
     pub phase: f64,
 }
 
-/// How a node moves, as a body's forces see it.
+/// Motion of a node.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeMotion<'a> {
-    /// Displacements; the translations play no part.
+    /// Displacements; the translations have no influence on the forces.
     pub q: &'a [f64],
     /// Velocities.
     pub v: &'a [f64],
@@ -49,7 +49,7 @@ pub struct NodeMotion<'a> {
     pub a: &'a [f64],
 }
 
-/// A number with its derivative in one variable: of the law written once, the exact tangent.
+/// A number with its derivative in one variable. The law is written once over it, and yields its exact tangent.
 #[derive(Debug, Clone, Copy)]
 struct Dual {
     value: f64,
@@ -57,25 +57,25 @@ struct Dual {
 }
 
 impl PointBody {
-    /// Masses and inertias of a node's six directions, what M holds on its diagonal.
+    /// Masses and inertias of the node's six directions: the diagonal of M.
     pub fn diagonal(&self) -> Node<f64> {
         let (m, p, t) = (self.mass, self.axial_inertia, self.transverse_inertia);
         [m, m, m, p, t, t]
     }
 
-    /// Whether there are forces beside those of the diagonal.
+    /// Whether the body has forces other than those of the diagonal.
     pub fn is_coupled(&self) -> bool {
         self.axial_inertia > 0.0 || self.mass * self.eccentricity > 0.0
     }
 
-    /// Inertia, damping (with `alpha`, 1/s) and weight (with `gravity`, m/s2 along the node's axes) less those of the
-    /// diagonal, on a node's six directions (N, N m).
+    /// Inertia, damping (with `alpha`, 1/s) and weight (with `gravity`, m/s2 along the node's axes) in the node's six
+    /// directions (N, N m), without the parts that the diagonal accounts for.
     pub fn coupled_forces(&self, node: NodeMotion<'_>, alpha: f64, gravity: Axes<f64>) -> Node<f64> {
         self.law(node, alpha, gravity, None).map(|force| force.value)
     }
 
-    /// Derivatives of [`PointBody::coupled_forces`], by columns, as displacement, velocity and acceleration move with
-    /// the factors `[k, d, m]`.
+    /// Derivatives of [`PointBody::coupled_forces`], by columns, where displacement, velocity and acceleration of a
+    /// direction change in proportion to the factors `[k, d, m]`.
     pub fn coupled_tangent(
         &self,
         node: NodeMotion<'_>,
@@ -89,7 +89,7 @@ impl PointBody {
         })
     }
 
-    /// The centre of mass from the axis, r (m).
+    /// Offset r of the centre of mass from the axis (m).
     pub fn offset(&self, q: &[f64]) -> Axes<f64> {
         let [psi, y, z] = [q[3], q[4], q[5]].map(Dual::of);
         self.arm(psi, y, z)[0].map(|r| r.value)
@@ -106,7 +106,7 @@ impl PointBody {
         0.5 * (self.mass * squares + self.axial_inertia * spin * spin + self.transverse_inertia * tilting)
     }
 
-    /// r and its derivatives in psi, phi_y and phi_z.
+    /// The offset r and its derivatives in psi, phi_y and phi_z.
     fn arm(&self, psi: Dual, y: Dual, z: Dual) -> [Axes<Dual>; 4] {
         let (sin, cos) = (psi + Dual::of(self.phase)).sin_cos();
         let e = Dual::of(self.eccentricity);
@@ -119,7 +119,8 @@ impl PointBody {
         ]
     }
 
-    /// Lagrange's forces without the diagonal's; `along` is the direction that moves, and how fast.
+    /// The forces of Lagrange's equations without the diagonal's; `along` selects the direction that varies, with the
+    /// factors on its displacement, velocity and acceleration.
     fn law(
         &self,
         node: NodeMotion<'_>,
@@ -142,7 +143,7 @@ impl PointBody {
         let velocity: Axes<Dual> = std::array::from_fn(|k| turned[k] * v[3] + by_y[k] * v[4] + by_z[k] * v[5]);
         let mut acceleration: Axes<Dual> =
             std::array::from_fn(|k| turned[k] * a[3] + by_y[k] * a[4] + by_z[k] * a[5] - r[k] * v[3] * v[3]);
-        // The tilts move it along the axis only: d2 r_x / d psi d phi.
+        // The mixed derivatives d2 r / d psi d phi have an axial component only.
         let [_, cos, sin] = r;
         acceleration[0] = acceleration[0] + two * v[3] * (cos * v[4] + sin * v[5]);
         let m = Dual::of(self.mass);
@@ -150,6 +151,7 @@ impl PointBody {
         let whole: Axes<Dual> = std::array::from_fn(|k| relative[k] + m * (a[k] + alpha * v[k] - Dual::of(gravity[k])));
         let moment = |by: &Axes<Dual>| whole[0] * by[0] + whole[1] * by[1] + whole[2] * by[2];
 
+        // d/dt (dT/d phi') and -dT/d phi contribute half of the gyroscopic moment each.
         let p = Dual::of(self.axial_inertia);
         let drift = half * (z * v[4] - y * v[5]);
         let spin = p * (v[3] + drift);
@@ -166,7 +168,7 @@ impl PointBody {
 }
 
 impl Dual {
-    /// A number that does not change.
+    /// A constant.
     fn of(value: f64) -> Self {
         Self { value, slope: 0.0 }
     }
@@ -297,7 +299,7 @@ mod tests {
         let q = [0.0, 0.0, 0.0, 0.7, 0.0, 0.0];
         let force = forces(&BODY, &q, &v, &[0.0; 6], 0.0, [0.0; 3]);
         let expected = 8.0 * 0.02 * 25.0;
-        // The inertia force is against the pull: towards the axis.
+        // The inertia force opposes the pull: it points towards the axis.
         assert!((force[1] + expected * 1.1_f64.cos()).abs() < 1e-12);
         assert!((force[2] + expected * 1.1_f64.sin()).abs() < 1e-12);
     }

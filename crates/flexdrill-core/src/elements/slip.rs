@@ -1,12 +1,12 @@
-//! Friction against a sliding speed, of contacts and of the bit: a smooth sign of the speed, and the slope of it that
-//! Newton takes.
+//! Friction against a sliding speed, of contacts and of the bit: a smooth sign of the speed, and its slope for Newton's
+//! method.
 //!
-//! Where a body sticks or rolls, the smooth sign is much steeper than all else that holds the body: Newton's line through
-//! a speed on one side of zero leads far to the other side, and from there back. So once a correction went too far
-//! through zero, the slope is taken with the friction that the correction before counted on: of t sqrt(v^2 + w^2) = F v
-//! with both the friction t and the speed v unknown, linearised in both (Chan, Golub and Mulet, SIAM J. Sci. Comput. 20,
-//! 1999). It is never negative, and it is the exact slope where both agree, so that the last corrections are as good as
-//! Newton's. The residual does not know of it: the solution is the same.
+//! Where a body sticks or rolls, the smooth sign is much steeper than every other force on the body. Newton's tangent at
+//! a speed on one side of zero then leads far to the other side, and back from there, without end. After a correction has
+//! overshot zero, the slope is therefore taken from t sqrt(v^2 + w^2) = F v, linearised in both the friction t and the
+//! speed v, with t as the previous correction predicted it (Chan, Golub and Mulet, SIAM J. Sci. Comput. 20, 1999). This
+//! slope is never negative. It equals the exact one where prediction and friction agree, so that the last corrections
+//! converge as Newton's do. The residual is unchanged, and so is the solution.
 
 use crate::simd::number::Number;
 
@@ -17,7 +17,7 @@ pub struct Slip<N = f64> {
     pub speed: N,
     /// Friction that opposes it, of the sign of the speed: per normal force (-) in a contact, the torque (N m) of the bit.
     pub friction: N,
-    /// d friction / d speed as the tangent takes it.
+    /// d friction / d speed that the tangent uses.
     pub slope: N,
 }
 
@@ -35,17 +35,17 @@ impl<N: Number> Slip<N> {
     }
 }
 
-/// What the corrections of a step have learned of one friction.
+/// Memory of one friction over the corrections of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct SlipMemory {
-    /// At the residual before.
+    /// Friction at the previous residual.
     last: Slip,
-    /// Whether a correction of this step went too far through zero without counting on it.
+    /// Whether a correction of this step has overshot zero, against its own prediction.
     crossed: bool,
 }
 
 impl SlipMemory {
-    /// Begins with the first residual of a step.
+    /// Starts from the first residual of a step.
     #[inline(always)]
     pub fn new(first: Slip) -> Self {
         Self {
@@ -54,16 +54,16 @@ impl SlipMemory {
         }
     }
 
-    /// Takes the friction at the residual after a correction, of at most `full`, and sets its slope where the exact one
+    /// Takes the friction, at most `full`, at the residual after a correction, and replaces its slope where the exact one
     /// would not converge.
     #[inline(always)]
     pub fn follow(&mut self, slip: &mut Slip, full: f64, width: f64) {
         let last = &self.last;
         let expected = (last.friction + last.slope * (slip.speed - last.speed)).clamp(-full, full);
-        // Nearer to zero the sign is so straight that Newton comes back by itself.
+        // Within the width the sign is so nearly straight that Newton's own slope converges.
         self.crossed |= expected * slip.friction < 0.0 && slip.speed.abs() > width;
         if self.crossed {
-            // Without friction nothing crosses: `full` is no zero here.
+            // `full` is not zero here: without friction the product above is zero and nothing crosses.
             slip.slope = (full - expected * slip.friction / full) / (slip.speed * slip.speed + width * width).sqrt();
         }
         self.last = *slip;
@@ -100,8 +100,8 @@ mod tests {
     }
 
     #[test]
-    fn what_sticks_is_found_from_either_side() {
-        // The bit under 10 kN in N m and rad/s: 36 N m s/rad is what a wave in the pipe's torsion gives. A contact under
+    fn sticking_bodies_are_found_from_either_side() {
+        // The bit under 10 kN in N m and rad/s: 36 N m s/rad is the torsional impedance of the pipe. A contact under
         // 1 kN with a friction of 0.7 in N and m/s: a link of 2.8 kg in a step of 0.5 ms.
         let bit = [1e-4, 1e-3, 0.1].map(|width| ([36.0, 92.0, width], 1e-3));
         let contact = [1e-3, 1e-2].map(|width| ([11e3, 700.0, width], 1.0));
@@ -116,7 +116,7 @@ mod tests {
                 }
             }
         }
-        assert!(lost > 0, "Newton's own slope does it too: nothing is shown");
+        assert!(lost > 0, "Newton's own slope converges too: the test shows nothing");
     }
 
     #[test]
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn without_friction_nothing_is_learned() {
+    fn without_friction_the_slope_stays_zero() {
         let mut memory = SlipMemory::new(Slip::at(1.0, 0.0, 0.01));
         for speed in [-1.0, 1.0, 0.0] {
             let mut slip = Slip::at(speed, 0.0, 0.01);

@@ -1,9 +1,9 @@
-//! Input conditioning: every sample from the rig is taken or refused here, ages, and becomes a target.
+//! Input conditioning: accepts or refuses every sample of the rig, tracks its age, and derives the target from it.
 
 use super::{InputKind, InputRoute, InputRule, InputRules, InputState, Rejection, RejectionReason, Stamp};
 use crate::inputs::Inputs;
 
-/// Keeps the last good sample of each input and what became of the others.
+/// Keeps the last good sample of each input, and counts the others.
 ///
 /// Times are seconds on any one clock that the caller chooses; they need not begin at 0.
 #[derive(Debug, Clone)]
@@ -12,10 +12,10 @@ pub struct Conditioner {
     channels: [Channel; 2],
 }
 
-/// What became of the samples of one input.
+/// Accepted and refused samples of one input.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Samples taken.
+    /// Samples accepted.
     pub accepted: u64,
     /// Refused, by [`RejectionReason::index`].
     pub rejected: [u64; RejectionReason::COUNT],
@@ -31,13 +31,13 @@ impl Counts {
 #[derive(Debug, Clone, Copy, Default)]
 struct Channel {
     good: Option<Sample>,
-    /// Of the newest sample, if that was refused.
+    /// The refusal of the newest sample, if it was refused.
     refused: Option<Rejection>,
-    /// When the first sample since the last good one was refused.
+    /// Time of the first refusal since the last good sample.
     refusing_since: Option<f64>,
     last_rejection: Option<Rejection>,
     counts: Counts,
-    /// Target at the last change of rules, while there has been no good sample since: the target goes on from here.
+    /// Target at the last change of rules, until the next good sample: the target continues from this value.
     carried: Option<Sample>,
 }
 
@@ -49,7 +49,7 @@ struct Sample {
 }
 
 impl Conditioner {
-    /// Without any sample yet.
+    /// A conditioner that has received no sample.
     pub fn new(rules: InputRules) -> Self {
         Self {
             rules,
@@ -57,8 +57,8 @@ impl Conditioner {
         }
     }
 
-    /// Changes limits, ages and safe values at `now` (s); samples seen are kept. No change of rules raises a target: each
-    /// goes on from its present value until the next good sample.
+    /// Changes limits, ages and safe values at `now` (s); samples are kept. No change of rules raises a target: each
+    /// continues from its present value until the next good sample.
     pub fn set_rules(&mut self, rules: InputRules, now: f64) {
         for kind in InputKind::ALL {
             let value = self.target(kind, now);
@@ -72,21 +72,21 @@ impl Conditioner {
         &self.rules[kind.index()]
     }
 
-    /// Takes or refuses a sample (r/min or kN) received at `time` (s).
+    /// Accepts or refuses a sample (r/min or kN) received at `time` (s).
     ///
     /// # Errors
-    /// Says why the sample was refused; the last good one stays.
+    /// The reason for which the sample was refused; the last good one stays.
     pub fn offer(&mut self, kind: InputKind, value: f64, time: f64) -> Result<(), Rejection> {
         let last_time = self.channels[kind.index()].good.map(|sample| sample.time);
         let judged = judge(self.rule(kind), value, time, last_time);
-        self.take(kind, InputRoute::Plain, value, time, time, judged)
+        self.record(kind, InputRoute::Plain, value, time, time, judged)
     }
 
-    /// The same of a sample that says when it was measured and how good it is: its age counts from then.
+    /// The same for a sample with the time of its measurement and its quality: its age counts from that time.
     ///
     /// # Errors
-    /// As [`Conditioner::offer`]; and when its source calls it bad, or its stamp is older than `max_age` or further
-    /// ahead of the clock than `stamp.max_skew`.
+    /// As [`Conditioner::offer`], and when its source marks it as bad, or its stamp is older than `max_age` or more than
+    /// `stamp.max_skew` ahead of the clock.
     pub fn offer_stamped(&mut self, kind: InputKind, value: f64, time: f64, stamp: &Stamp) -> Result<(), Rejection> {
         let rule = self.rule(kind);
         let measured = time - stamp.age.max(0.0);
@@ -108,11 +108,11 @@ impl Conditioner {
             let last_time = self.channels[kind.index()].good.map(|sample| sample.time);
             judge(rule, value, measured, last_time)
         };
-        self.take(kind, InputRoute::Stamped, value, measured, time, judged)
+        self.record(kind, InputRoute::Stamped, value, measured, time, judged)
     }
 
-    /// Keeps what was judged; `measured` and `time` (of arrival) are on the same clock.
-    fn take(
+    /// Records the verdict on a sample; `measured` and `time` (of arrival) are on the same clock.
+    fn record(
         &mut self,
         kind: InputKind,
         route: InputRoute,
@@ -141,7 +141,7 @@ impl Conditioner {
                 };
                 channel.counts.rejected[reason.index()] += 1;
                 channel.last_rejection = Some(rejection);
-                // An old sample that comes late says nothing about the newest.
+                // A late sample has no bearing on the state of the newest one.
                 if !matches!(reason, RejectionReason::TimeBackwards { .. }) {
                     channel.refused = Some(rejection);
                     channel.refusing_since = channel.refusing_since.or(Some(time).filter(|time| time.is_finite()));
@@ -170,21 +170,21 @@ impl Conditioner {
         }
     }
 
-    /// Time (s) for which there has been no good sample: since the last one, or since the first that was refused where
-    /// there has been none; `None` before any sample.
+    /// Time (s) without a good sample: since the last one, or since the first refusal if none was good; `None` before any
+    /// sample.
     pub fn without_good(&self, kind: InputKind, now: f64) -> Option<f64> {
         let channel = &self.channels[kind.index()];
         let since = channel.good.map(|sample| sample.time).or(channel.refusing_since);
         since.map(|time| age(now, time))
     }
 
-    /// Whether the input has been without a good sample for so long that it is on its way to its safe value, or there.
+    /// Whether the hold has ended, so that the target is on its ramp to the safe value, or there.
     pub fn is_brought_to_safe(&self, kind: InputKind, now: f64) -> bool {
-        self.beyond_hold(kind, now).is_some()
+        self.time_since_hold(kind, now).is_some()
     }
 
     /// Time (s) since the end of the hold; `None` before.
-    fn beyond_hold(&self, kind: InputKind, now: f64) -> Option<f64> {
+    fn time_since_hold(&self, kind: InputKind, now: f64) -> Option<f64> {
         let rule = self.rule(kind);
         let over = self.without_good(kind, now)? - rule.max_age - rule.hold_before_safe;
         (over > 0.0).then_some(over)
@@ -201,28 +201,28 @@ impl Conditioner {
         self.channels[kind.index()].good.map(|sample| age(now, sample.time))
     }
 
-    /// The last good sample as taken (r/min or kN); `None` before the first.
+    /// The last good sample (r/min or kN); `None` before the first.
     pub fn last_good(&self, kind: InputKind) -> Option<f64> {
         self.channels[kind.index()].good.map(|sample| sample.value)
     }
 
-    /// What became of the samples so far.
+    /// Accepted and refused samples so far.
     pub fn counts(&self, kind: InputKind) -> Counts {
         self.channels[kind.index()].counts
     }
 
-    /// The sample refused last, whatever came after it.
+    /// The sample refused last; later good samples do not clear it.
     pub fn last_rejection(&self, kind: InputKind) -> Option<Rejection> {
         self.channels[kind.index()].last_rejection
     }
 
-    /// What is asked for at `now` (s), in the unit of the samples: the last good value, held while it ages, then
-    /// brought to the safe value; the start value before the first good sample, held and brought to the safe value too
-    /// where all samples are refused.
+    /// The target at `now` (s), in the unit of the samples: the last good value, held while it ages, then ramped to the
+    /// safe value. Before the first good sample it is the start value, which is held and ramped in the same way while all
+    /// samples are refused.
     ///
-    /// A silent rig is never sped up or loaded further: a safe value beyond the value that is held, or of the other sign,
-    /// acts as the held value or as zero. Always within the limits, except that a minimum that was raised above the held
-    /// value does not raise it.
+    /// Silence never raises speed or load: a safe value larger than the held value acts as the held value, one of the other
+    /// sign as zero. The target is always within the limits, except that a minimum raised above the held value does not
+    /// raise the target.
     pub fn target(&self, kind: InputKind, now: f64) -> f64 {
         let rule = self.rule(kind);
         let carried = self.channels[kind.index()].carried;
@@ -230,11 +230,11 @@ impl Conditioner {
             .map(|carried| carried.value)
             .or(self.last_good(kind))
             .unwrap_or(rule.initial);
-        let value = match self.beyond_hold(kind, now) {
+        let value = match self.time_since_hold(kind, now) {
             Some(over) => {
                 // A changed rule ramps from the value at the change, not from that at the end of the hold.
                 let over = carried.map_or(over, |carried| over.min(age(now, carried.time)));
-                towards(held, not_beyond(rule.safe, held), rule.safe_ramp * over)
+                towards(held, between_zero_and(held, rule.safe), rule.safe_ramp * over)
             }
             None => held,
         };
@@ -243,7 +243,7 @@ impl Conditioner {
         if limited.abs() > held.abs() { held } else { limited }
     }
 
-    /// What the twin is asked for at `now` (s), SI.
+    /// The twin's targets at `now` (s), SI.
     pub fn targets(&self, now: f64) -> Inputs {
         let si = |kind: InputKind| kind.to_si(self.target(kind, now));
         Inputs {
@@ -252,8 +252,8 @@ impl Conditioner {
         }
     }
 
-    /// To be called when the caller's clock was set anew (a simulated clock that started over): the samples' ages count
-    /// from `now` on, and no sample is refused for being before them.
+    /// Restarts the ages of all samples at `now`, after the caller's clock was set (a simulated clock that restarted), so
+    /// that no sample is refused for preceding the earlier ones.
     pub fn clock_set(&mut self, now: f64) {
         for channel in &mut self.channels {
             if let Some(sample) = &mut channel.good {
@@ -272,7 +272,7 @@ impl Conditioner {
     }
 }
 
-/// The value to take, or why not.
+/// The accepted value, or the reason for a refusal.
 fn judge(rule: &InputRule, value: f64, time: f64, last_time: Option<f64>) -> Result<f64, RejectionReason> {
     if let Some(last) = last_time
         && time < last
@@ -305,20 +305,21 @@ fn judge(rule: &InputRule, value: f64, time: f64, last_time: Option<f64>) -> Res
     Ok(value)
 }
 
-/// Never negative: a sample can be stamped a little after `now` is read.
+/// Age of a sample, at least 0: its stamp can be slightly later than the reading of `now`.
 fn age(now: f64, time: f64) -> f64 {
     (now - time).max(0.0)
 }
 
-/// `value` where it lies between zero and `held`, else the nearer of the two.
-fn not_beyond(value: f64, held: f64) -> f64 {
+/// `value` limited to the range from zero to `held`.
+fn between_zero_and(held: f64, value: f64) -> f64 {
     value.max(held.min(0.0)).min(held.max(0.0))
 }
 
-fn towards(from: f64, to: f64, by: f64) -> f64 {
+/// `from` moved towards `to` by at most `most`.
+fn towards(from: f64, to: f64, most: f64) -> f64 {
     if from > to {
-        (from - by).max(to)
+        (from - most).max(to)
     } else {
-        (from + by).min(to)
+        (from + most).min(to)
     }
 }

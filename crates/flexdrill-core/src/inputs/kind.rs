@@ -1,4 +1,4 @@
-//! Which input.
+//! The two inputs: names, topics and units.
 
 use std::fmt;
 

@@ -1,7 +1,7 @@
-//! Inputs from the rig: units, limits, age and state. Pure: time is handed in, nothing allocates.
+//! Inputs from the rig: units, limits, age and state. The caller passes the time; nothing here allocates.
 //!
-//! [`Conditioner`] takes samples in the driller's units as the topics, bags and field logs carry them, refuses what
-//! cannot be right, and says at any instant what the twin is asked for in SI.
+//! [`Conditioner`] takes samples in the driller's units, as topics, bags and field logs carry them, refuses values that
+//! cannot be right, and returns the twin's targets in SI for any instant.
 
 mod conditioner;
 mod kind;

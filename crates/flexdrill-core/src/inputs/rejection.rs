@@ -11,7 +11,7 @@ pub struct Rejection {
     pub kind: InputKind,
     /// On which topic.
     pub route: InputRoute,
-    /// As received (r/min or kN).
+    /// The value received (r/min or kN).
     pub value: f64,
     /// When it was received (s, the caller's clock).
     pub time: f64,
@@ -25,9 +25,9 @@ pub struct Rejection {
 pub enum RejectionReason {
     /// NaN or infinite.
     NotFinite,
-    /// Negative, and by more than an imperfect tare explains.
+    /// Negative by more than the tare error.
     Negative {
-        /// How far below zero is still taken as zero.
+        /// Largest negative reading that counts as zero.
         tare_error: f64,
     },
     /// Below the smallest allowed value.
@@ -40,12 +40,12 @@ pub enum RejectionReason {
         /// Largest allowed.
         max: f64,
     },
-    /// Its time is before that of the sample accepted last.
+    /// Its time precedes that of the last accepted sample.
     TimeBackwards {
         /// By how much (s).
         by: f64,
     },
-    /// Its source calls it bad.
+    /// Its source marks it as bad.
     Bad,
     /// Its stamp is ahead of the clock.
     FromFuture {
@@ -56,7 +56,7 @@ pub enum RejectionReason {
     },
     /// Its stamp is older than a value may be.
     TooOld {
-        /// How old it was when it came (s).
+        /// Its age on arrival (s).
         age: f64,
         /// From which age a value is stale (s).
         max_age: f64,

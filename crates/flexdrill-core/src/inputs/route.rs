@@ -1,4 +1,4 @@
-//! Which way a sample came.
+//! The topic on which a sample arrived.
 
 use super::InputKind;
 
@@ -16,7 +16,7 @@ impl InputRoute {
     /// Topic of [`InputRoute::Stamped`], relative to the node's namespace.
     pub const STAMPED_TOPIC: &'static str = "rig/inputs";
 
-    /// Topic of an input on this way, relative to the node's namespace.
+    /// Topic of an input on this route, relative to the node's namespace.
     pub const fn topic(self, kind: InputKind) -> &'static str {
         match self {
             Self::Plain => kind.topic(),
@@ -25,12 +25,12 @@ impl InputRoute {
     }
 }
 
-/// What a stamped sample says of itself.
+/// Age and quality of a stamped sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stamp {
-    /// Age when it came (s), by the stamp; negative when the stamp is ahead of the clock.
+    /// Age on arrival (s), by the stamp; negative where the stamp is ahead of the clock.
     pub age: f64,
-    /// Its source calls it bad.
+    /// Its source marks it as bad.
     pub bad: bool,
     /// How far ahead of the clock a stamp may be (s).
     pub max_skew: f64,

@@ -1,25 +1,25 @@
-//! What is allowed of an input, in the unit of its samples.
+//! Limits and ages of an input, in the unit of its samples.
 
 /// Limits, start value and ages of one input. Values in the unit of the samples (r/min or kN), times in s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InputRule {
-    /// Smallest value taken.
+    /// Smallest accepted value.
     pub min: f64,
-    /// Largest value taken.
+    /// Largest accepted value.
     pub max: f64,
     /// A value this little below zero counts as zero.
     pub tare_error: f64,
-    /// Acts until the first sample.
+    /// Value that acts until the first sample.
     pub initial: f64,
-    /// Brought to when the input stays stale.
+    /// Value that the target ramps to when the input stays stale.
     pub safe: f64,
-    /// How fast it is brought there, per s.
+    /// Rate of that ramp, per s.
     pub safe_ramp: f64,
     /// Age from which the input is SLOW.
     pub slow_age: f64,
     /// Age from which it is STALE.
     pub max_age: f64,
-    /// How long a stale value is held.
+    /// Time for which a stale value is held before the ramp begins.
     pub hold_before_safe: f64,
 }
 

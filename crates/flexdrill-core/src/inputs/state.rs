@@ -1,4 +1,4 @@
-//! How an input is.
+//! State of an input.
 
 use std::fmt;
 
@@ -16,14 +16,14 @@ pub enum InputState {
     Ok = 1,
     /// Later than expected, not yet stale.
     Slow = 2,
-    /// Too old: held, then brought to the safe value.
+    /// Too old: the value is held, then ramps to the safe value.
     Stale = 3,
-    /// The newest sample was refused, the last good one is held (and ages).
+    /// The newest sample was refused; the last good one is held and ages.
     Rejected = 4,
 }
 
 impl InputState {
-    /// The word of the interface: `OK`, `STALE`.
+    /// The interface's word for it: `OK`, `STALE`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::NotReceived => "NOT_RECEIVED",
@@ -34,7 +34,7 @@ impl InputState {
         }
     }
 
-    /// How bad, for choosing the worse of two: OK, SLOW, REJECTED, NOT_RECEIVED, STALE.
+    /// Rank for choosing the worse of two: OK, SLOW, REJECTED, NOT_RECEIVED, STALE.
     pub const fn badness(self) -> u8 {
         match self {
             Self::Ok => 0,

@@ -1,13 +1,13 @@
 //! Gauss-Jordan elimination of one small dense block against several right-hand sides, with threshold pivoting.
 //!
-//! Every inner loop runs over a whole column of fixed length (entries that must not change get a zero multiplier), so
-//! that it becomes a few vector instructions. Eliminating above and below the pivot at once needs no second sweep over
-//! the right-hand sides.
+//! Every inner loop runs over a whole column of fixed length, so that it compiles to a few vector instructions; the pivot
+//! row has a zero multiplier and stays unchanged. Eliminating above and below the pivot at once avoids a second sweep
+//! over the right-hand sides.
 
 use crate::simd::vector::Vector;
 
-/// The diagonal entry is the pivot unless a candidate is larger by more than this. Stiffness and inertia dominate their
-/// own equations, so exchanges are rare; the factor leaves room for the different units of displacements and rotations
+/// Ratio of the diagonal entry to the largest candidate below which rows are exchanged. Stiffness and inertia dominate
+/// their own equations, so exchanges are rare; the factor covers the different units of displacements and rotations
 /// (forces against couples over an element's length of centimetres).
 pub const PIVOT_RATIO: f64 = 1e-3;
 
@@ -22,6 +22,7 @@ pub fn solve_columns<V: Vector, const N: usize, const C: usize>(
 ) -> Result<(), f64> {
     let mut reciprocals = [0.0; N];
     for k in 0..N {
+        // The search has no branch inside, so that it runs in vectors; exchanges are rare and cold.
         let size = a[k][k].abs();
         let mut small = size.is_nan() | (size == 0.0);
         for (r, x) in a[k].iter().enumerate() {
@@ -36,10 +37,12 @@ pub fn solve_columns<V: Vector, const N: usize, const C: usize>(
         for r in 0..N {
             multipliers[r] = if r == k { 0.0 } else { a[k][r] * reciprocal };
         }
+        // Columns left of the pivot are eliminated already and not read again.
         for column in a[k + 1..].iter_mut().chain(b.iter_mut()) {
             subtract::<V, N>(column, &multipliers, column[k]);
         }
     }
+    // `a` is diagonal now; the division by the pivots comes last, so that elimination works on unscaled rows.
     for column in b.iter_mut() {
         for r in 0..N {
             column[r] *= reciprocals[r];
@@ -66,7 +69,7 @@ pub fn exchange<const N: usize, const K: usize, const C: usize>(
         }
     }
     let size = a[k][p].abs();
-    // A block that is singular but for rounding passes here; Newton's residual then tells.
+    // A block that is singular up to rounding passes this check; Newton's residual then fails to converge.
     if size.is_nan() || size == 0.0 {
         return Err(size);
     }

@@ -1,4 +1,4 @@
-//! Block LU along the stations: the plain method, which finds the static start and which the chain is held against.
+//! Block LU along the stations: the plain method. It finds the static start, and tests compare the chain with it.
 //!
 //! A station couples to the next one through its twelve outgoing unknowns only, so that with D the diagonal blocks, U
 //! and L the couplings to the next station and back
@@ -14,7 +14,7 @@ use crate::simd::{Instructions, Kernel};
 
 /// Columns solved per station: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
-/// The right-hand side's.
+/// Index of the right-hand side's column.
 const RIGHT: usize = 12;
 
 /// S^-1 (U, r) of a station with `N` unknowns, by columns.
@@ -30,7 +30,7 @@ pub struct BlockLu {
 }
 
 impl BlockLu {
-    /// Room for systems of this layout.
+    /// A solver for systems of this layout.
     pub fn new(layout: &Layout, instructions: Instructions) -> Self {
         let joint = (0..layout.stations()).filter(|&s| layout.is_large(s)).count();
         Self {
@@ -51,7 +51,7 @@ impl LinearSolver for BlockLu {
     }
 }
 
-/// One solution, for every width of vectors.
+/// One solution, compiled for every width of vectors.
 struct Solution<'a> {
     room: &'a mut BlockLu,
     system: &'a BlockSystem,
@@ -66,6 +66,7 @@ impl Kernel for Solution<'_> {
         let Self { room, system, rhs } = self;
         let layout = system.layout();
         let last = layout.stations() - 1;
+        // The last station couples to nothing below.
         let nothing = Coupling::zeros();
         // L S^-1 (U, r) of the station above.
         let mut carry = [[0.0; 12]; COLUMNS];
@@ -85,6 +86,7 @@ impl Kernel for Solution<'_> {
                 couple::<V>(&system.lower[station], &outgoing, &mut carry);
             }
         }
+        // Backward: the first twelve unknowns of a station are those that the station above couples to.
         let mut below = [0.0; 12];
         for station in (0..=last).rev() {
             let (slot, first) = (layout.slot(station), layout.offset(station));

@@ -1,20 +1,20 @@
-//! What contacts and joints add to the tangent of an iteration, kept apart from what lasts as long as the step size
-//! does.
+//! The part of an iteration's tangent that contacts and joints add. It is separate from the step-constant part, which
+//! stays as long as the step size does.
 
 use super::system::{BlockSystem, Layout};
 
-/// What touches at a station, and with it which unknowns its contact couples.
+/// The closed gaps of a station, which determine the unknowns that its contacts couple.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Touching {
-    /// Nothing: the station's contact block counts as zero, whatever it holds.
+    /// No gap is closed: the station's contact block counts as zero, and its entries are undefined.
     Nothing,
     /// Guide on wall: rows and columns of the guide only.
     Guide,
-    /// Pipe on guide, and perhaps guide on wall.
+    /// Pipe on guide; the guide may be on the wall too.
     Both,
 }
 
-/// Contact's part of a station's block over (pipe end above, guide), by columns.
+/// The contacts' part of a station's block over (pipe end above, guide), by columns.
 pub type ContactBlock = [[f64; 12]; 12];
 
 /// A joint's part over the rotations of (end above, start below).
@@ -26,23 +26,23 @@ pub struct JointIncrement {
     pub rows: [[f64; 6]; 2],
 }
 
-/// Additions of one iteration.
+/// The additions of one iteration.
 #[derive(Debug, Clone)]
 pub struct TangentIncrement {
-    /// What touches at each station.
+    /// The closed gaps of each station.
     pub touching: Vec<Touching>,
-    /// What contacts add to the block of each station, (pipe end above, guide) by columns.
+    /// The contacts' additions to the block of each station.
     pub contact: Vec<ContactBlock>,
-    /// Per joint station, in order.
+    /// The joints' additions, top to bottom.
     pub joints: Vec<JointIncrement>,
     /// Rotational rows per joint.
     pub rows: usize,
-    /// Held unknowns with their stations: their equations take no additions.
+    /// Held unknowns as (station, index in its block): their equations stay x = 0.
     held: Vec<(usize, usize)>,
 }
 
 impl TangentIncrement {
-    /// No additions, for `joints` joints of `rows` rotational rows. `held` are unknowns without an equation.
+    /// An increment without additions, for `joints` joints of `rows` rotational rows. `held` lists the held unknowns.
     pub fn new(layout: &Layout, joints: usize, rows: usize, held: impl Iterator<Item = usize>) -> Self {
         let stations = layout.stations();
         Self {
@@ -65,7 +65,7 @@ impl TangentIncrement {
         }
     }
 
-    /// Takes the rows and columns of held unknowns out of the contact blocks.
+    /// Clears the rows and columns of held unknowns in the contact blocks.
     pub fn drop_held(&mut self) {
         for &(station, local) in &self.held {
             if local < 12 && self.touching[station] != Touching::Nothing {
@@ -76,7 +76,7 @@ impl TangentIncrement {
         }
     }
 
-    /// Adds everything to `system`; held rotations of joints are to be held again by the caller.
+    /// Adds the increment to `system`. The caller holds the held rotations of joints again afterwards.
     pub fn add_to(&self, system: &mut BlockSystem) {
         let mut joint = 0;
         for station in 0..self.touching.len() {
@@ -85,16 +85,17 @@ impl TangentIncrement {
             }
             if joint < self.joints.len() && system.layout().is_large(station) {
                 let change = &self.joints[joint];
-                let place = |k: usize| if k < 3 { 3 + k } else { 12 + k };
+                // In the block of 24 the rotations of the end above are at 3 to 5, those of the start below at 15 to 17.
+                let index = |k: usize| if k < 3 { 3 + k } else { 12 + k };
                 for (j, column) in change.rotations.iter().enumerate() {
                     for (i, &x) in column.iter().enumerate() {
-                        system.add(station, place(i), place(j), x);
+                        system.add(station, index(i), index(j), x);
                     }
                 }
                 for (r, row) in change.rows.iter().enumerate().take(self.rows) {
                     for (k, &x) in row.iter().enumerate() {
-                        system.add(station, 21 + r, place(k), x);
-                        system.add(station, place(k), 21 + r, x);
+                        system.add(station, 21 + r, index(k), x);
+                        system.add(station, index(k), 21 + r, x);
                     }
                 }
                 joint += 1;

@@ -21,7 +21,7 @@ pub use sparse::SparseReference;
 pub(super) use system::add_columns;
 pub use system::{BlockSystem, Layout};
 
-/// A pivot vanished: the system has no unique solution.
+/// A pivot is zero: the system has no unique solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Singular {
     /// Station of the block, 0-based.

@@ -1,4 +1,4 @@
-//! What is attached to the tool: supports, loads and masses, resolved to unknowns.
+//! Supports, loads and masses, resolved to unknowns of the model.
 
 use std::ops::Range;
 
@@ -12,9 +12,9 @@ use crate::validation::ValidationError;
 /// A load with its unknown resolved.
 #[derive(Debug, Clone)]
 pub struct ResolvedLoad {
-    /// Unknown it acts on.
+    /// The unknown that it acts on.
     pub unknown: usize,
-    /// The load as described, with its history.
+    /// The described load with its history.
     pub load: PointLoad,
 }
 
@@ -29,12 +29,12 @@ pub struct ResolvedMass {
     pub gravity: Vector3<f64>,
 }
 
-/// A node that supports hold in some of its directions.
+/// A node with at least one held direction.
 #[derive(Debug, Clone)]
 pub struct HeldNode {
-    /// Station that it is at.
+    /// Station of the node.
     pub station: usize,
-    /// Which pipe's.
+    /// The pipe that the node belongs to.
     pub body: Body,
     /// First unknown of the node.
     pub node: usize,
@@ -49,8 +49,8 @@ impl Model {
     pub(super) fn attach(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
         for support in &d.supports {
             for node in self.nodes("supports", support.location, support.body, true)? {
-                // A joint hands displacements and spin on: held above it, they are held. The tilts below are free of those
-                // above.
+                // A joint transmits displacements and spin: holding them above the joint holds them below. The tilts below
+                // are free, and are held on their own.
                 let station = &self.stations[self.layout.station_of(node)];
                 let below_joint = station.joint.is_some() && node == station.pipe_below;
                 let directions = support
@@ -106,7 +106,7 @@ impl Model {
                 unknown: self.stations[self.last()].pipe_above,
                 body: PointBody {
                     axial_inertia: d.bit.inertia,
-                    // A disc's: the least that a body can have.
+                    // That of a thin disc: the smallest ratio that a body can have.
                     transverse_inertia: 0.5 * d.bit.inertia,
                     ..PointBody::default()
                 },
@@ -150,7 +150,7 @@ impl Model {
         }
     }
 
-    /// Sum in the world of what `values`, per unknown, put on the displacements of all nodes.
+    /// Sum over all nodes, in the world frame, of the translational entries of `values` (one entry per unknown).
     pub fn sum_in_world(&self, values: &[f64]) -> Vector3<f64> {
         let at = |node: usize| Vector3::new(values[node], values[node + 1], values[node + 2]);
         let mut sum = Vector3::zeros();

@@ -4,9 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::station::{Bore, Station};
 use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
-use crate::tool::SectionProperties;
-use crate::tool::ToolDescription;
-use crate::tool::frame_along;
+use crate::tool::{SectionProperties, ToolDescription, frame_along};
 
 /// A pipe element, in its link's frame.
 #[derive(Debug, Clone)]
@@ -52,7 +50,7 @@ impl PipeElement {
 }
 
 impl GuideElement {
-    /// Between two stations, whose frames it takes into its chord's by Gamma of Eq. 8; its matrices are turned as in
+    /// The element between two stations. Gamma of Eq. 8 rotates their frames into the chord's; the matrices follow by
     /// Eq. 9.
     pub(super) fn new(d: &ToolDescription, above: &Station, below: &Station) -> Self {
         let span = below.position - above.position;

@@ -1,4 +1,4 @@
-//! The tool after the build: geometry, elements, joints and numbering. Constant while it runs.
+//! The tool as built: geometry, elements, joints and numbering. The model stays constant while the tool runs.
 //!
 //! Numbering: each [`Station`] carries a pipe node and a guide node; at a joint station the pipe has two nodes, the end
 //! of the link above and the start of the link below. Pipe nodes are in their link's frame, guide nodes in the
@@ -25,7 +25,7 @@ pub use station::Station;
 
 use station::Bore;
 
-/// Everything that does not change.
+/// The constant part of a simulation: everything that follows from the description alone.
 #[derive(Debug, Clone)]
 pub struct Model {
     /// Stations, top to bottom.
@@ -38,19 +38,19 @@ pub struct Model {
     pub pipe: Vec<PipeElement>,
     /// Element e between stations e and e + 1.
     pub guide: Vec<GuideElement>,
-    /// The same elements, pipe then guide, as the residual needs them.
+    /// The same elements, pipe then guide, with their matrices packed for the residual.
     pub elements: Elements,
     /// Consistent forces of gravity on both pipes, per unknown (N, N m).
     pub weight: Vec<f64>,
     /// Unknowns held at zero, in rising order.
     pub held: Vec<usize>,
-    /// The nodes that they belong to, in the same order.
+    /// The nodes of the held unknowns, in the same order.
     pub held_nodes: Vec<HeldNode>,
-    /// Weight of all of the tool, along the axes of the world (N).
+    /// Weight of the whole tool, along the world axes (N).
     pub total_weight: Vector3<f64>,
     /// Spin of the top pipe node, if driven.
     pub driven: Option<usize>,
-    /// Padding unknowns without an equation of their own.
+    /// Padding unknowns, which fill joint blocks up to their fixed size and have the equation x = 0.
     pub padding: Vec<usize>,
     /// Point loads, resolved to unknowns.
     pub loads: Vec<ResolvedLoad>,
@@ -64,7 +64,7 @@ pub struct Model {
     pub tied: bool,
     /// Multiplier of the tie, in the last station's block.
     pub tie: Option<usize>,
-    /// Where what acts on the tool acts.
+    /// The unknowns that loads, joints, drive and bit act on.
     pub places: Places,
     /// Numbering of the linear system.
     pub layout: Layout,
@@ -72,7 +72,7 @@ pub struct Model {
     pub force_scale: f64,
     /// The same for rotational rows (N m).
     pub moment_scale: f64,
-    /// The description that it was built from.
+    /// The description of the tool.
     pub description: ToolDescription,
 }
 
@@ -118,6 +118,7 @@ impl Model {
             padding.extend((first + 12..first + 24).filter(|&u| u != first + 18));
         }
 
+        // Multipliers are forces over these, so that their columns have the size of the stiffness columns beside them.
         let stiffest = pipe
             .iter()
             .map(|e| e.beam.section.axial / e.beam.length)
@@ -183,7 +184,7 @@ impl Model {
         self.layout.unknowns()
     }
 
-    /// Number of equations that mean something: nodes' directions and constraint rows.
+    /// Number of unknowns without padding: directions of nodes, and constraint rows.
     pub fn degrees_of_freedom(&self) -> usize {
         self.unknowns() - self.padding.len()
     }

@@ -1,4 +1,4 @@
-//! Stations: where they lie on the bore, and how the straight links lie in it.
+//! Stations: their position on the bore, and the chords of the straight links in it.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -16,15 +16,15 @@ pub struct Station {
     pub position: Vector3<f64>,
     /// Station frame, columns x (down the hole), y, z (low side) in the world.
     pub frame: Matrix3<f64>,
-    /// Pipe displacement in its (upper) link's frame to the station's frame.
+    /// Rotation from the frame of the (upper) link, in which the pipe's displacements are, to the station's frame.
     pub pipe_to_station: Matrix3<f64>,
-    /// Where the undeflected pipe lies in the station's frame (y, z), m: the link's chord against the arc.
+    /// Lateral position of the undeflected pipe in the station's frame (y, z), m: the chord's distance from the arc.
     pub offset: Vector2<f64>,
     /// Clearance of the inner layer, Eq. 27 (m).
     pub inner_clearance: f64,
     /// Radius of the pipe's outer surface (m).
     pub pipe_radius: f64,
-    /// Number of the joint here, if any.
+    /// Number of the joint at this station, if any.
     pub joint: Option<usize>,
     /// First unknown of the pipe node at the end of the element above (at the top, of the only node).
     pub pipe_above: usize,

@@ -1,14 +1,13 @@
-//! What ages, and how fast against the rest of the tool: damage of joints and links by counted load cycles, work of the
-//! friction at every station.
+//! Relative ageing of the tool: damage of joints and links by counted load cycles, work of the friction at every station.
 //!
-//! Damage of a cycle is (range / rated moment)^slope, Palmgren and Miner's sum with a Woehler line of that slope. It
-//! compares places and ways of drilling; no life follows from it, since where the line lies is not known.
+//! The damage of a cycle is (range / rated moment)^slope, Palmgren and Miner's sum with a Woehler line of that slope. It
+//! compares stations and drilling parameters. It predicts no life, since the position of the line is unknown.
 
 use serde::{Deserialize, Serialize};
 
 use super::rainflow::Rainflow;
 
-/// Part of the rated moment below which a cycle is not counted: at a slope of 5 a million of them are one.
+/// Part of the rated moment below which a cycle is not counted: at a slope of 5 a million of them equal one.
 const LEAST_RANGE: f64 = 0.05;
 
 /// How ageing is counted.
@@ -33,13 +32,13 @@ impl Default for AgeingSettings {
 /// Sums since the start.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Ageing {
-    /// How they were counted.
+    /// Settings of the counting.
     pub settings: AgeingSettings,
-    /// Model time that they are of (s).
+    /// Model time of the sums (s).
     pub duration: f64,
     /// Per joint: damage of its stop.
     pub stop_damage: Vec<f64>,
-    /// Per joint: damage of the link below it by bending, at the middle of the link, on the side that it is worse for.
+    /// Per joint: damage of the link below it by bending, at the middle of the link, on its worse side.
     pub bending_damage: Vec<f64>,
     /// Per station: work of the friction between pipe and guide, and between guide and wall (J).
     pub friction_work: [Vec<f64>; 2],
@@ -79,7 +78,7 @@ struct JointAgeing {
 }
 
 impl AgeingWatch {
-    /// For that many joints and stations.
+    /// A watch of `joints` joints and `stations` stations.
     pub fn new(settings: &AgeingSettings, joints: usize, stations: usize) -> Self {
         let joint = || JointAgeing {
             angular_impulse: 0.0,
@@ -135,7 +134,7 @@ impl AgeingWatch {
         }
     }
 
-    /// Begins anew.
+    /// Resets all sums.
     pub fn reset(&mut self) {
         self.duration = 0.0;
         for joint in &mut self.joints {

@@ -1,9 +1,9 @@
-//! Chaotic whirl: the pipe is thrown about in the guide without direction, judged by what its collisions take.
+//! Chaotic whirl: the pipe moves through the guide without direction. It is judged by the power that collisions dissipate.
 //!
-//! The measure is the power of all collisions per metre of the tool, from the energy audit, times the part of the watched
-//! places at which the pipe moves chaotically. Power alone does not tell thrown motion from fast drilling: it goes with
-//! the square of the speed. Motion alone does not tell either: a few places are chaotic in steady drilling, and their
-//! blows are weak.
+//! The measure is the power of all collisions per metre of the tool, from the energy audit, times the share of the watched
+//! stations at which the pipe moves chaotically. Power alone does not distinguish chaotic motion from fast drilling: it
+//! grows with the square of the speed. The share alone does not either: in steady drilling a few stations move
+//! chaotically, with weak collisions.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,18 +11,18 @@ use super::Severity;
 use super::hazards::ended;
 use super::hysteresis::{Alarm, AlarmThresholds};
 
-/// The window moves by one of these parts.
+/// Number of blocks in the sliding window.
 const BLOCKS: usize = 6;
 
 /// How chaotic whirl is judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ChaoticWhirlSettings {
-    /// Time over which the power is averaged (s): two turns at 40 r/min, so that a blow once per turn counts as often as
-    /// it comes, and a single one is none.
+    /// Time over which the power is averaged (s): two turns at 40 r/min, so that an impact once per turn counts fully and
+    /// a single one hardly.
     pub window: f64,
-    /// Levels of the power of the collisions per metre of the tool, times the part of the pipe that moves chaotically
-    /// (W/m). `docs/whirl.md` has the runs that they come from.
+    /// Levels of the power of the collisions per metre of the tool, times the share of the pipe that moves chaotically
+    /// (W/m). `docs/whirl.md` lists the runs behind them.
     pub thresholds: AlarmThresholds,
 }
 
@@ -39,49 +39,50 @@ impl Default for ChaoticWhirlSettings {
     }
 }
 
-/// How the pipe is thrown about.
+/// Level of chaotic whirl.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChaoticWhirlLevel {
     /// Level.
     pub severity: Severity,
-    /// Power that collisions took in a window, per metre of the tool and times the chaotic part of it (W/m): the largest
-    /// since the level was reached, that of the last window while all is well.
+    /// Power that collisions dissipated in a window, per metre of the tool and times the chaotic share (W/m): the largest
+    /// since the level was reached, that of the last window while the level is OK.
     pub power: f64,
-    /// Part of the watched places of the pipe that moved chaotically then, 0 to 1.
+    /// Share of the watched stations of the pipe that moved chaotically then, 0 to 1.
     pub share: f64,
-    /// Station at which collisions of the pipe take most, from the top.
+    /// Station with the largest dissipation in collisions of the pipe, from the top.
     pub station: usize,
     /// Model time of power, share and station (s).
     pub seen: f64,
     /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](super::ENDED_AFTER) ago. None
-    /// while it is held, and while all is well.
+    /// while it is held, and while the level is OK.
     pub ended: Option<f64>,
     /// Model time at which the level was reached (s).
     pub since: f64,
 }
 
-/// Watches what collisions take from a pipe that moves chaotically.
+/// Watches the dissipation of collisions while the pipe moves chaotically.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChaoticWhirlWatch {
     settings: ChaoticWhirlSettings,
-    /// Of the tool (m).
+    /// Length of the tool (m).
     length: f64,
-    /// Energy taken from the whole tool in each part of the window, times the chaotic part of it (J).
+    /// Energy dissipated in each block of the window, times the chaotic share (J).
     blocks: [f64; BLOCKS],
     current: usize,
     elapsed: f64,
-    /// Integral of the chaotic part of the pipe since the end of the last part of the window (s).
+    /// Integral of the chaotic share since the end of the last block (s).
     share_time: f64,
-    /// Energy that collisions of the pipe took at each station (J), what is a window old down to a third.
+    /// Energy that collisions of the pipe dissipated at each station (J), with exponential forgetting: a third after one
+    /// window.
     at: Vec<f64>,
-    /// By the audit, at the end of the last step (J).
+    /// Total dissipation by the audit at the end of the last step (J).
     taken: f64,
     alarm: Alarm,
     level: ChaoticWhirlLevel,
 }
 
 impl ChaoticWhirlWatch {
-    /// For a tool of that length (m) and that many stations.
+    /// A watch of a tool of `length` (m) with `stations` stations.
     pub fn new(settings: &ChaoticWhirlSettings, length: f64, stations: usize) -> Self {
         Self {
             settings: *settings,
@@ -97,15 +98,15 @@ impl ChaoticWhirlWatch {
         }
     }
 
-    /// Takes the energy (J) that the collision of the pipe with the guide took at a station in a step. It decides where the
-    /// motion is worst, not how bad it is.
+    /// Takes the energy (J) that the contact of pipe and guide dissipated at a station in a step. It determines the worst
+    /// station, not the level.
     pub fn push(&mut self, station: usize, energy: f64) {
         self.at[station] += energy;
     }
 
-    /// Ends a step of `dt` (s) at model time `time` (s); `taken` (J) is what collisions have taken since the start,
-    /// `share` the part of the pipe that moves chaotically, 0 to 1. While the drive does not turn steadily (`judged` is
-    /// false) nothing counts, and the window starts anew.
+    /// Ends a step of `dt` (s) at model time `time` (s); `taken` (J) is the dissipation of all collisions since the
+    /// start, `share` the chaotic share of the pipe, 0 to 1. While the drive does not turn steadily (`judged` is false)
+    /// nothing counts, and the window restarts.
     pub fn advance(&mut self, time: f64, dt: f64, taken: f64, share: f64, judged: bool) {
         let energy = taken - std::mem::replace(&mut self.taken, taken);
         if judged {
@@ -115,13 +116,13 @@ impl ChaoticWhirlWatch {
         }
         self.elapsed += dt;
         self.share_time += share * dt;
-        // Half a step of slack, so that rounding in the sum does not make parts of different lengths.
+        // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
         if self.elapsed + 0.5 * dt < self.settings.window / BLOCKS as f64 {
             return;
         }
         let elapsed = std::mem::take(&mut self.elapsed);
         let share = std::mem::take(&mut self.share_time) / elapsed;
-        // A window that is not full yet gives less, never more: what is violent is called before it is full.
+        // A window that is not full underestimates the power, so that violent motion is reported before it is full.
         let power = self.blocks.iter().sum::<f64>() / (self.settings.window * self.length);
         self.current = (self.current + 1) % BLOCKS;
         self.blocks[self.current] = 0.0;
@@ -141,7 +142,7 @@ impl ChaoticWhirlWatch {
         self.level.ended = ended(now, self.alarm.met(), time);
     }
 
-    /// Station at which collisions of the pipe take most; what they took fades by a part of the window.
+    /// The station with the largest dissipation; all dissipations decay by one block of the window.
     fn worst_station(&mut self) -> usize {
         let mut worst = (0.0, 0);
         for (station, energy) in self.at.iter_mut().enumerate() {
@@ -153,7 +154,7 @@ impl ChaoticWhirlWatch {
         worst.1
     }
 
-    /// How the pipe is thrown about.
+    /// Level of chaotic whirl.
     pub fn level(&self) -> ChaoticWhirlLevel {
         self.level
     }
@@ -163,7 +164,7 @@ impl ChaoticWhirlWatch {
         &self.settings
     }
 
-    /// Forgets everything but the settings; the audit starts at zero too.
+    /// Resets everything except the settings; the audit restarts at zero too.
     pub fn reset(&mut self) {
         self.at.fill(0.0);
         (self.blocks, self.current) = Default::default();

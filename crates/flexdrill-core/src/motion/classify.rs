@@ -1,4 +1,4 @@
-//! From orbit and spectrum to a kind of whirl.
+//! Classification of the motion at a station from its orbit and its spectrum.
 
 use std::f64::consts::TAU;
 
@@ -8,28 +8,28 @@ use super::orbit::Orbit;
 use super::orbit_window::Round;
 use super::settings::WhirlSettings;
 
-/// Turns that an orbit must make in the long window; half an arc about its own centre looks like up to 0.7 turns, so
-/// anything less may be a drift.
+/// Turns that an orbit must make in the long window. Half an arc about its own centre appears as up to 0.7 turns, so that
+/// fewer turns may be a drift.
 const MIN_TURNS: f64 = 0.8;
 
-/// What the short window must reach in direction and concentration to overrule the long one. Broad-band motion looks
-/// directed over a few turns, but not both pure and on one line.
+/// Direction and concentration from which the short window overrules the long one. Over a few turns broad-band motion can
+/// appear directed, but not both pure and concentrated on one line.
 const CLEAN_DIRECTION: f64 = 0.9;
 const CLEAN_CONCENTRATION: f64 = 0.9;
 
-/// Agreement of the two rates from which the orbit counts as one line; the spectrum alone is good for a few percent.
+/// Agreement of the two rates from which the orbit counts as one line; the spectrum is accurate to a few percent.
 const SINGLE_LINE: f64 = 0.9;
 
-/// Agreement of turns and strongest line from which the line, which is measured more finely, gives the rate. A window of
-/// two turns is counted to a quarter of a turn.
+/// Agreement of turns and strongest line from which the line, which is more accurate, determines the rate. The turns of a
+/// window of two turns are accurate to a quarter of a turn.
 const SAME_RATE: f64 = 0.8;
 
-/// Part of the turns about the gap's centre that must go one way for a motion whose lines have no direction: a pipe that
-/// is thrown from wall to wall draws chords, and these have lines both ways although every flight goes round backward.
-/// Of broad-band motion over ten swings the part scatters by 0.15 around 0.
+/// Net share of the turns about the gap's centre from which a motion whose lines have no direction counts as whirl: a
+/// pipe thrown from wall to wall moves along chords, whose lines have both directions although every flight runs
+/// backward. For broad-band motion over ten swings the share scatters by 0.15 around 0.
 const DIRECT: f64 = 0.5;
 
-/// Relative difference to twice the rotary speed within which a small orbit is driven by the joint's cross.
+/// Relative difference to twice the rotary speed within which the joint's cross drives a small orbit.
 const TWICE: f64 = 0.1;
 
 /// Both estimators' results for one window.
@@ -40,8 +40,7 @@ pub(super) struct View {
     pub(super) round: Round,
     /// Phase rate (rad/s) from the turns about the centre, where the swept area and the strongest line disagree.
     pub(super) turning: Option<f64>,
-    /// How much the motion repeats itself after one turn of the tool, one and a half or two; 0 where it was not looked
-    /// at.
+    /// Correlation of the motion with itself after one, one and a half or two turns of the tool; 0 if not evaluated.
     pub(super) repetition: f64,
     /// Length of the window (s).
     pub(super) duration: f64,
@@ -54,21 +53,21 @@ impl View {
             && self.lines.concentration >= CLEAN_CONCENTRATION
     }
 
-    /// 1 when the estimators in time and in frequency give the same rate, 0 when they differ by their own size. In time
-    /// the swept area or the turns may agree: for one line both do, of several the turns follow the larger one.
+    /// 1 where the estimators in time and in frequency yield the same rate, 0 where they differ by their own size. In time
+    /// the swept area or the turns may agree: for one line both do, for several the turns follow the larger one.
     fn agreement(&self) -> f64 {
         let agree = |time: f64| agreement(time, self.lines.rate);
         agree(self.orbit.rate).max(self.turning.map_or(0.0, agree))
     }
 
-    /// Whether the swept area and the strongest line tell of one and the same rate.
+    /// Whether the swept area and the strongest line yield the same rate.
     pub(super) fn is_single_line(&self) -> bool {
         agreement(self.orbit.rate, self.lines.rate) >= SINGLE_LINE
     }
 
-    /// The swept area is exact for a single line. Of several lines it gives the mean, and then the strongest line says
-    /// more, unless the turns that were made contradict it: the strongest line of chords is not the rate at which they go
-    /// round. Those about the gap's centre count where it is gone round.
+    /// The whirl rate (rad/s). The swept area is exact for a single line. For several lines it is the mean; then the
+    /// strongest line is better, unless the counted turns contradict it: the strongest line of chords is not the rate of
+    /// their revolution. Turns about the gap's centre count where the motion encloses it.
     fn rate(&self) -> f64 {
         let Some(turning) = self.turning else {
             return self.orbit.rate;
@@ -91,12 +90,12 @@ impl View {
     }
 }
 
-/// What is beside the motion when it is judged.
+/// Rotation of the tool at the time of the judgement.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rotation {
     /// +1 or -1, the sign of the rotation.
     pub(super) sense: f64,
-    /// Size of the mean rotary speed (rad/s); none while the tool stands.
+    /// Magnitude of the mean rotary speed (rad/s); none while the tool stands.
     pub(super) speed: Option<f64>,
 }
 
@@ -122,7 +121,7 @@ pub(super) struct Verdict {
     pub(super) window: f64,
 }
 
-/// The thresholds of a kind as they stand for a station: what is left needs less than what is entered.
+/// Thresholds for a station, with hysteresis: staying in a kind requires less than entering it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gates {
     /// RMS radius (m) below which there is no orbit.
@@ -140,7 +139,7 @@ pub(super) struct Gates {
 }
 
 impl Gates {
-    /// `previous` is the kind that stands.
+    /// Thresholds for a gap of `clearance` (m); `previous` is the present kind.
     pub(super) fn new(clearance: f64, previous: WhirlKind, settings: &WhirlSettings) -> Self {
         let leaving = 1.0 - settings.hysteresis;
         let when = |stands: bool| if stands { leaving } else { 1.0 };
@@ -166,12 +165,12 @@ impl Gates {
         lines.direction.abs() >= self.direction
     }
 
-    /// Whether the motion goes round the gap, or is so large that it matters wherever its centre lies.
+    /// Whether the motion encloses the gap's centre, or is so large that the position of its centre is irrelevant.
     fn goes_round(&self, view: &View) -> bool {
         view.round.net.abs() >= self.turns || view.orbit.radius >= self.large
     }
 
-    /// Whether the flights from wall to wall go one way round, whatever the lines of their chords say.
+    /// Whether the flights from wall to wall revolve in one direction, whatever the lines of their chords.
     fn is_thrown_round(&self, round: &Round) -> bool {
         round.net.abs() >= self.turns && round.directness() >= self.direct
     }
@@ -184,8 +183,9 @@ impl Gates {
 
 /// Names the motion of a station.
 pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: &Rotation) -> Verdict {
-    // Out of chaos only the long window leads: by chance a few turns of it look like one whirl. So do parts of a motion
-    // that repeats itself without going round, and a short window sees a large slow line as a drift of a small fast one.
+    // Three cases in which the long window decides: after chaos, a few turns of which resemble one whirl by chance; for a
+    // motion that repeats itself without revolving, whose parts do so too; and where the short window would take a large
+    // slow line for the drift of a small fast one.
     let is_part = |short: &View| gates.goes_round(long) && !gates.goes_round(short);
     let long_leads = gates.out_of_chaos || long.repetition >= gates.repetition || short.is_some_and(is_part);
     let view = match short {
@@ -199,7 +199,7 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
         confidence: confidence.clamp(0.0, 1.0),
         window: view.duration,
     };
-    // The short window knows first that an orbit has died down.
+    // The short window is the first to show that an orbit has decayed.
     let radius = short
         .map_or(f64::MAX, |short| short.orbit.radius)
         .min(long.orbit.radius);
@@ -238,8 +238,8 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
                 ..whirl(long.round_rate(), long.round.directness())
             };
         }
-        // A pipe that rocks up both sides of the hole, or is thrown about in the same way at every turn, has no
-        // direction either, but there is nothing chaotic in it.
+        // A pipe that rocks up both sides of the hole, or repeats the same throw at every turn, has no direction either, but
+        // its motion is not chaotic.
         return if view.repetition >= gates.repetition {
             verdict(WhirlKind::None, 0.0, view.repetition)
         } else {
@@ -250,7 +250,7 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
     if view.orbit.rate.abs().max(view.lines.rate.abs()) * view.duration < gates.turns * TAU {
         return verdict(WhirlKind::None, 0.0, 0.5);
     }
-    // The direction is that of the lines: the rate of the turns may be lost in noise.
+    // The sign is that of the lines: noise can hide the sign of the turns.
     let rate = view.rate().copysign(direction);
     whirl(rate, direction.abs() * view.agreement())
 }

@@ -1,4 +1,4 @@
-//! Peak and root mean square between two outputs, since collisions are shorter than the time between them.
+//! Peak and root mean square between two outputs: collisions are shorter than the time between outputs.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ pub struct ContactStatistics {
 }
 
 impl ContactStatistics {
-    /// For that many stations.
+    /// Statistics of `stations` stations.
     pub fn new(stations: usize) -> Self {
         Self {
             peak: vec![0.0; stations],
@@ -20,18 +20,18 @@ impl ContactStatistics {
         }
     }
 
-    /// Takes the normal force (N) of one touching station in a step of `dt` (s).
+    /// Takes the normal force (N) of a closed gap in a step of `dt` (s).
     pub fn touch(&mut self, station: usize, dt: f64, normal: f64) {
         self.peak[station] = self.peak[station].max(normal);
         self.square_integral[station] += normal * normal * dt;
     }
 
-    /// Ends a step of `dt` (s); stations that were not named did not touch.
+    /// Ends a step of `dt` (s); the gaps of all other stations were open.
     pub fn advance(&mut self, dt: f64) {
         self.duration += dt;
     }
 
-    /// Writes the peak and the root mean square (N) of the interval so far; zeros when nothing was pushed.
+    /// Writes the peak and the root mean square (N) of the interval so far; zeros at its start.
     pub fn write(&self, peak: &mut [f64], rms: &mut [f64]) {
         peak.copy_from_slice(&self.peak);
         for (out, square) in rms.iter_mut().zip(&self.square_integral) {
@@ -85,7 +85,7 @@ impl RootMeanSquare {
         self.integral
     }
 
-    /// Of the interval so far; 0 when nothing was pushed.
+    /// Root mean square of the interval so far; 0 at its start.
     pub fn value(&self) -> f64 {
         if self.duration > 0.0 {
             (self.square_integral / self.duration).sqrt()

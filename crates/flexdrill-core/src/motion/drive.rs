@@ -1,4 +1,4 @@
-//! What the drive does: stands, is being run up, or turns. A tool that is brought to speed is no tool in trouble.
+//! State of the drive: standing, running up or turning. Levels do not rise during a run-up, whose motion is transient.
 
 use std::f64::consts::TAU;
 
@@ -7,16 +7,16 @@ use serde::{Deserialize, Serialize};
 /// Turns at a steady speed after which a run-up is over.
 const SETTLED_TURNS: f64 = 2.0;
 
-/// Rise of the speed, relative, by which a run-up goes on.
-const STILL_RISING: f64 = 0.1;
+/// Relative rise of the speed by which a run-up continues.
+const RISING: f64 = 0.1;
 
-/// Longest run-up (s). A drive that never becomes steady is judged all the same.
+/// Longest run-up (s). A drive that never becomes steady counts as turning after it.
 const LONGEST_RUN_UP: f64 = 30.0;
 
-/// Part of the gate below which a turning drive counts as standing again.
+/// Part of the gate speed below which a turning drive counts as standing again.
 const LEAVE_GATE: f64 = 0.8;
 
-/// What the drive does.
+/// State of the drive.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
@@ -26,8 +26,8 @@ pub enum DriveState {
     Standing = 0,
     /// From standstill until the speed has not risen by a tenth for two turns, half a minute at most.
     RunningUp = 1,
-    /// The drive turns, or has been below the gate speed for less than the standstill time: a bit that sticks once per
-    /// swing of its string stands for seconds and is no tool that is started anew.
+    /// The drive turns, or has been below the gate speed for less than the standstill time: in stick-slip a bit stands for
+    /// seconds, which is not a new start.
     Turning = 2,
 }
 
@@ -35,17 +35,17 @@ pub enum DriveState {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct DriveWatch {
     pub(super) state: DriveState,
-    /// Speed since which the turns count (rad/s).
+    /// Speed from which the steady turns count (rad/s).
     reference: f64,
     steady_turns: f64,
     running_up_for: f64,
-    /// How long the speed has been below the gate (s).
+    /// Time for which the speed has been below the gate (s).
     below_gate_for: f64,
 }
 
 impl DriveWatch {
-    /// Takes the speed of the drive (rad/s) over `elapsed` (s). It stands once it has been below `gate` (rad/s) for
-    /// `standstill_time` (s).
+    /// Takes the speed of the drive (rad/s) over `elapsed` (s). The drive stands after `standstill_time` (s) below `gate`
+    /// (rad/s).
     pub(super) fn update(&mut self, elapsed: f64, rotary_speed: f64, gate: f64, standstill_time: f64) {
         let speed = rotary_speed.abs();
         let standing = self.state == DriveState::Standing;
@@ -64,7 +64,7 @@ impl DriveWatch {
         }
         self.state = DriveState::RunningUp;
         self.running_up_for += elapsed;
-        if speed > (1.0 + STILL_RISING) * self.reference {
+        if speed > (1.0 + RISING) * self.reference {
             (self.reference, self.steady_turns) = (speed, 0.0);
         } else {
             self.steady_turns += speed * elapsed / TAU;

@@ -12,7 +12,7 @@ use super::orbit_window::{LONG_POINTS, SHORT_POINTS};
 const SIZE: usize = LONG_POINTS;
 const HALF_SIZE: usize = SHORT_POINTS;
 
-/// What the lines say.
+/// Figures of the spectrum's lines.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Lines {
     /// (forward - backward) / (forward + backward) power, -1 to 1.
@@ -21,16 +21,16 @@ pub(super) struct Lines {
     pub(super) rate: f64,
     /// Part of the power in the strongest line and its mirror image, 0 to 1.
     pub(super) concentration: f64,
-    /// Size (rad/s) of the line that is strongest when power is weighed by frequency^1.5. A jump of the centre has its
-    /// power, which falls with frequency^2, at the lowest lines and would hide a whirl that has just begun; weighed, it
-    /// does not, and white noise does not take its place yet.
+    /// Magnitude (rad/s) of the strongest line after weighting the power with frequency^1.5. The power of a jump of the
+    /// centre falls with frequency^2 and would hide a whirl that has just begun at the lowest lines. The weight removes
+    /// this, and does not yet favour white noise.
     pub(super) pace: f64,
 }
 
 /// Tables and scratch of the transform.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FullSpectrum {
-    /// By stage, so that each is read in order.
+    /// Roots of unity by stage, so that each stage reads them in order.
     twiddle: Vec<[f64; 2]>,
     /// Bit-reversed index of each point.
     reversed: Vec<usize>,
@@ -74,11 +74,12 @@ impl FullSpectrum {
         for (power, [re, im]) in self.power[..size].iter_mut().zip(&self.line) {
             *power = re * re + im * im;
         }
-        // What is left of the centre leaks into the lines around zero.
+        // The remainder of the centre leaks into the lines around zero, which are left out.
         let first = size.div_ceil(count);
         let half = size / 2;
         let (mut forward, mut backward, mut peak, mut peak_power) = (0.0, 0.0, first, 0.0);
         let (mut pace, mut pace_power) = (first, 0.0);
+        // The transform of y + i z is not symmetric: index k is the forward line, size - k the backward one.
         for index in first..half {
             let (plus, minus) = (self.power[index], self.power[size - index]);
             forward += plus;
@@ -142,13 +143,14 @@ impl FullSpectrum {
 
     fn transform(&mut self, size: usize) {
         let lines = &mut self.line[..size];
-        // The first two stages turn by quarters only.
+        // The first two stages rotate by quarter turns only, which are exchanges and signs instead of products.
         for quad in lines.chunks_exact_mut(4) {
             let (a, b) = sum_and_difference(quad[0], quad[1]);
             let (c, d) = sum_and_difference(quad[2], quad[3]);
             (quad[0], quad[2]) = sum_and_difference(a, c);
             (quad[1], quad[3]) = sum_and_difference(b, [d[1], -d[0]]);
         }
+        // Decimation in time: each stage joins pairs of transforms of `half` points.
         let mut half = 4;
         while half < size {
             let twiddle = &self.twiddle[half - 1..2 * half - 1];

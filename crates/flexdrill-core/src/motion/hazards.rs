@@ -1,4 +1,4 @@
-//! What endangers the tool, one by one: how bad it is, where it is worst, and by which figure.
+//! Hazards to the tool, each with its level, its worst location and the figure that it is judged by.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use super::Severity;
 use super::drive::DriveState;
 use super::episodes::ToolLocation;
 
-/// A danger that an operator can do something about.
+/// A hazard that the crew can act on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
@@ -26,7 +26,7 @@ pub enum HazardKind {
 }
 
 impl HazardKind {
-    /// All of them.
+    /// All hazards, in the order of their codes.
     pub const ALL: [Self; 6] = [
         Self::BackwardWhirl,
         Self::ForwardWhirl,
@@ -36,7 +36,7 @@ impl HazardKind {
         Self::ChaoticWhirl,
     ];
 
-    /// As in sentences: `backward whirl`.
+    /// The name in sentences: `backward whirl`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::BackwardWhirl => "backward whirl",
@@ -49,47 +49,46 @@ impl HazardKind {
     }
 }
 
-/// How one danger stands. While a level stands, place and figures are those of its worst moment since it was reached:
-/// the motion of the present instant may be another one already, and would say the opposite of the level. While all is
-/// well they are those of the present.
+/// State of one hazard. While a level stands, location and figures are those of the worst instant since it was reached:
+/// the present motion may already differ and contradict the level. While the level is OK they are the present ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hazard {
-    /// Which one.
+    /// Kind of hazard.
     pub kind: HazardKind,
-    /// Its level, with duration, hysteresis and hold-off in it.
+    /// Its level, after duration, hysteresis and hold-off.
     pub severity: Severity,
-    /// Where it is worst; none for the bit, and for whirl while there is none.
+    /// Worst location; none for the bit, and for whirl while there is no whirl.
     pub place: Option<ToolLocation>,
-    /// What it is judged by: bending cycles per turn of the tool, friction power (W/m), impulse (N s), stick-slip
+    /// The judged figure: bending cycles per turn of the tool, friction power (W/m), impulse (N s), stick-slip
     /// index, stop moment over its rating, collision power of the chaotic part (W/m).
     pub value: f64,
-    /// Threshold of the level reached, or of the first one while all is well, in the same unit.
+    /// Threshold of the level, of WATCH while the level is OK, in the same unit.
     pub threshold: f64,
-    /// Whirl rate over rotary speed at the place; NaN where there is none.
+    /// Whirl rate over rotary speed at the location; NaN without whirl.
     pub whirl_ratio: f64,
-    /// Whirl rate over that of rolling without slip, for backward whirl of the driven pipe; NaN elsewhere.
+    /// Whirl rate over that of rolling without slip, for backward whirl of the driven pipe; otherwise NaN.
     pub rolling_share: f64,
-    /// Speed of the pipe's centre on its orbit at the place (m/s), for whirl; NaN elsewhere.
+    /// Speed of the pipe's centre on its orbit at the location (m/s), for whirl; otherwise NaN.
     pub orbit_speed: f64,
-    /// Largest impulse above the resting one in the window at the place (N s); NaN where it is not known.
+    /// Largest impulse above the resting one in the window at the location (N s); NaN if unknown.
     pub impulse: f64,
-    /// Impacts per second at the place (1/s), for whirl; NaN elsewhere.
+    /// Impacts per second at the location (1/s), for whirl; otherwise NaN.
     pub impact_rate: f64,
-    /// Work of the friction per second and metre at the place (W/m), for whirl; NaN elsewhere.
+    /// Work of the friction per second and metre at the location (W/m), for whirl; otherwise NaN.
     pub friction_power: f64,
-    /// 0 to 1, lowered by doubtful inputs; 1 where nothing is estimated.
+    /// Confidence, 0 to 1, lowered by doubtful inputs; 1 for figures that are not estimates.
     pub confidence: f64,
     /// Model time at which the level was reached (s).
     pub since: f64,
-    /// Model time of place and figures (s).
+    /// Model time of location and figures (s).
     pub seen: f64,
-    /// Model time at which the condition of the level was last met (s), once that is [`ENDED_AFTER`] ago: the level is
-    /// only held. None while the condition is met, and while all is well.
+    /// Model time at which the condition of the level was last met (s), once that is [`ENDED_AFTER`] ago: only the
+    /// hold-off holds the level then. None while the condition is met, and while the level is OK.
     pub ended: Option<f64>,
 }
 
-/// Time without its condition after which what holds a level counts as ended (s): a turn of the tool at 40 r/min, so
-/// that a pipe that bounces does not end and begin with every turn. Assumption.
+/// Time (s) after which the condition of a level counts as ended: a turn of the tool at 40 r/min, so that a bouncing pipe
+/// does not end and begin with every turn. Assumption.
 pub const ENDED_AFTER: f64 = 1.5;
 
 /// When the condition of a level ended: `met` is when it was met last, `now` the present (both model time, s).
@@ -98,7 +97,7 @@ pub(crate) fn ended(severity: Severity, met: f64, now: f64) -> Option<f64> {
 }
 
 impl Hazard {
-    /// Nothing to say of it.
+    /// The hazard at level OK.
     pub fn calm(kind: HazardKind) -> Self {
         Self {
             kind,
@@ -120,17 +119,17 @@ impl Hazard {
     }
 }
 
-/// All dangers, and whether the drive turns: while it does not, no level rises.
+/// All hazards, and the state of the drive: levels rise only while it turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hazards {
     /// In the order of [`HazardKind::ALL`].
     pub list: [Hazard; HazardKind::ALL.len()],
-    /// What the drive does.
+    /// State of the drive.
     pub drive: DriveState,
 }
 
 impl Hazards {
-    /// How one danger stands.
+    /// State of one hazard.
     pub fn of(&self, kind: HazardKind) -> &Hazard {
         &self.list[kind as usize]
     }

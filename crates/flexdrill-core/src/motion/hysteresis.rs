@@ -1,4 +1,4 @@
-//! Hysteresis of every level: it rises at once and falls late.
+//! Hysteresis of a level: it rises at once and falls late.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,26 +10,26 @@ pub(super) struct Hysteresis {
     pub(super) level: Severity,
     /// Model time at which the level was reached (s).
     pub(super) since: f64,
-    /// How long the conditions that hold the level have not been met (s).
+    /// Time for which the conditions that hold the level have not been met (s).
     unmet_for: f64,
     /// Model time at which they were met last (s).
     pub(super) met: f64,
 }
 
-/// What an update did.
+/// Result of an update.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Change {
+pub(super) enum Transition {
     /// The level rose.
     Rose,
-    /// What holds the level is there.
+    /// The conditions that hold the level are met.
     Stands,
-    /// It is not: the level falls once that has lasted for the hold-off.
+    /// They are not met: the level falls at the end of the hold-off.
     Fades,
 }
 
 impl Hysteresis {
-    /// Until model time `time` (s), over `elapsed` (s), conditions have been met that raise the level to `raised` and hold
-    /// it at `held`. It falls, to `held`, after `hold_off` (s) without them.
+    /// Updates the level at model time `time` (s), `elapsed` (s) after the last update: the conditions met now raise it to
+    /// `raised` and hold it at `held`. After `hold_off` (s) without the conditions it falls to `held`.
     pub(super) fn update(
         &mut self,
         time: f64,
@@ -37,7 +37,7 @@ impl Hysteresis {
         raised: Severity,
         held: Severity,
         hold_off: f64,
-    ) -> Change {
+    ) -> Transition {
         if raised > self.level {
             *self = Self {
                 level: raised,
@@ -45,12 +45,12 @@ impl Hysteresis {
                 unmet_for: 0.0,
                 met: time,
             };
-            return Change::Rose;
+            return Transition::Rose;
         }
         if held >= self.level {
             self.unmet_for = 0.0;
             self.met = time;
-            return Change::Stands;
+            return Transition::Stands;
         }
         self.unmet_for += elapsed;
         if self.unmet_for >= hold_off {
@@ -61,12 +61,12 @@ impl Hysteresis {
                 met: time,
             };
         }
-        Change::Fades
+        Transition::Fades
     }
 }
 
 impl AlarmThresholds {
-    /// Threshold of a level, of the first one for OK.
+    /// Threshold of a level; that of WATCH for OK.
     pub fn of(&self, level: Severity) -> f64 {
         self.levels[(level as usize).saturating_sub(1)]
     }
@@ -75,7 +75,7 @@ impl AlarmThresholds {
 /// Values from which the levels WATCH, WARNING and CRITICAL are reached, and how they are left.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct AlarmThresholds {
-    /// WATCH, WARNING, CRITICAL; in the unit of what is judged.
+    /// WATCH, WARNING, CRITICAL; in the unit of the judged value.
     pub levels: [f64; 3],
     /// Part of a threshold by which the value must fall below it, 0 to 1.
     pub hysteresis: f64,
@@ -112,9 +112,9 @@ impl Alarm {
             (self.worst, self.worst_at) = (value, time);
         }
         match change {
-            Change::Rose => true,
-            Change::Stands => now > Severity::Ok,
-            Change::Fades => false,
+            Transition::Rose => true,
+            Transition::Stands => now > Severity::Ok,
+            Transition::Fades => false,
         }
     }
 
@@ -138,7 +138,7 @@ impl Alarm {
         self.hysteresis.met
     }
 
-    /// Where it stands.
+    /// The present level.
     pub fn severity(&self) -> Severity {
         self.hysteresis.level
     }

@@ -1,7 +1,7 @@
-//! Load of the joints' stops against what the joints are rated for.
+//! Load of the joints' stops relative to the joints' rating.
 //!
-//! The moment counts as its mean over a short interval: the peak of a stop that strikes depends on its stiffness, which
-//! is a penalty; the mean, like an impulse, does not.
+//! The judged moment is the mean over a short interval. The peak of a striking stop depends on its stiffness, which is a
+//! penalty; the mean, like an impulse, does not.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,9 +13,9 @@ use super::hysteresis::{Alarm, AlarmThresholds};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct JointLoadSettings {
-    /// Moment (N m) that the stop of a joint may carry for as long as one likes.
+    /// Moment (N m) that the stop of a joint may carry permanently.
     pub rated_moment: f64,
-    /// Interval of the mean (s), as that of shock.
+    /// Interval of the mean (s), equal to that of shock.
     pub interval: f64,
     /// Levels of the mean moment over `rated_moment`.
     pub thresholds: AlarmThresholds,
@@ -35,13 +35,13 @@ impl Default for JointLoadSettings {
     }
 }
 
-/// Where the joints' stops stand.
+/// Level of the joints' stops.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct JointLoadLevel {
     /// Level.
     pub severity: Severity,
-    /// Joint with the largest mean moment, from the top: since the level was reached, or of the last interval while all
-    /// is well.
+    /// Joint with the largest mean moment, from the top: since the level was reached, or in the last interval while the
+    /// level is OK.
     pub joint: usize,
     /// That moment over the rating.
     pub ratio: f64,
@@ -66,7 +66,7 @@ pub struct JointLoadWatch {
 }
 
 impl JointLoadWatch {
-    /// For that many joints.
+    /// A watch of `joints` joints.
     pub fn new(settings: &JointLoadSettings, joints: usize) -> Self {
         Self {
             settings: *settings,
@@ -107,7 +107,7 @@ impl JointLoadWatch {
         self.level.ended = ended(now, self.alarm.met(), time);
     }
 
-    /// How the joints stand.
+    /// The level of the joints' stops.
     pub fn level(&self) -> JointLoadLevel {
         self.level
     }

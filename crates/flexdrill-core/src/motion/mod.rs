@@ -1,18 +1,18 @@
-//! What the motion means: whirl, stick-slip, contact statistics, severity. Pure: no clock, file, log or middleware.
+//! Analysis of the motion: whirl, stick-slip, shock, contact statistics, severity. It uses no clock, file or log.
 //!
 //! # Layout
 //! - [`WhirlAnalysis`] takes samples of every watched station and keeps a [`WhirlReport`] and a [`WhirlWarningLevel`].
 //!   - `watched_station`: one of them. `orbit_window`: its last seconds. `orbit`: centre, axes, radius and phase rate of
 //!     the motion in a window. `full_spectrum`: its forward and backward lines.
-//!   - `classify`: from these to a kind of motion. `severity`: from kind, bending cycles and friction to a level.
-//!     `tool_level`: from the stations' levels to the place that leads and the one warning.
+//!   - `classify` derives the kind of motion from these, `severity` the level from kind, bending cycles and friction, and
+//!     `tool_level` the leading station and the one warning from the stations' levels.
 //! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact, [`JointLoadWatch`] the stops of the
-//!   joints, [`ChaoticWhirlWatch`] the power that collisions take; `hysteresis`: how levels rise and fall; `drive`:
-//!   while the tool is run up none does.
-//! - [`Hazards`]: all of these side by side, what alarms are made from.
-//! - [`AgeingWatch`]: what ages fastest, by cycles counted in `rainflow` and the work of the friction.
-//! - [`EpisodeLog`] makes a table of all this over a run.
-//! - [`ContactStatistics`] and [`RootMeanSquare`] sum up what happens between two outputs.
+//!   joints, [`ChaoticWhirlWatch`] the power that collisions dissipate. `hysteresis` defines how levels rise and fall;
+//!   `drive` detects run-ups, in which no level rises.
+//! - [`Hazards`] lists the results of all watches; alarms are made from it.
+//! - [`AgeingWatch`] finds what ages fastest, from cycles counted in `rainflow` and from the work of the friction.
+//! - [`EpisodeLog`] tabulates the levels over a run.
+//! - [`ContactStatistics`] and [`RootMeanSquare`] accumulate values between two outputs.
 //! - [`WhirlSettings`] and the settings of the other watches: every threshold, with its reason.
 
 mod ageing;

@@ -1,4 +1,4 @@
-//! The orbit in time: centre, radius, axes, and the phase rate from the area that the motion sweeps and from its turns.
+//! The orbit in time: centre, radius, axes, and the phase rate from the swept area and from counted turns.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -11,14 +11,14 @@ pub(super) struct Orbit {
     pub(super) radius: f64,
     /// Minor over major axis of the covariance, 0 for a line, 1 for a circle.
     pub(super) axis_ratio: f64,
-    /// Phase rate about the centre (rad/s) from the swept area, positive from y towards z: of several lines the mean,
-    /// weighed by power.
+    /// Phase rate about the centre (rad/s) from the swept area, positive from y towards z: for several lines the mean,
+    /// weighted by power.
     pub(super) rate: f64,
 }
 
-/// Takes the centre (and, with `detrend`, its straight drift) out of the points and measures the orbit. Unless it is
-/// smaller than `min_radius` or flatter than `min_axis_ratio`, the points are stretched so that the orbit becomes a
-/// unit circle, and the rates are measured.
+/// Subtracts the centre (and, with `detrend`, its linear drift) from the points and measures the orbit. Unless the orbit
+/// is smaller than `min_radius` or flatter than `min_axis_ratio`, it then scales the points along both axes, so that the
+/// orbit becomes a unit circle, and measures the rate.
 ///
 /// The rate is dA/dt / sqrt(det C), with A the swept area and C the covariance: for any ellipse that is exactly its
 /// angular rate, since stretching an ellipse to a circle changes area and sqrt(det C) alike. White noise adds no area
@@ -35,6 +35,7 @@ pub(super) fn measure_and_stretch(points: &mut Points, detrend: bool, min_radius
         zz,
         yz,
     } = moments(&points.position, detrend);
+    // Principal axes of the covariance.
     let half_sum = 0.5 * (yy + zz);
     let half_difference = (0.25 * (yy - zz).powi(2) + yz * yz).sqrt();
     let (major, minor) = (half_sum + half_difference, (half_sum - half_difference).max(0.0));
@@ -69,7 +70,7 @@ pub(super) fn measure_and_stretch(points: &mut Points, detrend: bool, min_radius
     if !is_line {
         // Twice the area of the stretched orbit, whose mean square radius is 1.
         let area: f64 = points.position.windows(2).map(|pair| cross(pair[0], pair[1])).sum();
-        // A chord cuts the arc: the area of one step is r2/2 sin(phase step), hence the arc sine.
+        // The area over a chord is less than over its arc: one step sweeps r2/2 sin(phase step), hence the arc sine.
         orbit.rate = libm::asin((area / (count as f64 - 1.0)).clamp(-1.0, 1.0)) / points.spacing;
     }
     orbit
@@ -87,7 +88,7 @@ struct Moments {
 fn moments(position: &[[f64; 2]], detrend: bool) -> Moments {
     let n = position.len() as f64;
     let middle = 0.5 * (n - 1.0);
-    // About the first point, so that a small orbit far from the gap's centre loses no digits.
+    // Sums about the first point, so that a small orbit far from the gap's centre loses no digits.
     let origin = position[0];
     let (mut sum, mut lever_sum, mut square, mut product) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0);
     for (index, point) in position.iter().enumerate() {
@@ -117,15 +118,15 @@ fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Phase rate (rad/s) from the turns about the centre: of several lines that of one that is larger than all others
+/// Phase rate (rad/s) from the turns about the centre: with several lines, that of a line larger than all others
 /// together.
 pub(super) fn turning(points: &Points) -> f64 {
     let steps = points.position.len().saturating_sub(1).max(1);
     turned(&points.position) / (steps as f64 * points.spacing)
 }
 
-/// Angle (rad) by which the points turn about the origin, from y towards z. Counted by quadrants, so that only the ends
-/// need an angle.
+/// Angle (rad) by which the points turn about the origin, from y towards z. It counts quadrants, so that only the first
+/// and the last point need an arc tangent.
 fn turned(position: &[[f64; 2]]) -> f64 {
     let (Some(first), Some(last)) = (position.first(), position.last()) else {
         return 0.0;
@@ -138,7 +139,7 @@ fn turned(position: &[[f64; 2]]) -> f64 {
             0 => 0,
             1 => 1,
             3 => -1,
-            // Across: the side on which the centre is passed tells.
+            // Two quadrants on: the side on which the chord passes the centre decides the sign.
             _ if cross(pair[0], pair[1]) >= 0.0 => 2,
             _ => -2,
         };
@@ -158,7 +159,7 @@ fn quadrant([y, z]: [f64; 2]) -> i32 {
     }
 }
 
-/// How much the motion repeats itself after `lag` (in points): 1 when it does exactly, around 0 when it does not.
+/// Correlation of the motion with itself after `lag` (in points): 1 for an exact repetition, around 0 for none.
 pub(super) fn repetition(position: &[[f64; 2]], lag: f64) -> f64 {
     let (whole, part) = (lag as usize, lag.fract());
     let Some(overlap) = position.len().checked_sub(whole + 1).filter(|overlap| *overlap >= 8) else {

@@ -1,7 +1,7 @@
-//! The last seconds of one watched station, and the points that the estimators see.
+//! The last seconds of one watched station, and the points for the estimators.
 //!
-//! Samples are kept one by one only as far back as a fast whirl needs; for longer windows they are summed up in blocks
-//! while they come in, so that no evaluation walks through thousands of samples.
+//! Single samples are kept only as far back as a fast whirl needs. For longer windows samples are averaged in blocks as
+//! they arrive, so that no evaluation processes thousands of samples.
 
 use std::f64::consts::TAU;
 
@@ -18,25 +18,25 @@ pub(super) const SHORT_POINTS: usize = 64;
 /// Length of a block (s): 31 per turn of a tool at 120 r/min.
 const BLOCK: f64 = 0.016;
 
-/// Impulse above the resting one from which a block counts as an impact (N s): a link of 2.8 kg that turns round from
-/// 0.18 m/s, that of a free fall through a fifth of the default clearance.
+/// Impulse above the resting one from which a block counts as an impact (N s): a link of 2.8 kg that rebounds at 0.18 m/s,
+/// the speed after a free fall through a fifth of the default clearance.
 const IMPACT: f64 = 1.0;
 
-/// Swings that are smaller (rad) do not count as a change of direction: noise and rattling at the wall.
+/// Smaller swings (rad) do not count as a change of direction: they are noise and rattling at the wall.
 const SWING: f64 = 0.125 * TAU;
 
-/// Lanes of the reductions over blocks: fixed, so that the sums are the same on every machine.
+/// Lanes of the reductions over blocks. The number is fixed, so that the sums are the same on every machine.
 const LANES: usize = 8;
 
-/// Samples and blocks of one station. Single precision is a ten-millionth of a clearance and halves the memory that
-/// each evaluation walks through.
+/// Samples and blocks of one station. Single precision resolves a ten-millionth of a clearance and halves the memory that
+/// each evaluation reads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct OrbitWindow {
     samples_per_block: usize,
     /// The newest samples (y, z).
     samples: Ring<[f32; 2]>,
-    /// Of the same blocks: mean position, angle (rad) by which it went round the gap's centre, largest square of the
-    /// distance from there, largest force, mean part of the time in contact, impulse (N s), work of the friction (J).
+    /// Per block: mean position, angle (rad) turned about the gap's centre, largest squared distance from it, largest
+    /// force, mean share of the time in contact, impulse (N s), work of the friction (J).
     position: Ring<[f32; 2]>,
     turned: Ring<f32>,
     reach_square: Ring<f32>,
@@ -142,17 +142,17 @@ impl<T: Copy + Default> Ring<T> {
     }
 }
 
-/// How the motion goes round the gap's centre in a window, wherever its own mean lies.
+/// Revolution of the motion about the gap's centre in a window, independent of its own mean.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Round {
     /// Turns about the gap's centre, positive from y towards z.
     pub(super) net: f64,
-    /// The same with every swing counted as positive. Swings to and fro of less than an eighth of a turn count as one.
+    /// The same with every swing counted as positive; reversals of less than an eighth of a turn are ignored.
     pub(super) gross: f64,
 }
 
 impl Round {
-    /// Net over gross turns: 1 for a motion that goes round one way only, 0 for one that swings.
+    /// Net over gross turns: 1 for a motion in one direction only, 0 for one that swings.
     pub(super) fn directness(&self) -> f64 {
         if self.gross > 0.0 {
             self.net.abs() / self.gross
@@ -162,16 +162,16 @@ impl Round {
     }
 }
 
-/// How far the motion reaches and how it touches in a window.
+/// Extent and contact of the motion in a window.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Touches {
     /// Largest distance from the gap's centre of any sample (m).
-    pub(super) reach: f64,
+    pub(super) largest_distance: f64,
     /// Largest normal force (N).
     pub(super) peak_force: f64,
     /// Mean part of the time in contact.
     pub(super) contact_duty: f64,
-    /// Largest impulse of a block above the mean of the window (N s): a body that rests or rolls has none.
+    /// Largest impulse of a block above the mean of the window (N s); zero for a body that rests or rolls.
     pub(super) impulse: f64,
     /// Blocks per second whose impulse above the mean reaches [`IMPACT`] (1/s).
     pub(super) impact_rate: f64,
@@ -268,10 +268,10 @@ impl OrbitWindow {
         out.average(records, group, self.samples_per_block as f64 * sample_interval);
     }
 
-    /// How the newest `samples`, in whole blocks, went round the gap's centre.
+    /// Revolution of the newest `samples`, in whole blocks, about the gap's centre.
     pub(super) fn round(&self, samples: usize) -> Round {
         let (mut angle, mut gross) = (0.0f64, 0.0f64);
-        // The swing that is open: where it began, and the farthest that it came, up or down.
+        // The current swing: its start, and its extremes so far.
         let (mut from, mut high, mut low) = (0.0f64, 0.0f64, 0.0f64);
         let mut rising = None;
         for turned in self.turned.newest(samples / self.samples_per_block) {
@@ -304,8 +304,8 @@ impl OrbitWindow {
         }
     }
 
-    /// Over the newest `samples` that are `sample_interval` s apart, in whole blocks; force, reach and contact with
-    /// what has come in since the last one.
+    /// Extent and contact over the newest `samples`, `sample_interval` (s) apart, in whole blocks. Force, distance and
+    /// contact include the block that is being filled.
     pub(super) fn touches(&self, samples: usize, sample_interval: f64) -> Touches {
         let count = samples / self.samples_per_block;
         let largest = |ring: &Ring<f32>| {
@@ -323,7 +323,7 @@ impl OrbitWindow {
         let closed = self.contact.newest(count).len() as f64;
         let blocks = closed + open.samples as f64 / self.samples_per_block as f64;
         let mut touches = Touches {
-            reach: largest(&self.reach_square).max(open.reach_square).sqrt(),
+            largest_distance: largest(&self.reach_square).max(open.reach_square).sqrt(),
             peak_force: largest(&self.force).max(open.force),
             ..Touches::default()
         };
@@ -409,7 +409,7 @@ mod tests {
     fn touches_count_the_open_block_too() {
         let touches = filled(2002).touches(1000, 4e-3);
         assert_eq!(touches.peak_force, 2001.0);
-        assert!((touches.reach - 2001f64.hypot(1.0)).abs() < 1e-9);
+        assert!((touches.largest_distance - 2001f64.hypot(1.0)).abs() < 1e-9);
         assert_eq!(touches.contact_duty, 0.5);
         // One block in ten has 3.3 N s, the others 0.4: 0.69 in the mean.
         assert!((touches.impulse - 2.61).abs() < 1e-4, "{touches:?}");

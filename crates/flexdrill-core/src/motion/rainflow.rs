@@ -1,23 +1,22 @@
-//! Rainflow counting while the signal comes in: closed cycles of a load, each once, by the four-point rule (ASTM E 1049
-//! gives the same cycles for a whole record).
+//! Rainflow counting of a running signal: each closed cycle of a load once, by the four-point rule. ASTM E 1049 yields the
+//! same cycles for a whole record.
 //!
-//! A range that lies between two larger ones is a closed hysteresis loop: it is counted and taken out. What is left
-//! grows and then shrinks, and is short.
+//! A range between two larger ones is a closed hysteresis loop; it is counted and removed. The ranges of the residue grow
+//! and then shrink, so that it stays short.
 
 use serde::{Deserialize, Serialize};
 
-/// Turning points that can wait for their partner. Of a load that lasts, the ranges left grow and then shrink; when there
-/// is no room the smallest of them counts as closed.
+/// Capacity for turning points of open cycles. When it is exhausted, the smallest range of the residue counts as closed.
 const WAITING: usize = 48;
 
 /// One load channel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Rainflow {
-    /// Turning points without a partner yet.
+    /// Turning points of open cycles.
     waiting: Vec<f64>,
-    /// The newest extreme, not yet known to be a turning point.
+    /// The newest extreme, a turning point once the signal reverses.
     extreme: f64,
-    /// Up (1) or down (-1) towards it; 0 before the first move.
+    /// Direction towards it, up (1) or down (-1); 0 before the first change.
     heading: f64,
 }
 
@@ -30,7 +29,7 @@ impl Rainflow {
         }
     }
 
-    /// Takes the next value; `closed` gets the range of every cycle that it closes. Moves below `least` are noise.
+    /// Takes the next value; calls `closed` with the range of every cycle that it closes. Changes below `least` are noise.
     pub(super) fn push(&mut self, value: f64, least: f64, mut closed: impl FnMut(f64)) {
         let moved = value - self.extreme;
         if self.heading == 0.0 {
@@ -50,7 +49,7 @@ impl Rainflow {
         }
     }
 
-    /// The extreme was a turning point.
+    /// Adds the extreme as a turning point, and counts the cycles that it closes.
     fn turn(&mut self, closed: &mut impl FnMut(f64)) {
         self.waiting.push(self.extreme);
         while let [.., a, b, c, d] = self.waiting[..] {

@@ -11,7 +11,7 @@ use crate::tool::Body;
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
 pub enum WhirlKind {
-    /// No orbit worth the name.
+    /// No orbit of significant size.
     #[default]
     None = 0,
     /// In the sense of the rotation.
@@ -20,13 +20,13 @@ pub enum WhirlKind {
     Backward = 2,
     /// Large motion without a steady direction.
     Chaotic = 3,
-    /// A small orbit at twice the tool's speed that does not go round the gap: the joint's own cross drives it. D-WIS
-    /// has no word for it.
+    /// A small orbit at twice the tool's speed that does not enclose the gap's centre: the joint's cross drives it. D-WIS
+    /// has no term for it.
     JointVibration = 4,
 }
 
 impl WhirlKind {
-    /// As in sentences: `forward whirl`.
+    /// The name in sentences: `forward whirl`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::None => "no whirl",
@@ -49,10 +49,10 @@ impl fmt::Display for WhirlKind {
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
 pub enum Severity {
-    /// Nothing to do.
+    /// No action needed.
     #[default]
     Ok = 0,
-    /// Keep an eye on it.
+    /// Observe.
     Watch = 1,
     /// Act soon: it wears the tool.
     Warning = 2,
@@ -64,7 +64,7 @@ impl Severity {
     /// The levels above OK, rising.
     pub const RAISED: [Self; 3] = [Self::Watch, Self::Warning, Self::Critical];
 
-    /// As in sentences: `ok`, `watch`, `warning`, `critical`.
+    /// The name in sentences: `ok`, `watch`, `warning`, `critical`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ok => "ok",
@@ -109,7 +109,7 @@ pub struct WhirlReport {
     pub confidence: Vec<f64>,
     /// Level of the station.
     pub severity: Vec<Severity>,
-    /// Kind of whirl that the level stands for, also while it is only held.
+    /// Kind of whirl of the level, also during the hold-off.
     pub level_kind: Vec<WhirlKind>,
     /// Whether the whirl is backward and so near to rolling without slip that it counts as rolling.
     pub rolling: Vec<bool>,
@@ -130,7 +130,7 @@ pub struct WhirlReport {
     pub friction_power: Vec<f64>,
 }
 
-/// State of the warning logic.
+/// Level of the whirl warning.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct WhirlWarningLevel {
     /// Level.
@@ -170,14 +170,14 @@ pub struct ShockLevel {
     pub layer: usize,
     /// Station index from the top.
     pub station: usize,
-    /// Impulse above the resting force (N s): the largest since the level was reached; of the last interval while all
-    /// is well.
+    /// Impulse above the resting force (N s): the largest since the level was reached; that of the last interval while the
+    /// level is OK.
     pub impulse: f64,
     /// Model time at which the level was reached (s).
     pub since: f64,
     /// Model time of that impulse (s).
     pub seen: f64,
-    /// Model time of the last impulse that held the level (s), once that is longer ago than impulses that hold it are
-    /// apart. None while they come, and while all is well.
+    /// Model time of the last impulse that held the level (s), once the time since then exceeds the mean interval of the
+    /// holding impulses. None before, and while the level is OK.
     pub ended: Option<f64>,
 }

@@ -8,37 +8,36 @@ use crate::units::rpm_to_rad_per_s;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct WhirlSettings {
-    /// Length of the long window in turns of the tool. Four turns hold one turn of a whirl at a quarter of the tool's
-    /// speed, the slowest that is told apart from a drift.
+    /// Length of the long window in turns of the tool. Four turns contain one turn of a whirl at a quarter of the tool's
+    /// speed, the slowest that can be distinguished from a drift.
     pub window_turns: f64,
     /// Shortest long window (s), for fast tools.
     pub min_window: f64,
     /// Longest long window (s), for slow or standing tools. Sets the memory: one record per sample and station.
     pub max_window: f64,
     /// Length of the short window in turns of the strongest whirl line. It follows a change of direction within two
-    /// whirl turns: the new direction leads once it fills more than half of the window. Shorter windows take chance for
-    /// whirl: at 1.6 turns one broad-band motion in ten is misnamed, at 2 one in twenty.
+    /// whirl turns: the new direction dominates once it fills more than half of the window. Shorter windows misclassify
+    /// more broad-band motions as whirl: at 1.6 turns one in ten, at 2 one in twenty.
     pub short_window_turns: f64,
-    /// Longest time between two evaluations of the same station (s); a tool faster than 40 r/min is looked at 30 times
-    /// per turn. Places take turns, so that the cost is spread over the samples.
+    /// Longest time between two evaluations of the same station (s); a tool faster than 40 r/min is evaluated 30
+    /// times per turn. The stations alternate, so that the cost is spread over the samples.
     pub evaluation_interval: f64,
     /// Evaluations in a row that must agree before the kind changes.
     pub confirmations: u32,
-    /// Turns of a new whirl for which they must agree. By chance a broad-band motion looks like one whirl, but not for
-    /// long.
+    /// Turns of a new whirl for which they must agree. A broad-band motion resembles one whirl by chance, but not for long.
     pub confirmation_turns: f64,
     /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 5
     /// r/min is an eighth of the paper's speed.
     pub min_rotary_speed: f64,
-    /// Time for which the drive must have been below `min_rotary_speed` to count as standing (s), so that what follows
-    /// is a run-up. Half a period of the slowest swing that is judged as stick-slip (10 s): a bit sticks no longer in
-    /// it, and a connection takes minutes.
+    /// Time for which the drive must have been below `min_rotary_speed` to count as standing (s); a run-up follows. Half
+    /// a period of the slowest oscillation that is judged as stick-slip (10 s): a bit sticks no longer than that, and a
+    /// connection takes minutes.
     pub standstill_time: f64,
     /// RMS orbit radius over clearance from which a motion counts as an orbit. Below a tenth of the clearance the
-    /// motion is that of a pipe at rest on a wall with a trembling contact.
+    /// motion is that of a pipe at rest on the wall with a fluctuating contact.
     pub min_orbit_ratio: f64,
-    /// RMS radius about its own mean over clearance from which a motion is judged as whirl although it does not go
-    /// round the gap's centre. Below half the clearance a body beside the centre keeps to its side of the gap.
+    /// RMS radius about its own mean over clearance from which a motion counts as whirl although it does not enclose the
+    /// gap's centre. Below half the clearance an off-centre body stays on its side of the gap.
     pub large_orbit_ratio: f64,
     /// Minor over major axis below which the motion is a line, not an orbit. A pipe that rocks along the low side by
     /// 50 degrees to each side draws an arc of 0.23.
@@ -47,16 +46,15 @@ pub struct WhirlSettings {
     /// from which the direction is steady. 1 is a pure whirl, 0 has no direction. Broad-band motion over four turns
     /// scatters by about 0.2 around 0.
     pub steady_direction: f64,
-    /// How much a motion without direction must repeat itself, after one turn of the tool, one and a half or two, to be
-    /// no chaos: correlation from which it counts as the same motion again. Periodic motion with noise 20 dB below it
-    /// has 0.99, broad-band motion scatters by 0.2 around 0.
+    /// Correlation of a motion without direction with itself after one, one and a half or two turns of the tool, from
+    /// which it counts as periodic and not as chaotic. Periodic motion with noise 20 dB below it has 0.99, broad-band
+    /// motion scatters by 0.2 around 0.
     pub min_repetition: f64,
-    /// Part of a threshold by which a value must fall below it to count as left, 0 to 1.
+    /// Part of a threshold by which a value must fall below it to leave the level, 0 to 1.
     pub hysteresis: f64,
-    /// Longest gap between samples that is bridged by straight lines (s); after a longer one the window starts anew.
+    /// Longest gap between samples that is interpolated (s); after a longer one the window restarts.
     pub max_bridged_gap: f64,
-    /// How far the motion is trusted by the state of the inputs behind it, as factor on the confidence; see
-    /// [`InputTrust`].
+    /// Factors on the confidence by the state of the inputs; see [`InputTrust`].
     pub input_trust: InputTrust,
     /// Confidence from which a station may raise the level.
     pub min_confidence: f64,
@@ -64,30 +62,29 @@ pub struct WhirlSettings {
     /// counts as rolling.
     pub rolling_tolerance: f64,
     /// Backward whirl: bending cycles per turn of the tool from which to watch, warn and call critical. A link that
-    /// goes round at `ratio` times the speed of the tool that turns it is bent |1 - ratio| times per turn; in a curved
-    /// hole without whirl once. Rolling is critical whatever the clearances make of it.
+    /// revolves at `ratio` times the rotary speed bends |1 - ratio| times per turn; in a curved hole without whirl, once.
+    /// Rolling is critical at any clearance.
     pub backward_cycles: [f64; 3],
-    /// Forward whirl: work of the friction per second and metre (W/m) at the place from which to watch and to warn. It
-    /// bends the pipe little and breaks nothing by itself, so it is never critical, but always the same side rubs.
+    /// Forward whirl: work of the friction per second and metre (W/m) from which to watch and to warn. It bends the pipe
+    /// little and breaks nothing by itself, so it is never critical, but the same side of the pipe wears.
     pub forward_power: [f64; 2],
-    /// Turns of the tool for which it must last before a level counts, WATCH, WARNING and CRITICAL.
+    /// Turns of the tool for which the whirl must last before a level is reached: WATCH, WARNING and CRITICAL.
     pub lasting_turns: [f64; 3],
-    /// Time for which a level is held after its conditions have gone (s). A place loses them within a window of four
-    /// turns of the tool, which holds the level already; two turns at 60 r/min bridge a pipe that bounces.
+    /// Time for which a level is held after its conditions have ended (s). The window of four turns of the tool holds a
+    /// level already; two turns at 60 r/min bridge the bounces of a pipe.
     pub hold_off: f64,
 }
 
-/// Factors on the confidence, 0 to 1, when an input is not as it should be; fresh inputs have 1. The twin goes on with
-/// the last good value, so its motion is that of a tool driven so; whether the real one still is, is the less certain
-/// the older the value.
+/// Factors on the confidence, 0 to 1, by the state of an input; fresh inputs have 1. The twin continues with the last good
+/// value; the older the value, the less certain it is that the real tool is driven by it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct InputTrust {
-    /// Late by a sample or two: hardly a doubt.
+    /// The input is late by a sample or two, which hardly matters.
     pub slow: f64,
-    /// The newest sample was refused, the one before is held: something is wrong, but it is recent.
+    /// The newest sample was refused; the held one is recent.
     pub rejected: f64,
-    /// Held for seconds or already on the way to the safe value: with 0.6, only a motion of confidence 0.84 still
-    /// raises a level.
+    /// The value has been held for seconds, or is on its ramp to the safe value: with 0.6, only motion with a confidence
+    /// of 0.84 raises a level.
     pub stale: f64,
     /// The configured start values act.
     pub not_received: f64,
@@ -126,7 +123,8 @@ impl Default for WhirlSettings {
             input_trust: InputTrust::default(),
             min_confidence: 0.5,
             rolling_tolerance: 0.15,
-            // Any; one turn against each turn of the tool; two, where links and joints tire three times as fast.
+            // Bending by the hole's curvature alone; one revolution against each turn of the tool; two, with three times the
+            // load cycles.
             backward_cycles: [1.0, 2.0, 3.0],
             // With a casing wear factor of 4e-10 per psi of side load and a friction of 0.2 steel loses 2.9e-13 m3 per
             // J of friction: 100 W/m take 1 mm off a side 10 mm wide in four days, 300 W/m in 32 h.

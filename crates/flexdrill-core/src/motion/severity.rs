@@ -1,4 +1,4 @@
-//! From whirl to the level of a station: by what harms, for so many turns, with hysteresis and hold-off.
+//! Level of a station's whirl: by its damage, its duration in turns of the tool, hysteresis and hold-off.
 //!
 //! Backward whirl is judged by the bending cycles that it brings per turn of the tool, forward whirl by the power of
 //! its friction. Neither depends on the stiffness of the contact. Chaotic motion harms by its collisions, which the
@@ -6,11 +6,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::hysteresis::{Change, Hysteresis};
+use super::hysteresis::{Hysteresis, Transition};
 use super::settings::WhirlSettings;
 use super::{Severity, WhirlKind};
 
-/// What is known of the motion at one station.
+/// Measured figures of the motion at one station.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Evidence {
     pub(super) kind: WhirlKind,
@@ -31,9 +31,9 @@ pub(super) struct Evidence {
     pub(super) friction_power: f64,
 }
 
-/// The motion at one station as an evaluation saw it.
+/// Result of one evaluation of a station.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Moment {
+pub(super) struct Evaluation {
     /// Model time (s).
     pub(super) time: f64,
     pub(super) evidence: Evidence,
@@ -45,16 +45,16 @@ pub(super) struct Moment {
     pub(super) orbit_speed: f64,
     /// Length of the window (s).
     pub(super) window: f64,
-    /// How bad the whirl is, to compare places and moments; 0 where the motion is another.
+    /// Severity measure for comparing stations and evaluations; 0 where the motion is of another kind.
     pub(super) strength: f64,
 }
 
-/// Time since the evaluation before.
+/// Time since the last evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Elapsed {
     /// Model time now (s).
     pub(super) time: f64,
-    /// s.
+    /// Time (s).
     pub(super) seconds: f64,
     /// Turns of the tool.
     pub(super) turns: f64,
@@ -64,25 +64,25 @@ pub(super) struct Elapsed {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct StationSeverity {
     hysteresis: Hysteresis,
-    /// For how many turns of the tool the conditions of WATCH, WARNING and CRITICAL have been met, less those for which
-    /// they have not: a pipe that bounces is not seen as the same at every moment.
+    /// Turns of the tool for which the conditions of WATCH, WARNING and CRITICAL have been met, minus those for which they
+    /// have not: the motion of a bouncing pipe is not classified alike at every evaluation.
     met_for: [f64; 3],
-    /// The worst moment at which the conditions of the level were met since it was reached.
-    worst: Moment,
+    /// The worst evaluation that met the conditions of the level, since it was reached.
+    worst: Evaluation,
 }
 
 impl StationSeverity {
-    /// Takes the newest moment. `trust`, 0 to 1, is how far the inputs and the model behind the motion can be trusted.
+    /// Takes the newest evaluation. `trust`, 0 to 1, is how far the inputs and the model behind the motion can be trusted.
     /// Doubtful inputs never raise or clear a level on their own. It is 0 while the drive does not turn steadily.
     pub(super) fn update(
         &mut self,
         kind: WhirlKind,
         elapsed: Elapsed,
-        moment: &Moment,
+        evaluation: &Evaluation,
         trust: f64,
         settings: &WhirlSettings,
     ) {
-        let (evidence, before) = (&moment.evidence, self.level());
+        let (evidence, before) = (&evaluation.evidence, self.level());
         let (mut raised, mut held) = (Severity::Ok, Severity::Ok);
         for (index, level) in Severity::RAISED.into_iter().enumerate() {
             let stands = self.level() >= level;
@@ -112,14 +112,14 @@ impl StationSeverity {
         let change = self
             .hysteresis
             .update(elapsed.time, elapsed.seconds, raised, held, settings.hold_off);
-        let met = matches!(change, Change::Rose | Change::Stands);
-        if self.level() != before || (met && moment.strength > self.worst.strength) {
-            self.worst = *moment;
+        let met = matches!(change, Transition::Rose | Transition::Stands);
+        if self.level() != before || (met && evaluation.strength > self.worst.strength) {
+            self.worst = *evaluation;
         }
     }
 
-    /// The worst moment since the level was reached; means nothing while it is OK.
-    pub(super) fn worst(&self) -> &Moment {
+    /// The worst evaluation since the level was reached; undefined while it is OK.
+    pub(super) fn worst(&self) -> &Evaluation {
         &self.worst
     }
 
@@ -188,13 +188,13 @@ mod tests {
                 } else {
                     WhirlKind::Backward
                 };
-                let moment = Moment {
+                let evaluation = Evaluation {
                     time: elapsed.time,
                     evidence: *evidence,
                     strength: evidence.cycles.max(evidence.friction_power),
-                    ..Moment::default()
+                    ..Evaluation::default()
                 };
-                watch.update(kind, elapsed, &moment, trust, &settings);
+                watch.update(kind, elapsed, &evaluation, trust, &settings);
                 watch.level()
             })
             .collect()

@@ -1,20 +1,19 @@
-//! Lateral shock: what a collision puts into the pipes beyond the load that they rest with.
+//! Lateral shock: the impulse of collisions above the resting load.
 //!
-//! The measure is the impulse of the normal force within a short interval, less what the mean force of the last tenth
-//! of a second would have given in it: a pipe that lies on the wall is not struck, however heavy it is. Over the mass
-//! that takes part it is the jump of the lateral speed. It does not depend on the contact's stiffness, as its peak force
-//! does.
+//! The measure is the impulse of the normal force within a short interval, minus the impulse of the mean force over the
+//! last tenth of a second: a pipe that rests on the wall, however heavy, has no shock. Divided by the mass involved it is
+//! the jump of the lateral speed. Unlike the peak force, it does not depend on the stiffness of the contact.
 //!
-//! A level needs impulses of its size, and so many of them in a span of time: one that stands alone is no state of the
-//! tool that anybody could end.
+//! A level requires a number of such impulses within a span of time: a single impulse is over before a driller could
+//! react.
 
 use serde::{Deserialize, Serialize};
 
 use super::hazards::ENDED_AFTER;
-use super::hysteresis::{AlarmThresholds, Change, Hysteresis};
+use super::hysteresis::{AlarmThresholds, Hysteresis, Transition};
 use super::{Severity, ShockLevel};
 
-/// Most impulses that a level can ask for.
+/// Largest number of impulses that a level can require.
 pub const MOST_REPEATS: usize = 64;
 
 /// How shocks are measured and judged.
@@ -53,10 +52,10 @@ impl Default for ShockSettings {
     }
 }
 
-/// When the newest impulses of a size were.
+/// Times of the newest impulses that reach a threshold.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Recent {
-    /// Model times (s), the next one replaces the oldest.
+    /// Model times (s); the next one replaces the oldest.
     times: Vec<f64>,
     next: usize,
 }
@@ -74,7 +73,7 @@ impl Recent {
         self.next = (self.next + 1) % self.times.len();
     }
 
-    /// Whether all of them were after `time` (s).
+    /// Whether all of them are after `time` (s).
     fn are_after(&self, time: f64) -> bool {
         self.times[self.next] > time
     }
@@ -107,7 +106,7 @@ impl Shocks {
         self.impulse[station] += impulse;
     }
 
-    /// Ends an interval of `duration` (s); gives the largest shock (N s) in it and its station.
+    /// Ends an interval of `duration` (s); returns its largest shock (N s) and the station.
     pub fn end_interval(&mut self, duration: f64, settings: &ShockSettings) -> (f64, usize) {
         let weight = (duration / settings.mean_time).min(1.0);
         let mut worst = (0.0, 0);
@@ -220,16 +219,16 @@ impl ShockWatch {
         let change = self.hysteresis.update(time, elapsed, raised, held, hold_off);
         let now = self.hysteresis.level;
         (self.level.severity, self.level.since) = (now, self.hysteresis.since);
-        // A level that has fallen is judged by what holds it now.
+        // After a fall, the report is of the collision that holds the lower level.
         let newest = match now {
             Severity::Ok => None,
             level => Some(self.newest[level as usize - 1]),
         };
         match newest {
-            None => self.show(&worst),
-            Some(newest) if now < before => self.show(&newest),
-            Some(_) if change == Change::Rose => self.show(&worst),
-            Some(_) if change == Change::Stands && worst.impulse > self.level.impulse => self.show(&worst),
+            None => self.report(&worst),
+            Some(newest) if now < before => self.report(&newest),
+            Some(_) if change == Transition::Rose => self.report(&worst),
+            Some(_) if change == Transition::Stands && worst.impulse > self.level.impulse => self.report(&worst),
             Some(_) => {}
         }
         self.level.ended = newest
@@ -237,7 +236,7 @@ impl ShockWatch {
             .filter(|met| time - met >= self.gap(now));
     }
 
-    fn show(&mut self, collision: &Collision) {
+    fn report(&mut self, collision: &Collision) {
         let Collision {
             time,
             impulse,
@@ -253,14 +252,14 @@ impl ShockWatch {
         };
     }
 
-    /// Time without a collision that holds a level after which its collisions have ended (s): those that hold it are
-    /// apart by less on average.
+    /// Time (s) without a holding collision after which the collisions have ended: the mean interval between those that
+    /// hold the level, at least [`ENDED_AFTER`].
     fn gap(&self, level: Severity) -> f64 {
         let repeats = self.settings.repeats[(level as usize).saturating_sub(1)];
         (self.settings.span / f64::from(repeats.saturating_add(1))).max(ENDED_AFTER)
     }
 
-    /// Takes the largest impulse of an interval, which counts if it is judged; gives the levels that the newest impulses
+    /// Takes the largest impulse of an interval, which counts only if `judged`; returns the levels that the newest impulses
     /// reach and hold.
     fn count(&mut self, worst: &Collision, judged: bool) -> (Severity, Severity) {
         let time = worst.time;

@@ -1,8 +1,8 @@
-//! Stick-slip index of the bit: (max - min) / (2 mean) of its own speed over a window, and its level.
+//! Stick-slip index of the bit: (max - min) / (2 mean) of the bit's speed over a window, and its level.
 //!
-//! The drive may swing too: a speed that is measured downhole carries the torsional swing of the string above. Such a
-//! swing counts, whereas a change of the set speed does not. The two differ in what returns: a swing goes up and down
-//! again and again, a change of the set speed does not come back. After a change only the speeds since then count.
+//! The drive may oscillate too: a speed measured downhole includes the torsional oscillation of the string above. Such an
+//! oscillation counts, whereas a change of the set speed does not. The two differ in repetition: an oscillation rises and
+//! falls again and again, a change of the set speed happens once. After a change only the speeds since then count.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,35 +10,34 @@ use super::Severity;
 use super::hysteresis::{Alarm, AlarmThresholds};
 use crate::units::rpm_to_rad_per_s;
 
-/// The window moves in steps of a block, so that extremes need no queue.
+/// Blocks per window. The window moves block by block, so that its extremes need no queue.
 const BLOCKS: usize = 100;
 
 /// Blocks that are kept. Two windows hold two whole swings whose period is that of the window.
 const KEPT: usize = 2 * BLOCKS;
 
-/// Fewest blocks from which an index is formed: 1.5 s of a window of 10 s hold a turn at 40 r/min and with it two periods
-/// of the joints' ripple.
+/// Fewest blocks for an index: 1.5 s of a window of 10 s contain a turn at 40 r/min, and two periods of the joints'
+/// ripple.
 const FEWEST: usize = 15;
 
-/// Blocks in which the bit must stand to count as stuck: 1 s of a window of 10 s, longer than it rests between two
-/// ripples of the joints.
+/// Blocks for which the bit must stand to count as stuck: 1 s of a window of 10 s, longer than its rest between two ripples
+/// of the joints.
 const STUCK_BLOCKS: usize = 10;
 
 /// Part of the drive's speed below which the bit's mean speed counts as stuck.
 const STUCK: f64 = 0.1;
 
-/// Swings from which the drive swings by itself: up, down, up and down. A driller who slows down and speeds up again
-/// makes two.
+/// Swings from which the drive oscillates: up, down, up and down. A driller who slows down and speeds up again makes two.
 const SWINGS: u32 = 4;
 
-/// Part of the range of the drive's speed that such swings must have. With less, most of the range is a change of the set
-/// speed, on which the swings lie as noise.
+/// Size of such swings relative to the range of the drive's speed. Below, most of the range is a change of the set speed
+/// with superposed noise.
 const SWINGING: f64 = 0.4;
 
-/// Relative difference to the present speed of the drive within which an earlier one is that of the same set speed.
+/// Relative difference to the present speed of the drive within which an earlier speed has the same set point.
 const SAME_SPEED: f64 = 0.1;
 
-/// Halvings by which the size of the swings is searched: to a thousandth of the range.
+/// Bisections in the search for the size of the swings: to a thousandth of the range.
 const SEARCH: u32 = 10;
 
 /// How the stick-slip index is formed and judged.
@@ -70,10 +69,10 @@ impl Default for StickSlipSettings {
     }
 }
 
-/// Watches the bit's speed. The index is 0 for a steady bit, 1 when it just stops once per period, above 1 when it
-/// sticks.
+/// Watches the bit's speed. The index is 0 for a steady bit, 1 for one that just stops once per period, above 1 for one
+/// that sticks.
 ///
-/// A bit that stands while the drive turns counts as 1 at least: its own speed would give nothing over nothing.
+/// A bit that stands while the drive turns has an index of 1 at least: its own speed would yield zero over zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StickSlip {
     settings: StickSlipSettings,
@@ -83,7 +82,7 @@ pub struct StickSlip {
     /// Full blocks before the current one.
     filled: usize,
     index: f64,
-    /// The last index that could be formed, and how long none could be formed since (s).
+    /// The last valid index, and the time since then without one (s).
     last: f64,
     unknown_for: f64,
     alarm: Alarm,
@@ -108,7 +107,7 @@ impl Block {
         duration: 0.0,
     };
 
-    /// Both in one.
+    /// The union of both blocks.
     fn with(self, other: &Self) -> Self {
         Self {
             min: self.min.min(other.min),
@@ -131,7 +130,7 @@ impl Block {
 }
 
 impl StickSlip {
-    /// With an empty window.
+    /// A watch with an empty window.
     pub fn new(settings: StickSlipSettings) -> Self {
         Self {
             settings,
@@ -146,8 +145,7 @@ impl StickSlip {
     }
 
     /// Takes the speeds of bit and drive (rad/s) over a step of `dt` (s) until model time `time` (s). While the drive
-    /// stands or is run up (`judged` is false), the bit follows late and springs forward by itself: the window starts
-    /// anew.
+    /// stands or is run up (`judged` is false), the bit lags and springs forward without stick-slip: the window restarts.
     pub fn push(&mut self, time: f64, dt: f64, bit: f64, drive: f64, judged: bool) {
         if !judged {
             self.alarm.update(time, dt, 0.0, &self.settings.thresholds);
@@ -170,7 +168,7 @@ impl StickSlip {
         self.current = (self.current + 1) % self.blocks.len();
         self.blocks[self.current] = Block::EMPTY;
         self.filled = (self.filled + 1).min(KEPT);
-        // A change of the set speed neither raises a level nor ends one, for as long as a window at most.
+        // After a change of the set speed the last index holds the level, for the length of a window at most.
         let judged = self.judge();
         if let Some(index) = judged {
             (self.last, self.unknown_for) = (index, 0.0);
@@ -184,8 +182,8 @@ impl StickSlip {
         self.alarm.update(time, length, self.last, &self.settings.thresholds);
     }
 
-    /// The index at the end of the last block; 0 while too little of the window is filled at the present set speed, or
-    /// the drive is below the gate.
+    /// The index at the end of the last block; 0 while the window has too few blocks at the present set speed, or the
+    /// drive is below the gate speed.
     pub fn index(&self) -> f64 {
         self.index
     }
@@ -233,7 +231,7 @@ impl StickSlip {
         (1..=self.filled).map(move |back| &self.blocks[(current + length - back) % length])
     }
 
-    /// The index; none while there is too little of the present set speed.
+    /// The index; none while the window has too few blocks at the present set speed.
     fn judge(&self) -> Option<f64> {
         let counted = if self.drive_swings() {
             BLOCKS
@@ -265,13 +263,13 @@ impl StickSlip {
             .count()
     }
 
-    /// Whether what the drive's speed has gone through is a swing that returns.
+    /// Whether the drive's speed oscillates.
     fn drive_swings(&self) -> bool {
         let speeds = self.newest().map(Block::drive);
         let extremes = |(low, high): (f64, f64), speed: f64| (low.min(speed), high.max(speed));
         let (low, high) = speeds.clone().fold((f64::MAX, f64::MIN), extremes);
         let range = high - low;
-        // The largest size that the drive's speed has gone through often enough lies between these.
+        // Bisection for the largest size of swing that occurs often enough.
         let (mut reached, mut missed) = (0.0, range);
         for _ in 0..SEARCH {
             let size = 0.5 * (reached + missed);
@@ -285,7 +283,7 @@ impl StickSlip {
     }
 }
 
-/// How often `speeds` go through a range of `size`, up and down counted each.
+/// Number of swings of `speeds` of at least `size`; up and down count as one each.
 fn swings(speeds: impl Iterator<Item = f64>, size: f64) -> u32 {
     let (mut low, mut high) = (f64::MAX, f64::MIN);
     let (mut rising, mut count) = (None, 0);

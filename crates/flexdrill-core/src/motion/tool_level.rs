@@ -1,4 +1,4 @@
-//! From the levels of all stations to the one place that leads, for each way round, and to the whirl warning.
+//! The leading station of each direction of whirl, and the whirl warning, from the levels of all stations.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,39 +8,39 @@ use super::settings::WhirlSettings;
 use super::watched_station::StationWatch;
 use super::{Severity, WhirlKind, WhirlWarningLevel};
 
-/// By how much worse a place of the same level must be to take the lead, and for how long (s): by less it would change
-/// hands with every bounce.
+/// Relative margin by which a station of the same level must be worse to take the lead, and for how long (s): without
+/// them the lead would change with every bounce.
 const LEAD_MARGIN: f64 = 0.25;
 const LEAD_TIME: f64 = 2.0;
 
-/// The worst place of one kind of whirl.
+/// The leading station of one kind of whirl.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Lead {
     severity: Severity,
     entry: usize,
     since: f64,
-    /// How long another place has been worse by the margin (s).
+    /// Time for which another station has been worse by the margin (s).
     outdone_for: f64,
 }
 
 impl Lead {
-    /// Finds the worst place for `kind` at model time `time` (s), `elapsed` (s) after the last time.
+    /// Finds the leading station for `kind` at model time `time` (s), `elapsed` (s) after the last update.
     pub(super) fn update(&mut self, time: f64, elapsed: f64, kind: WhirlKind, watches: &[StationWatch]) {
         let level = |watch: &StationWatch| watch.level_of(kind);
         let severity = watches.iter().map(level).max().unwrap_or_default();
         if severity != self.severity {
             (self.severity, self.since) = (severity, time);
         }
-        // Places are compared by their worst moments while a level stands; while all is well by their present motion.
+        // While a level stands, stations are compared by their worst evaluations, otherwise by their present motion.
         let (mut worst, mut most) = (self.entry, f64::NEG_INFINITY);
         for (entry, watch) in watches.iter().enumerate() {
-            let strength = watch.shown_moment(kind).strength;
+            let strength = watch.reported_evaluation(kind).strength;
             if level(watch) == severity && strength > most {
                 (worst, most) = (entry, strength);
             }
         }
         let Some(leader) = watches.get(self.entry) else { return };
-        let outdone = most > (1.0 + LEAD_MARGIN) * leader.shown_moment(kind).strength;
+        let outdone = most > (1.0 + LEAD_MARGIN) * leader.reported_evaluation(kind).strength;
         self.outdone_for = if outdone { self.outdone_for + elapsed } else { 0.0 };
         if level(leader) != severity || self.outdone_for >= LEAD_TIME {
             (self.entry, self.outdone_for) = (worst, 0.0);
@@ -73,8 +73,8 @@ impl Lead {
         else {
             return Hazard { threshold, ..calm };
         };
-        let (station, moment) = (&watch.station, watch.shown_moment(whirl));
-        let evidence = &moment.evidence;
+        let (station, evaluation) = (&watch.station, watch.reported_evaluation(whirl));
+        let evidence = &evaluation.evidence;
         let standing = watches.iter().filter(|watch| watch.level_of(whirl) == self.severity);
         let met = standing.map(|watch| watch.met(whirl)).fold(f64::NEG_INFINITY, f64::max);
         Hazard {
@@ -90,17 +90,17 @@ impl Lead {
                 _ => evidence.cycles,
             },
             threshold,
-            whirl_ratio: moment.whirl_ratio.unwrap_or(f64::NAN),
-            rolling_share: match moment.rolling_share {
+            whirl_ratio: evaluation.whirl_ratio.unwrap_or(f64::NAN),
+            rolling_share: match evaluation.rolling_share {
                 0.0 => f64::NAN,
                 share => share,
             },
-            orbit_speed: moment.orbit_speed,
+            orbit_speed: evaluation.orbit_speed,
             impulse: evidence.impulse,
             impact_rate: evidence.impact_rate,
             friction_power: evidence.friction_power,
             confidence: evidence.confidence * input_trust,
-            seen: moment.time,
+            seen: evaluation.time,
             ended: ended(self.severity, met, time),
             ..calm
         }
@@ -116,8 +116,8 @@ fn whirl_of(kind: HazardKind) -> WhirlKind {
 }
 
 impl WhirlWarningLevel {
-    /// The worse of the two ways round leads, backward before forward. While a level stands the figures are those of
-    /// its worst moment.
+    /// The worse of the two directions leads, backward before forward. While a level stands the figures are those of its
+    /// worst evaluation.
     pub(super) fn update(&mut self, backward: &Lead, forward: &Lead, watches: &[StationWatch], input_trust: f64) {
         let (lead, kind) = if forward.severity > backward.severity {
             (forward, WhirlKind::Forward)
@@ -130,28 +130,28 @@ impl WhirlWarningLevel {
         } else {
             kind
         };
-        let moment = watch.shown_moment(if kind == WhirlKind::Forward {
+        let evaluation = watch.reported_evaluation(if kind == WhirlKind::Forward {
             kind
         } else {
             WhirlKind::Backward
         });
-        let evidence = &moment.evidence;
+        let evidence = &evaluation.evidence;
         let severity_changed = lead.severity != self.severity;
-        // While all is well no place leads.
+        // At level OK no station leads.
         let moved = lead.severity > Severity::Ok && lead.entry != self.entry;
         let changed = severity_changed || kind != self.kind || moved;
         *self = Self {
             severity: lead.severity,
             kind,
             entry: lead.entry,
-            whirl_ratio: moment.whirl_ratio.unwrap_or(f64::NAN),
-            rolling_share: moment.rolling_share,
+            whirl_ratio: evaluation.whirl_ratio.unwrap_or(f64::NAN),
+            rolling_share: evaluation.rolling_share,
             rolling: evidence.rolling,
             clearance_ratio: evidence.clearance_ratio,
             contact_duty: evidence.contact_duty,
             peak_force: evidence.peak_force,
             confidence: evidence.confidence * input_trust,
-            window: moment.window,
+            window: evaluation.window,
             since: if severity_changed { lead.since } else { self.since },
             sequence: self.sequence + u64::from(changed),
         };

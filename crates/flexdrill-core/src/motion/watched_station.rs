@@ -1,4 +1,4 @@
-//! One watched station: where it is, its samples, and what is kept of it between evaluations.
+//! One watched station: its geometry, its samples, and its state between evaluations.
 
 use std::f64::consts::TAU;
 
@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::classify::Verdict;
 use super::orbit_window::OrbitWindow;
 use super::settings::WhirlSettings;
-use super::severity::{Elapsed, Evidence, Moment, StationSeverity};
+use super::severity::{Elapsed, Evaluation, Evidence, StationSeverity};
 use super::{Severity, WhirlKind};
 use crate::tool::Body;
 
-/// How much faster time that did not look chaotic takes away from time that did.
+/// Weight with which time that does not appear chaotic reduces the chaotic time.
 const CHAOS_FADES: f64 = 1.5;
 
 /// A station and pipe whose orbit is watched.
@@ -27,9 +27,9 @@ pub struct WatchedStation {
     pub inclination: f64,
     /// Half the difference of the diameters (m), Eq. 27 or 31.
     pub clearance: f64,
-    /// Outer diameter of the moving body where it touches (m), for the rate of rolling without slip.
+    /// Outer diameter of the moving body at its contact (m), for the rate of rolling without slip.
     pub body_diameter: f64,
-    /// Length of the tool that the station stands for (m): half of the way to each neighbour.
+    /// Length of the tool that the station represents (m): half of the distances to both neighbours.
     pub length: f64,
 }
 
@@ -48,18 +48,18 @@ pub struct StationSample {
     pub y: f64,
     /// Displacement towards the low side (m).
     pub z: f64,
-    /// Largest normal force since the sample before (N).
+    /// Largest normal force since the last sample (N).
     pub normal_force: f64,
-    /// Part of the time since the sample before in contact, 0 to 1; 0 or 1 where only the instant is known.
+    /// Share of the time in contact since the last sample, 0 to 1; 0 or 1 where only the instant is known.
     pub contact_share: f64,
-    /// Impulse of the normal force since the sample before (N s).
+    /// Impulse of the normal force since the last sample (N s).
     pub impulse: f64,
-    /// Work of the friction since the sample before (J, >= 0).
+    /// Work of the friction since the last sample (J, >= 0).
     pub friction_work: f64,
 }
 
 impl StationSample {
-    /// Where the motion was after that part of the way to `next`.
+    /// The interpolation between this sample and `next` at `part`, 0 to 1.
     pub(super) fn between(&self, next: &Self, part: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * part;
         Self {
@@ -73,7 +73,7 @@ impl StationSample {
     }
 }
 
-/// What is known of a watched station.
+/// State of a watched station.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct StationWatch {
     pub(super) station: WatchedStation,
@@ -82,7 +82,7 @@ pub(super) struct StationWatch {
     pub(super) kind: WhirlKind,
     candidate: WhirlKind,
     agreeing: u32,
-    /// How long the motion has looked chaotic (s), less the time that it did not.
+    /// Time for which the motion has appeared chaotic (s), minus weighted time for which it has not.
     chaotic_for: f64,
     pub(super) whirl_rate: f64,
     /// Over the rotary speed; none where the motion is no whirl of one rate or the tool stands.
@@ -99,21 +99,21 @@ pub(super) struct StationWatch {
     pub(super) evaluated: f64,
 }
 
-/// What an evaluation needs to know beside the motion.
+/// Conditions of an evaluation, apart from the motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Circumstances {
-    /// Size of the mean rotary speed over the window (rad/s); none while the tool stands.
+    /// Magnitude of the mean rotary speed over the window (rad/s); none while the tool stands.
     pub(super) rotary_speed: Option<f64>,
     /// +1 or -1, the sign of the rotation.
     pub(super) sense: f64,
-    /// Time for which motion must look chaotic to be called so (s).
+    /// Time for which motion must appear chaotic to be classified so (s).
     pub(super) chaos_time: f64,
     /// Time between two evaluations (s).
     pub(super) evaluation_interval: f64,
 }
 
 impl StationWatch {
-    /// How bad whirl of this kind is here, to compare places: 0 where the motion is another.
+    /// Severity measure of whirl of this kind, for comparing stations; 0 where the motion is of another kind.
     pub(super) fn strength(&self, kind: WhirlKind) -> f64 {
         if self.kind != kind {
             return 0.0;
@@ -146,7 +146,7 @@ impl StationWatch {
         }
     }
 
-    /// Forgets the motion; the level stands.
+    /// Resets the motion; the level stays.
     pub(super) fn restart(&mut self) {
         self.window.clear();
         self.kind = WhirlKind::None;
@@ -160,7 +160,7 @@ impl StationWatch {
         self.evidence = Evidence::default();
     }
 
-    /// Forgets the level too.
+    /// Resets motion and level.
     pub(super) fn reset(&mut self) {
         self.restart();
         (self.backward, self.forward) = Default::default();
@@ -168,7 +168,7 @@ impl StationWatch {
         self.evaluated = 0.0;
     }
 
-    /// Takes over a verdict; its kind only when enough evaluations in a row agree.
+    /// Adopts a verdict; its kind only after enough consecutive evaluations agree.
     pub(super) fn accept(
         &mut self,
         verdict: &Verdict,
@@ -190,7 +190,7 @@ impl StationWatch {
             }
         };
         let needed = ((confirmed_for / interval).ceil() as u32).max(settings.confirmations);
-        // By chance chaos looks like something else now and then, so its time is summed up instead of counted in a row.
+        // Chaotic motion resembles another kind now and then by chance, so its time is accumulated, not counted in a row.
         self.chaotic_for = if verdict.kind == WhirlKind::Chaotic {
             (self.chaotic_for + interval).min(circumstances.chaos_time)
         } else {
@@ -212,7 +212,7 @@ impl StationWatch {
         };
         self.orbit_radius = verdict.radius;
         self.used_window = verdict.window;
-        // While the kind is in dispute the doubt shows.
+        // Half the confidence while the newest verdict differs from the adopted kind.
         let confidence = evidence.confidence * if self.kind == verdict.kind { 1.0 } else { 0.5 };
         self.evidence = Evidence {
             kind: self.kind,
@@ -233,21 +233,21 @@ impl StationWatch {
         self.whirl_ratio.map_or(0.0, |ratio| (own - ratio).abs())
     }
 
-    /// Takes the evidence for the levels, see [`StationSeverity::update`].
+    /// Updates the levels with the newest evaluation, see [`StationSeverity::update`].
     pub(super) fn grade(&mut self, elapsed: Elapsed, trust: f64, settings: &WhirlSettings) {
         for kind in [WhirlKind::Backward, WhirlKind::Forward] {
-            let moment = self.moment(kind);
+            let evaluation = self.evaluation(kind);
             let level = match kind {
                 WhirlKind::Backward => &mut self.backward,
                 _ => &mut self.forward,
             };
-            level.update(kind, elapsed, &moment, trust, settings);
+            level.update(kind, elapsed, &evaluation, trust, settings);
         }
     }
 
-    /// The motion at the newest evaluation, with how bad it is as whirl of this kind.
-    pub(super) fn moment(&self, kind: WhirlKind) -> Moment {
-        Moment {
+    /// The newest evaluation, with its severity measure as whirl of this kind.
+    pub(super) fn evaluation(&self, kind: WhirlKind) -> Evaluation {
+        Evaluation {
             time: self.evaluated,
             evidence: self.evidence,
             whirl_ratio: self.whirl_ratio,
@@ -258,10 +258,10 @@ impl StationWatch {
         }
     }
 
-    /// While a level of this kind of whirl stands, the worst moment since it was reached; else the newest.
-    pub(super) fn shown_moment(&self, kind: WhirlKind) -> Moment {
+    /// While a level of this kind of whirl stands, the worst evaluation since it was reached; otherwise the newest.
+    pub(super) fn reported_evaluation(&self, kind: WhirlKind) -> Evaluation {
         match (kind, self.level_of(kind)) {
-            (_, Severity::Ok) => self.moment(kind),
+            (_, Severity::Ok) => self.evaluation(kind),
             (WhirlKind::Backward, _) => *self.backward.worst(),
             (_, _) => *self.forward.worst(),
         }
@@ -289,7 +289,7 @@ impl StationWatch {
         self.backward.level().max(self.forward.level())
     }
 
-    /// The kind that the level stands for, also while it is only held.
+    /// The kind of the level, also during the hold-off.
     pub(super) fn level_kind(&self) -> WhirlKind {
         match self.level() {
             Severity::Ok => WhirlKind::None,

@@ -1,4 +1,4 @@
-//! Whirl at every watched station, and the level of the whole tool.
+//! Whirl at every watched station, and the level of the tool.
 
 use std::f64::consts::TAU;
 
@@ -17,18 +17,18 @@ use super::watched_station::{Circumstances, StationWatch};
 use super::{Severity, StationSample, WatchedStation, WhirlKind, WhirlReport, WhirlWarningLevel};
 use crate::tool::Body;
 
-/// Part of the long window that must be filled before anything is said.
+/// Part of the long window that must be filled before the first evaluation.
 const MIN_FILL: f64 = 0.5;
 
-/// Part of the long window for which motion must look chaotic to be called so: a whirl that has just begun has no
-/// direction either until it fills a good part of the window.
+/// Part of the long window for which motion must appear chaotic to be classified so: a whirl that has just begun has no
+/// direction either until it fills enough of the window.
 const CHAOS_PART: f64 = 0.25;
 
 /// Evaluations of a station per turn of the tool: three per turn of a whirl at ten times its speed.
 const EVALUATIONS_PER_TURN: f64 = 30.0;
 
-/// After how many turns of the tool a motion may repeat itself: one and two, and one and a half, since a joint's cross
-/// drives the next link twice per turn and pipes are seen to answer at two thirds of the tool's rate.
+/// Turns of the tool after which a motion may repeat itself: one and two, and one and a half, since a joint's cross
+/// drives the next link twice per turn and pipes respond at two thirds of the tool's rate.
 const REPETITION_TURNS: [f64; 3] = [1.0, 1.5, 2.0];
 
 /// Fewest samples of a short window.
@@ -65,7 +65,7 @@ pub struct WhirlAnalysis {
 }
 
 impl WhirlAnalysis {
-    /// For samples that are `sample_interval` (s) apart, 2 to 5 ms for a tool at 20 to 120 r/min.
+    /// An analysis of samples `sample_interval` (s) apart, 2 to 5 ms for a tool at 20 to 120 r/min.
     pub fn new(settings: &WhirlSettings, sample_interval: f64, stations: Vec<WatchedStation>) -> Self {
         let capacity = ((settings.max_window / sample_interval).ceil() as usize).max(MIN_SHORT_SAMPLES);
         let watches = stations
@@ -97,7 +97,7 @@ impl WhirlAnalysis {
     /// Takes one sample per watched station at model time `time` (s), with the rotary speed of the drive (rad/s).
     ///
     /// Samples are expected at the interval given to [`WhirlAnalysis::new`]. A short gap is bridged by straight lines;
-    /// after a long one, or when time goes backwards, the windows start anew. A repeated time is ignored.
+    /// after a long one, or when time runs backwards, the windows restart. A repeated time is ignored.
     pub fn push(&mut self, time: f64, rotary_speed: f64, samples: &[StationSample]) {
         let steps = self
             .last_time
@@ -145,26 +145,26 @@ impl WhirlAnalysis {
         }
     }
 
-    /// How far the inputs behind the motion can be trusted, 0 to 1: lowers the confidence of what is reported from now
-    /// on, and what it makes doubtful raises no level.
+    /// Sets the trust in the inputs behind the motion, 0 to 1. It lowers the reported confidence from now on; with too
+    /// little confidence no level rises.
     pub fn set_input_trust(&mut self, trust: f64) {
         let trust = trust.clamp(0.0, 1.0);
         if trust != self.input_trust {
             self.input_trust = trust;
-            // Listeners are told at once that the standing warning is to be read differently.
+            // The sequence number announces the changed confidence of the standing warning at once.
             self.level.sequence += 1;
             self.level.update(&self.backward, &self.forward, &self.watches, trust);
         }
     }
 
-    /// After a return to an older state: the sequence goes on from `newest`, so that listeners see the change.
+    /// Continues the sequence after `newest`, when an older state was restored, so that subscribers notice the change.
     pub fn continue_sequence(&mut self, newest: u64) {
         if newest > self.level.sequence {
             self.level.sequence = newest + 1;
         }
     }
 
-    /// Replaces the thresholds and window lengths; the longest window keeps its memory, so it cannot grow.
+    /// Replaces the thresholds and window lengths. The memory of the longest window is fixed, so it cannot grow.
     pub fn set_settings(&mut self, settings: &WhirlSettings) {
         let max_window = settings.max_window.min(self.settings.max_window);
         self.settings = WhirlSettings {
@@ -235,29 +235,29 @@ impl WhirlAnalysis {
         );
     }
 
-    /// The level that the warning logic stands at.
+    /// The level of the whirl warning.
     pub fn level(&self) -> WhirlWarningLevel {
         self.level
     }
 
-    /// What the drive does. While it does not turn steadily no level rises.
+    /// State of the drive. Levels rise only while it turns.
     pub fn drive(&self) -> DriveState {
         self.drive.state
     }
 
-    /// Part of the watched places of the pipe that move chaotically, 0 to 1; 0 where none is watched.
+    /// Share of the watched stations of the pipe that move chaotically, 0 to 1; 0 if none is watched.
     pub fn chaotic_share(&self) -> f64 {
         self.chaotic_share
     }
 
-    /// How backward whirl stands, at its worst place.
+    /// The hazard of backward whirl, at its worst station.
     pub fn backward(&self) -> Hazard {
         let kind = HazardKind::BackwardWhirl;
         self.backward
             .hazard(self.now(), kind, &self.watches, self.input_trust, &self.settings)
     }
 
-    /// How forward whirl stands, at its worst place.
+    /// The hazard of forward whirl, at its worst station.
     pub fn forward(&self) -> Hazard {
         let kind = HazardKind::ForwardWhirl;
         self.forward
@@ -269,8 +269,8 @@ impl WhirlAnalysis {
         self.last_time.unwrap_or_default()
     }
 
-    /// Forgets everything but the settings and the inputs' trust; the warnings' sequence goes on, so that listeners see
-    /// the change.
+    /// Resets everything except the settings and the trust in the inputs. The sequence of the warnings continues, so that
+    /// subscribers notice the change.
     pub fn reset(&mut self) {
         let sequence = self.level.sequence;
         self.restart_windows();
@@ -384,7 +384,7 @@ impl WhirlAnalysis {
         } else {
             filled
         };
-        // A short window almost as long as the long one would say the same again.
+        // A short window almost as long as the long one would add nothing.
         let short = (moves && short_samples < filled * 4 / 5).then(|| {
             let window = &self.watches[index].window;
             let round = window.round(short_samples);
@@ -401,7 +401,7 @@ impl WhirlAnalysis {
         let rotary_speed = turning(self.mean_rotary_speed(verdict.window));
         let evidence = Evidence {
             clearance_ratio: if clearance > 0.0 {
-                touches.reach / clearance
+                touches.largest_distance / clearance
             } else {
                 0.0
             },
@@ -459,11 +459,11 @@ impl WhirlAnalysis {
     }
 }
 
-/// As [`WhirlAnalysis::chaotic_share`].
+/// See [`WhirlAnalysis::chaotic_share`].
 fn chaotic_share(watches: &[StationWatch]) -> f64 {
     let pipes = watches.iter().filter(|watch| watch.station.body == Body::Pipe);
-    let (places, chaotic) = pipes.fold((0_u32, 0_u32), |(places, chaotic), watch| {
-        (places + 1, chaotic + u32::from(watch.kind == WhirlKind::Chaotic))
+    let (stations, chaotic) = pipes.fold((0_u32, 0_u32), |(stations, chaotic), watch| {
+        (stations + 1, chaotic + u32::from(watch.kind == WhirlKind::Chaotic))
     });
-    f64::from(chaotic) / f64::from(places.max(1))
+    f64::from(chaotic) / f64::from(stations.max(1))
 }

@@ -1,4 +1,4 @@
-//! Which vector instructions the processor has: found once, then proven by a value.
+//! Detection of the processor's vector instructions. An [`Instructions`] value proves that they are present.
 
 use std::fmt;
 
@@ -49,15 +49,15 @@ impl Level {
 }
 
 impl Instructions {
-    /// No vector instructions: every processor has these.
+    /// No vector instructions; runs on every processor.
     pub const PORTABLE: Self = Self(Level::Portable);
 
-    /// All that this processor has, from the least to the best.
+    /// All that this processor has, from the narrowest to the widest.
     pub fn available() -> impl Iterator<Item = Self> {
         Level::ALL.iter().copied().filter(|level| level.is_here()).map(Self)
     }
 
-    /// The best that this processor has.
+    /// The widest that this processor has.
     pub fn best() -> Self {
         Self::available().last().unwrap_or(Self::PORTABLE)
     }
@@ -73,7 +73,7 @@ impl Instructions {
         }
     }
 
-    /// Runs `kernel` with the widest vectors that these instructions give.
+    /// Runs `kernel` with the vectors of these instructions.
     #[inline]
     pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
@@ -84,7 +84,7 @@ impl Instructions {
             Level::Avx2 => unsafe { with_avx2(kernel) },
             #[cfg(target_arch = "x86_64")]
             #[expect(unsafe_code, reason = "the one place where vector instructions are entered")]
-            // SAFETY: `self` was made by `available`, which found the processor to have AVX-512 F and VL beside AVX2
+            // SAFETY: `self` was made by `available`, which found the processor to have AVX-512 F and VL, AVX2
             // and FMA.
             Level::Avx512 => unsafe { with_avx512(kernel) },
         }
@@ -103,13 +103,13 @@ impl fmt::Display for Instructions {
     }
 }
 
-/// A computation written once for every width of vectors, with what it works on as its fields.
+/// A computation written once for every width of vectors; its fields are its arguments.
 pub(crate) trait Kernel {
-    /// What it gives.
+    /// Result of the computation.
     type Output;
 
-    /// Computes. To be marked `#[inline(always)]`, as everything it calls with `V`: the code must end up inside the
-    /// function that carries the target feature.
+    /// Computes the result. Implementations and everything that they call with `V` are `#[inline(always)]`: the code must
+    /// end up inside the function that carries the target feature.
     fn run<V: Vector>(self) -> Self::Output;
 }
 

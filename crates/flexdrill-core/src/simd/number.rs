@@ -1,4 +1,4 @@
-//! What the formulas of joints and gaps are written over: one number, or one of each of eight of them at once.
+//! The numbers that the laws of joints and gaps are written over: one `f64`, or eight lanes at once.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -7,31 +7,31 @@ use crate::simd::vector::Vector;
 
 /// A number to compute with.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
-    /// As kept in memory between two computations.
+    /// The number's form in memory, between two computations.
     type Memory: Copy + Default;
     /// Reads a number, or one per lane, from memory.
     fn load(from: &Self::Memory) -> Self;
     /// Writes it to memory.
     fn store(self, to: &mut Self::Memory);
-    /// From one number.
+    /// The same `x` in every lane.
     fn of(x: f64) -> Self;
     /// self + a b, rounded once where the machine does that.
     fn plus_product(self, a: Self, b: Self) -> Self;
-    /// Quotient.
+    /// The quotient `self / other`.
     fn over(self, other: Self) -> Self;
     /// Square root.
     fn root(self) -> Self;
-    /// The larger; `other` where one of them is no number.
+    /// The larger; `other` where one of them is NaN.
     fn largest(self, other: Self) -> Self;
     /// Itself where `x` is larger than `bound`, otherwise zero.
     fn where_above(self, x: Self, bound: Self) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
-    /// `f` of each number.
+    /// Applies a scalar function to each lane.
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
-    /// `f` of each pair of numbers.
+    /// Applies a scalar function to each pair of lanes.
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
-    /// Whether some number is below its bound.
+    /// Whether some lane is below its bound.
     fn any_below(self, bound: Self) -> bool;
 }
 
@@ -87,14 +87,14 @@ impl Number for f64 {
     }
 }
 
-/// Eight numbers, as kept in memory.
+/// Eight lanes in memory.
 pub type Lane = Aligned<[f64; 8]>;
 
-/// One number of each of eight joints or contacts, computed with at once.
+/// Eight lanes in a register, one per joint or contact.
 #[derive(Debug, Clone, Copy)]
 pub struct Eight<V>(pub V);
 
-/// (-1)^k / (2 k + first)!.
+/// Taylor coefficients of sine (`first` 1) and cosine (`first` 0) in powers of r^2: (-1)^k / (2 k + first)!.
 const fn series<const N: usize>(first: u32) -> [f64; N] {
     let mut c = [0.0; N];
     c[0] = 1.0;
@@ -150,19 +150,21 @@ impl<V: Vector> Number for Eight<V> {
     /// Sine and cosine, to two units in the last place of 1 for arguments up to 1e6.
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        // x = n pi/2 + r with |r| <= pi/4; n times the first two parts of pi/2, of 33 bits each, is exact.
+        // Range reduction: x = n pi/2 + r with |r| <= pi/4. The first two parts of pi/2 have 33 bits each, so that their
+        // products with n are exact (Cody and Waite).
         const PARTS: [f64; 3] = [
             1.570_796_326_734_125_6,
             6.077_100_506_303_966e-11,
             2.022_266_248_795_950_6e-21,
         ];
-        // Adding and subtracting 3 x 2^51 rounds to a whole number.
+        // Adding and subtracting 3 x 2^51 rounds to an integer without an instruction for it.
         const ROUND: f64 = 6_755_399_441_055_744.0;
         const SINE: [f64; 8] = series(1);
         const COSINE: [f64; 9] = series(0);
         let whole = |x: Self| (x + Self::of(ROUND)) - Self::of(ROUND);
         let n = whole(self * Self::of(std::f64::consts::FRAC_2_PI));
         let r = ((self - n * Self::of(PARTS[0])) - n * Self::of(PARTS[1])) - n * Self::of(PARTS[2]);
+        // Both series by Horner's rule. Their last terms are below the rounding of 1 for |r| <= pi/4.
         let s = r * r;
         let (mut sine, mut cosine) = (Self::of(SINE[7]), Self::of(COSINE[8]));
         for k in (0..7).rev() {
@@ -172,7 +174,8 @@ impl<V: Vector> Number for Eight<V> {
             cosine = Self::of(COSINE[k]).plus_product(cosine, s);
         }
         sine = sine * r;
-        // Quadrant n mod 4 as two bits: `odd` exchanges sine and cosine, `upper` turns both round.
+        // The quadrant n mod 4 as two bits: `odd` exchanges sine and cosine, `upper` changes both signs. Products with 0 and
+        // 1 replace branches, which lanes cannot take separately.
         let floor = |x: Self| whole(x - Self::of(0.25));
         let pairs = floor(n * Self::of(0.5));
         let odd = n - pairs * Self::of(2.0);

@@ -1,4 +1,4 @@
-//! Sixteen numbers of single precision at once, for solutions whose residual is taken in double.
+//! Sixteen lanes of single precision, for solutions whose residual is computed in double precision.
 
 /// Sixteen lanes of f32: a column of a block of sixteen.
 pub(crate) trait Single: Copy {
@@ -8,7 +8,7 @@ pub(crate) trait Single: Copy {
     fn load(from: &[f32; 16]) -> Self;
     /// Writes sixteen lanes.
     fn store(self, to: &mut [f32; 16]);
-    /// Rounds sixteen numbers.
+    /// Rounds sixteen numbers to single precision.
     fn round(from: &[f64; 16]) -> Self;
     /// Sum, lane by lane.
     fn plus(self, other: Self) -> Self;
@@ -22,9 +22,9 @@ pub(crate) trait Single: Copy {
     fn plus_product(self, a: Self, b: Self) -> Self;
     /// self - a b, likewise.
     fn minus_product(self, a: Self, b: Self) -> Self;
-    /// The larger, lane by lane; lanes that are not numbers may be passed over.
+    /// The larger, lane by lane. A NaN may be dropped.
     fn largest(self, other: Self) -> Self;
-    /// In each lane that which `from` names.
+    /// Permutation: each lane gets the lane of `self` that `from` names.
     fn taken(self, from: &[i32; 16]) -> Self;
     /// Lane `K` in every lane.
     fn spread<const K: usize>(self) -> Self;

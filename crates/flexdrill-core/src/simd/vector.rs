@@ -1,8 +1,8 @@
 //! Eight numbers at once: the same kernels with AVX-512, with AVX2 and without either.
 //!
 //! Kernels are written once over [`Vector`] and marked `#[inline(always)]`; the functions that call them for one kind
-//! of vector carry the `target_feature` that it needs. The compiler's own vectors of such code were tried and are
-//! several times slower: it takes the lanes apart.
+//! of vector carry the `target_feature` that it needs. Automatic vectorisation of such code is several times slower: the
+//! compiler splits the lanes.
 
 use super::instructions::{Kernel, with_portable};
 use super::single::{PortableSingle, Single};
@@ -11,7 +11,8 @@ use super::single::{PortableSingle, Single};
 pub(crate) trait Vector: Copy {
     /// Sixteen lanes of single precision of the same machine.
     type Single: Single;
-    /// Whether [`Vector::plus_product`] rounds once: what scalar code beside these vectors then does too.
+    /// Whether [`Vector::plus_product`] rounds once. Scalar code next to these vectors then rounds once as well, so that
+    /// results do not depend on which of the two computes an entry.
     const FUSED: bool;
 
     /// Runs `kernel` with these vectors in a function of its own, which is not inlined into the caller: a large kernel
@@ -34,7 +35,7 @@ pub(crate) trait Vector: Copy {
     fn over(self, other: Self) -> Self;
     /// Square root, lane by lane.
     fn root(self) -> Self;
-    /// The larger, lane by lane; that of `other` where one of them is no number.
+    /// The larger, lane by lane; the lane of `other` where one of them is NaN.
     fn largest(self, other: Self) -> Self;
     /// Lanes of `self` where `x` is larger than `bound`, zero in the others.
     fn where_above(self, x: Self, bound: Self) -> Self;
@@ -48,14 +49,13 @@ pub(crate) trait Vector: Copy {
     fn across(self) -> Self;
     /// Lanes 1, 0, 3, 2, 5, 4, 7, 6: neighbours exchanged.
     fn swapped(self) -> Self;
-    /// Whether some lane of `self` is larger in size than the same lane of `bound`; lanes that are not numbers count as
-    /// larger.
+    /// Whether some lane of `self` is larger in magnitude than the same lane of `bound`; NaN counts as larger.
     fn any_beyond(self, bound: Self) -> bool;
     /// A bit per lane of `self` that is larger than the same lane of `bound`.
     fn above(self, bound: Self) -> u32;
 }
 
-/// Eight lanes at a time of a longer array.
+/// Eight lanes of a longer array from `first` on; `None` at its end.
 #[inline(always)]
 pub(crate) fn part(values: &[f64], first: usize) -> Option<&[f64; 8]> {
     values.get(first..first + 8)?.first_chunk()

@@ -1,7 +1,7 @@
-//! What is modelled, as plain numbers in SI: the tool, the well it lies in, its supports and loads.
+//! Plain numbers in SI that describe the tool, its well, its supports and its loads.
 //!
-//! A [`ToolDescription`] is what the configuration is turned into and what the model is built from. It is
-//! checked when the model is built; after that nothing of it changes but the [`LiveParameters`].
+//! The model is built from a [`ToolDescription`], which is checked then. While the model runs only the [`LiveParameters`]
+//! can change.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -52,7 +52,7 @@ pub struct ToolDescription {
     pub drive_top: bool,
     /// How the weight on bit reaches the tool.
     pub wob_path: WobPath,
-    /// Loads in time beside gravity, drive and bit.
+    /// Loads over time, in addition to gravity, drive and bit.
     pub loads: Vec<PointLoad>,
     /// Point masses added to nodes.
     pub masses: Vec<PointMass>,
@@ -119,7 +119,7 @@ pub struct Tube {
 pub enum JointKind {
     /// Cross (Hooke) joint: second row of Eq. 13, with a bend limit.
     Universal,
-    /// Constant velocity: the ends turn alike whatever the bend, with a bend limit.
+    /// Constant velocity: both ends spin at the same rate at any bend, with a bend limit.
     BallCage,
     /// Both rows of Eq. 13 as equalities: a hinge with one free axis, for comparison only.
     Revolute,
@@ -132,8 +132,7 @@ pub enum HingeAngle {
     /// 90 degrees: links that are in line at rest.
     #[default]
     Straight,
-    /// What it is where the undeflected tool lies in the well at spin zero: links that keep the well's bend and carry
-    /// it along as they turn.
+    /// The angle of the undeflected tool in the well at spin zero: links keep the well's bend, which turns with them.
     AsBuilt,
 }
 
@@ -226,7 +225,7 @@ pub struct BitDescription {
 }
 
 impl BitDescription {
-    /// A bit of `diameter` (m) with the friction factor eta of Eq. 1, without inertia of its own.
+    /// A bit of `diameter` (m) with the friction factor eta of Eq. 1, without inertia.
     #[must_use]
     pub const fn new(diameter: f64, friction_factor: f64) -> Self {
         Self {
@@ -250,7 +249,7 @@ pub enum Body {
 }
 
 impl Body {
-    /// As in sentences: `pipe`, `guide pipe`.
+    /// The name in sentences: `pipe`, `guide pipe`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Pipe => "pipe",
@@ -316,11 +315,11 @@ pub struct Support {
 pub enum WobPath {
     /// Upward on the guide's last node.
     Guide,
-    /// The pipes' ends are tied axially. A jointed pipe gives way across the hole and carries hardly any of it.
+    /// The ends of both pipes are tied axially. A jointed pipe deflects across the hole and carries hardly any of the load.
     Shared,
 }
 
-/// How a load changes in time.
+/// A load over time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum LoadHistory {
@@ -380,7 +379,7 @@ pub struct PointMass {
     pub eccentricity_phase: f64,
 }
 
-/// What may change while the model runs; all else is fixed at the build.
+/// Parameters that may change while the model runs; all others are fixed when it is built.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LiveParameters {
     /// Inner layer, mu_1 and mu_2.

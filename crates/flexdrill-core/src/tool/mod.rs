@@ -1,4 +1,4 @@
-//! What is modelled: the tool, its well and its loads, as described.
+//! Description of the tool, its well, supports and loads.
 
 pub(crate) mod description;
 mod paper;

@@ -2,8 +2,7 @@
 //! ultrashort-radius radial horizontal wells", Scientific Reports 2024.
 //!
 //! The paper prints the well (R = 3.2 m, 0 to 90 degrees), five elements per link, eta = 0.235 and the bit's 118 mm.
-//! All else is assumed; the reasons stand beside the same numbers in `config/default.yaml`, and a test holds the two
-//! together.
+//! All other values are assumed. `config/default.yaml` has the same numbers with their reasons; a test compares the two.
 
 use super::{
     BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, Location, Material, Rayleigh,
@@ -11,12 +10,12 @@ use super::{
 };
 use crate::units::deg_to_rad;
 
-/// Standard gravity as the paper's kind of calculation takes it (m/s2), times 1 - 1100 / 7850: water-based mud.
+/// Gravity (m/s2) times the buoyancy factor 1 - 1100 / 7850 of water-based mud.
 const GRAVITY_IN_MUD: f64 = 9.81 * 0.86;
 
 impl ToolDescription {
-    /// The paper's tool in the paper's well, with plausible values for what the paper leaves open; equal to what
-    /// `config/default.yaml` describes. Take it and change what differs:
+    /// The paper's tool in the paper's well, with plausible values where the paper has none; equal to the description in
+    /// `config/default.yaml`. A similar tool differs from it in some fields:
     ///
     /// ```
     /// use flexdrill_core::tool::ToolDescription;

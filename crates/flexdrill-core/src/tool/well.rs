@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::tool::{WellDescription, WellSection};
 
-/// A well path that can be asked for points and frames at any measured depth.
+/// A well path with its points and frames at any measured depth.
 #[derive(Debug, Clone)]
 pub struct WellPath {
     pieces: Vec<Piece>,
@@ -22,7 +22,7 @@ struct Piece {
 }
 
 impl WellPath {
-    /// Strings the sections together from the origin of the world frame.
+    /// Joins the sections, from the origin of the world frame on.
     pub fn new(description: &WellDescription) -> Self {
         let mut pieces = Vec::with_capacity(description.sections.len());
         let mut start = 0.0;

@@ -1,4 +1,4 @@
-//! What is read off the mechanics: statistics kept at every step, and the snapshot made from them and the state.
+//! Observation of the mechanics: statistics updated at every step, and the snapshot made from them and the state.
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Reactions, S
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, inner_lateral, joint_rotations, translation};
 use crate::dynamics::stepper::Stepper;
-use crate::elements::gap::{Layer, gap};
+use crate::elements::gap::{LayerContacts, gap};
 use crate::model::{HeldNode, Model};
 use crate::motion::{
     AgeingWatch, ChaoticWhirlWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, JointLoadWatch,
@@ -101,21 +101,21 @@ impl Observer {
     /// Trust in the inputs, 0 to 1.
     pub(super) fn set_input_trust(&mut self, trust: f64) {
         self.input_trust = trust;
-        self.pass_on_trust();
+        self.update_trust();
     }
 
-    /// What the motion is told by can be doubted for two reasons, and both count.
-    fn pass_on_trust(&mut self) {
+    /// Doubtful inputs and doubtful mechanics both lower the confidence of the whirl analysis.
+    fn update_trust(&mut self) {
         self.whirl
             .set_input_trust(self.input_trust * self.quality.quality().level.trust());
     }
 
-    /// Steps are taken in 2^`refinement` parts from here on.
+    /// Steps have 2^`refinement` parts from now on.
     pub(super) fn set_refinement(&mut self, refinement: u32) {
         self.quality.set_refinement(refinement);
     }
 
-    /// How far the motion can be trusted.
+    /// Quality of the computed motion.
     pub(super) fn quality(&self) -> ModelQuality {
         self.quality.quality()
     }
@@ -135,7 +135,7 @@ impl Observer {
         self.ageing.reset();
         self.whirl.reset();
         self.quality.reset();
-        self.pass_on_trust();
+        self.update_trust();
         self.samples.fill(StationSample::default());
         self.last_iterations = 0;
     }
@@ -152,7 +152,7 @@ impl Observer {
     pub(super) fn after_step(&mut self, stepper: &mut Stepper, applied: &Applied, step: u64, dt: f64, iterations: u32) {
         self.last_iterations = iterations;
         if self.quality.push(dt, stepper.audit()) {
-            self.pass_on_trust();
+            self.update_trust();
         }
         let (model, forces) = (stepper.model(), stepper.interactions());
         for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
@@ -315,7 +315,7 @@ impl Observer {
         out.quality = self.quality();
     }
 
-    /// How every danger stands at model time `time` (s), each with its worst place.
+    /// Every hazard at model time `time` (s), with its worst location.
     fn hazards(&self, model: &Model, time: f64) -> Hazards {
         let place = |station: usize, body: Body| {
             model.stations.get(station).map(|at| ToolLocation {
@@ -402,7 +402,7 @@ fn watched_station(model: &Model, station: usize, body: Body) -> WatchedStation 
 }
 
 /// Bending moment (N m) in the middle of the link below a joint, from its curvature, about two transverse axes that turn
-/// with the pipe: what a point of the pipe feels as it goes round.
+/// with the pipe: the load history of a material point.
 fn bending_below(model: &Model, state: &State, joint: usize) -> [f64; 2] {
     let per_link = model.description.elements_per_link;
     let upper = model.joint_stations[joint] + (per_link - 1) / 2;
@@ -418,7 +418,7 @@ fn bending_below(model: &Model, state: &State, joint: usize) -> [f64; 2] {
     [about_y * cos + about_z * sin, about_z * cos - about_y * sin]
 }
 
-/// Half of the way to each neighbour (m).
+/// Half of the distances to both neighbours (m).
 fn tributary_length(model: &Model, station: usize) -> f64 {
     let depth = |station: usize| model.stations[station].depth;
     0.5 * (depth((station + 1).min(model.last())) - depth(station.saturating_sub(1)))
@@ -433,7 +433,12 @@ fn gap_lateral(model: &Model, state: &State, station: usize, body: Body) -> Vect
     }
 }
 
-fn fill_layer(out: &mut ContactLayer, touches: &Layer, statistics: &ContactStatistics, gap: impl Fn(usize) -> f64) {
+fn fill_layer(
+    out: &mut ContactLayer,
+    touches: &LayerContacts,
+    statistics: &ContactStatistics,
+    gap: impl Fn(usize) -> f64,
+) {
     for s in 0..out.gap.len() {
         out.gap[s] = gap(s);
         let values = touches.get(s).map_or([0.0; 3], |t| [t.normal, t.tangential, t.axial]);

@@ -1,9 +1,9 @@
-//! How far the motion can be trusted, judged from the energy audit over the last seconds.
+//! Quality of the computed motion, judged from the energy audit over the last seconds.
 //!
-//! What a step does wrongly in a collision, or where axial forces change within it, is work that no law accounts for. It is
-//! compared with what contacts, Rayleigh and numerical damping take in the same time, not with the drive's work, most
-//! of which goes into the rock: vibration is what errors feed, and what damping ends. Bounds come from runs against an
-//! eighth of the step (`docs/measurements.md`).
+//! The error of a step in a collision, or where axial forces change within it, appears as work that no law accounts for.
+//! This work is compared with the energy that contacts, Rayleigh and numerical damping dissipate in the same time. The
+//! drive's work is no measure: most of it goes into the rock, whereas errors feed vibration and damping removes it. The
+//! bounds come from comparisons with an eighth of the step (`docs/measurements.md`).
 
 use std::fmt;
 
@@ -12,37 +12,37 @@ use serde::{Deserialize, Serialize};
 use super::step_choice::{StepChoice, StepRule};
 use crate::dynamics::outcome::EnergyAudit;
 
-/// Blocks that make up the window; it moves by one of them.
+/// Number of blocks in the sliding window.
 const BLOCKS: usize = 10;
-/// Length of a block (s). In the window of ten of them the shares of steady drilling scatter by a twentieth; a shorter
-/// one would need bounds further from where errors begin.
+/// Length of a block (s). Over ten blocks the shares of steady drilling scatter by a twentieth; a shorter window would
+/// need wider bounds.
 const BLOCK: f64 = 1.0;
-/// Share below which a level is left, of the bound at which it is entered: the scatter of the window.
+/// Ratio of the bound below which a level is left to that at which it is entered: the scatter of the window.
 const LEFT_BELOW: f64 = 0.95;
-/// Judgements in a row that must be better before a level falls.
+/// Consecutive better evaluations before a level falls.
 const CALM: u32 = 3;
 
-/// Work against the laws over what was taken from vibration, from which the motion is degraded and poor.
+/// Ratio of the work against the laws to the energy dissipated, from which the motion is degraded and poor.
 pub const ENERGY_ERROR_BOUNDS: [f64; 2] = [0.50, 0.62];
-/// Numerical damping over what was taken from vibration, from which the motion is degraded and poor if it comes to
-/// [`NUMERICAL_COUNTS_FROM`] of the energy error too.
+/// Ratio of numerical damping to the energy dissipated, from which the motion is degraded and poor, provided that it
+/// reaches [`NUMERICAL_COUNTS_FROM`] of the energy error too.
 pub const NUMERICAL_DAMPING_BOUNDS: [f64; 2] = [0.22, 0.285];
-/// Part of the energy error from which numerical damping counts: what is less takes away again what errors feed, what is
-/// more damps the motion itself.
+/// Part of the energy error from which numerical damping counts: less of it only removes the energy that errors feed in,
+/// more of it damps the motion itself.
 pub const NUMERICAL_COUNTS_FROM: f64 = 0.7;
 
-/// Power below which nothing vibrates that could be judged (W).
+/// Dissipated power below which the tool does not vibrate (W).
 const STILL: f64 = 0.1;
 
-/// How far the motion can be trusted, in a word. The codes are those of the messages.
+/// Quality of the computed motion. The codes are those of the messages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum QualityLevel {
-    /// The steps' errors are those of runs that agree with a finer step within about a tenth in ripple and forces.
+    /// The errors are those of runs that agree with a finer step within about a tenth in ripple and forces.
     #[default]
     Good = 0,
-    /// They are those of runs that are off by more.
+    /// The errors are those of runs that deviate by more.
     Degraded = 1,
-    /// They are those of runs that are off by a sixth to several times.
+    /// The errors are those of runs that deviate by a sixth, up to several times.
     Poor = 2,
 }
 
@@ -56,8 +56,7 @@ impl QualityLevel {
         }
     }
 
-    /// Factor on every confidence of the whirl analysis, 0 to 1: a motion that is not the tool's counts like one driven
-    /// by values that are stale.
+    /// Factor on every confidence of the whirl analysis, 0 to 1: poor motion counts as motion under stale inputs.
     pub const fn trust(self) -> f64 {
         match self {
             Self::Good | Self::Degraded => 1.0,
@@ -82,7 +81,7 @@ impl fmt::Display for QualityLevel {
     }
 }
 
-/// What makes the motion doubtful.
+/// Cause of a quality that is not good.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum QualityCause {
     /// Steps do work that no law accounts for: collisions are too short for the step, or axial forces change too much
@@ -92,30 +91,30 @@ pub enum QualityCause {
     NumericalDamping,
 }
 
-/// How far the motion can be trusted, and why not further.
+/// Quality of the computed motion with its cause.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct ModelQuality {
-    /// In a word.
+    /// Level.
     pub level: QualityLevel,
-    /// Why it is not good.
+    /// Cause of a level other than good.
     pub cause: Option<QualityCause>,
-    /// The share that gave the cause.
+    /// The share of the cause.
     pub value: f64,
-    /// The bound that it reached, or below which it has not stayed long enough yet.
+    /// The bound of this share, which it reached, or below which it has not stayed long enough.
     pub bound: f64,
-    /// Over the window: work of the steps against the laws, magnitudes added, over what contact, Rayleigh and numerical
-    /// damping took.
+    /// Over the window: sum of the magnitudes of the steps' work against the laws, over the energy that contact, Rayleigh
+    /// and numerical damping dissipated.
     pub energy_error_share: f64,
-    /// Over the window: part of the latter that numerical damping took.
+    /// Over the window: part of the dissipated energy that is numerical damping's.
     pub numerical_share: f64,
-    /// Whether the window has been full since the start; before, the word says nothing.
+    /// Whether the window has been full since the start; before, the level means nothing.
     pub judged: bool,
-    /// The step in force, and the one that the motion asks for.
+    /// The refinement in force, and the one that the motion needs.
     pub choice: StepChoice,
 }
 
 impl fmt::Display for ModelQuality {
-    /// Why the word is not `good`, with value and bound and what to do; nothing if it is.
+    /// The cause with value, bound and remedy; empty if the level is good.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.judged {
             return write!(f, "not judged before {} s of model time", BLOCKS as f64 * BLOCK);
@@ -144,9 +143,9 @@ struct Block {
     duration: f64,
     /// Magnitudes of the steps' work against the laws (J).
     error: f64,
-    /// Taken by contact, Rayleigh and numerical damping (J).
-    taken: f64,
-    /// Taken by numerical damping (J).
+    /// Dissipated by contact, Rayleigh and numerical damping (J).
+    dissipated: f64,
+    /// Dissipated by numerical damping (J).
     numerical: f64,
 }
 
@@ -156,20 +155,20 @@ pub(super) struct QualityWatch {
     blocks: [Block; BLOCKS],
     current: usize,
     filled: usize,
-    /// At the end of the last step.
+    /// The audit at the end of the last step.
     audit: EnergyAudit,
     quality: ModelQuality,
     better: u32,
 }
 
 impl QualityWatch {
-    /// Takes the audit after a step of `dt` (s); says whether the word has changed.
+    /// Takes the audit after a step of `dt` (s); returns whether the level has changed.
     pub(super) fn push(&mut self, dt: f64, audit: &EnergyAudit) -> bool {
         let before = std::mem::replace(&mut self.audit, *audit);
         let block = &mut self.blocks[self.current];
         block.duration += dt;
         block.error += audit.against_laws - before.against_laws;
-        block.taken += taken(audit) - taken(&before);
+        block.dissipated += dissipated(audit) - dissipated(&before);
         block.numerical += audit.numerical_damping - before.numerical_damping;
         // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
         if block.duration + 0.5 * dt < BLOCK {
@@ -187,11 +186,11 @@ impl QualityWatch {
         for block in &self.blocks {
             sum.duration += block.duration;
             sum.error += block.error;
-            sum.taken += block.taken;
+            sum.dissipated += block.dissipated;
             sum.numerical += block.numerical;
         }
-        let taken = sum.taken.max(STILL * sum.duration);
-        let (error, numerical) = (sum.error / taken, sum.numerical / taken);
+        let dissipated = sum.dissipated.max(STILL * sum.duration);
+        let (error, numerical) = (sum.error / dissipated, sum.numerical / dissipated);
         let shares = |factor: f64| {
             [
                 (QualityCause::EnergyError, error, ENERGY_ERROR_BOUNDS),
@@ -222,7 +221,7 @@ impl QualityWatch {
         if level != level_before {
             self.better = 0;
         }
-        // The cause is the share that comes nearest to its bound of this level, or lies further beyond it.
+        // The cause is the share that is largest relative to its bound at this level.
         let bound = |bounds: [f64; 2]| {
             if level == QualityLevel::Poor {
                 bounds[1]
@@ -251,20 +250,19 @@ impl QualityWatch {
         level != level_before
     }
 
-    /// As judged last.
+    /// The newest quality.
     pub(super) fn quality(&self) -> ModelQuality {
         self.quality
     }
 
-    /// At the start of a run whose step is chosen so.
+    /// A watch at the start of a run with this rule of the step.
     pub(super) fn new(rule: StepRule, finest: u32) -> Self {
         let mut watch = Self::default();
         watch.quality.choice = StepChoice::new(rule, finest);
         watch
     }
 
-    /// Steps are taken in 2^`refinement` parts from here on: what was judged with others says nothing of them, and the
-    /// word stays until a window of theirs is full.
+    /// Steps have 2^`refinement` parts from now on: the window restarts, and the level stays until it is full again.
     pub(super) fn set_refinement(&mut self, refinement: u32) {
         if refinement != self.quality.choice.in_force {
             self.quality.choice.in_force = refinement;
@@ -273,7 +271,7 @@ impl QualityWatch {
         }
     }
 
-    /// Forgets everything but how the step is chosen; the audit starts at zero too.
+    /// Resets everything except the rule of the step; the audit restarts at zero too.
     pub(super) fn reset(&mut self) {
         let before = self.quality.choice;
         let mut choice = StepChoice::new(before.rule, before.finest);
@@ -283,8 +281,8 @@ impl QualityWatch {
     }
 }
 
-/// Energy taken from vibration so far (J).
-fn taken(audit: &EnergyAudit) -> f64 {
+/// Energy dissipated by damping so far (J).
+fn dissipated(audit: &EnergyAudit) -> f64 {
     audit.contact_damping + audit.rayleigh_damping + audit.numerical_damping
 }
 
@@ -294,10 +292,10 @@ mod tests {
 
     /// Step of the tests (s); a power of two, so that sums of steps are exact.
     const DT: f64 = 1.0 / 512.0;
-    /// Power taken from vibration in them (W).
+    /// Power that damping dissipates in them (W).
     const TAKEN: f64 = 5.0;
 
-    /// A run whose steps have given errors, of alternating sign so that their sum stays zero.
+    /// A run whose steps have errors of a set size and alternating sign, so that their sum stays zero.
     struct Fed {
         watch: QualityWatch,
         audit: EnergyAudit,
@@ -313,7 +311,7 @@ mod tests {
             }
         }
 
-        /// Over `seconds`; gives the number of changes of the word.
+        /// Runs for `seconds`; returns the number of changes of the level.
         fn run(&mut self, seconds: f64, error: f64, numerical: f64) -> u32 {
             let mut changes = 0;
             for _ in 0..(seconds / DT) as u32 {
@@ -323,7 +321,7 @@ mod tests {
                 self.audit.against_laws += error * TAKEN * DT;
                 self.audit.numerical_damping += numerical * TAKEN * DT;
                 self.audit.rayleigh_damping += (1.0 - numerical) * TAKEN * DT;
-                // Most work goes into the rock, and says nothing.
+                // Most work goes into the rock, and is no measure of quality.
                 self.audit.drive += 400.0 * DT;
                 self.audit.bit += 395.0 * DT;
                 changes += u32::from(self.watch.push(DT, &self.audit));
@@ -337,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_that_cancel_are_seen_all_the_same() {
+    fn errors_that_cancel_count_nevertheless() {
         let mut fed = Fed::new();
         fed.run(9.9, 0.9, 0.1);
         assert!(!fed.watch.quality().judged);
@@ -394,7 +392,7 @@ mod tests {
     }
 
     #[test]
-    fn the_word_does_not_flicker_at_a_bound() {
+    fn the_level_does_not_flicker_at_a_bound() {
         let mut fed = Fed::new();
         fed.run(11.0, 0.51, 0.1);
         assert_eq!(fed.level(), QualityLevel::Degraded);
@@ -410,7 +408,7 @@ mod tests {
     #[test]
     fn a_tool_at_rest_is_good() {
         let mut fed = Fed::new();
-        // Rounding of a tool at rest: errors of the size of what is taken, both a billionth of what drilling takes.
+        // Rounding of a tool at rest: errors as large as the dissipation, both a billionth of those of drilling.
         for _ in 0..(12.0 / DT) as u32 {
             fed.audit.against_laws += 1e-9 * DT;
             fed.audit.rayleigh_damping += 1e-9 * DT;

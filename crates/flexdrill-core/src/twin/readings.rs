@@ -1,8 +1,7 @@
-//! What can be read off a simulation at any time, by name. Single values allocate nothing; [`Simulation::joints`],
-//! [`Simulation::contacts`] and [`Simulation::bit`] make a snapshot of their own, so fill a [`Snapshot`] instead where
-//! that matters.
+//! Values of a simulation by name. Single values allocate nothing; [`Simulation::joints`], [`Simulation::contacts`] and
+//! [`Simulation::bit`] allocate a snapshot, so a caller in real time fills a [`Snapshot`] instead.
 //!
-//! Stations count from 0 at the top. Where a station is not on the tool the answer is `None`.
+//! Stations count from 0 at the top. The result is `None` for a station that is not on the tool.
 //!
 //! [`Snapshot`]: super::Snapshot
 
@@ -17,21 +16,21 @@ use crate::elements::gap::Touch;
 use crate::model::Station;
 use crate::tool::{Body, Direction};
 
-/// Where a station lies and what room it has; the same however the tool moves.
+/// Position and clearances of a station; constant while the tool moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct StationGeometry {
     /// Along the path from the kick-off (m).
     pub measured_depth: f64,
-    /// Of the bore, 0 is straight down (rad).
+    /// Inclination of the bore (rad), 0 is straight down.
     pub inclination: f64,
     /// Point on the bore's axis (m, world).
     pub position: [f64; 3],
     /// The station frame's z in the world, unit.
     pub low_side: [f64; 3],
-    /// Where the undeflected pipe lies beside the bore's axis, y and z (m): the link's chord against the arc.
+    /// Lateral position of the undeflected pipe, y and z (m): the distance of the link's chord from the arc.
     pub offset: [f64; 2],
-    /// Number of the joint here, from the top.
+    /// Number of the joint at this station, from the top.
     pub joint: Option<usize>,
     /// Clearance of the pipe in the guide, Eq. 27, and of the guide in the hole, Eq. 31 (m).
     pub clearance: [f64; 2],
@@ -173,7 +172,7 @@ impl Simulation {
         self.stepper().audit()
     }
 
-    /// How far the motion can be trusted, over the last seconds.
+    /// Quality of the computed motion over the last seconds.
     pub fn quality(&self) -> ModelQuality {
         self.observer.quality()
     }
@@ -183,8 +182,8 @@ impl Simulation {
         &self.applied
     }
 
-    /// Displacements, multipliers, velocities and accelerations of all unknowns, in the numbering of the model: to
-    /// compare states with.
+    /// Displacements, multipliers, velocities and accelerations of all unknowns, in the numbering of the model, for
+    /// comparisons of states.
     pub fn state(&self) -> State {
         self.stepper().state()
     }
@@ -195,12 +194,12 @@ impl Simulation {
         self.stepper().chain_nodes()
     }
 
-    /// Most Newton iterations that one [`Simulation::advance`] can make, whatever happens.
+    /// Upper bound of the Newton iterations of one [`Simulation::advance`].
     pub fn most_iterations(&self) -> u64 {
         self.stepper().most_iterations()
     }
 
-    /// What the solver has done since the start.
+    /// Counters of the solver since the start.
     pub fn solver_counters(&self) -> SolverCounters {
         let counters = self.stepper().counters();
         SolverCounters {
@@ -224,8 +223,8 @@ impl Simulation {
     }
 }
 
-/// What `values` hold for a node's translation, in the station's frame.
 impl Simulation {
+    /// Translational entries of `of` for a node, in the station's frame.
     fn in_bore(&self, at: &Station, body: Body, of: fn(&State) -> &[f64]) -> Vector3<f64> {
         let at_node = |first: usize| Vector3::from_fn(|k, _| self.stepper().value(of, first + k));
         match body {

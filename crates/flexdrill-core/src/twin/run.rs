@@ -1,7 +1,7 @@
-//! One run of the twin: the simulation, what drives it from which step on, and what is shown of it.
+//! One run of the twin: the simulation, the inputs that act from each step on, and the frames made from it.
 //!
 //! The node and a replay both drive a [`Run`]. The sequence of [`RunInputs`] and the configuration determine it to the
-//! bit; nothing here looks at a clock.
+//! bit; no clock is read here.
 
 use super::schedule::Due;
 use super::{Schedule, Simulation, Snapshot};
@@ -11,16 +11,16 @@ use crate::inputs::Inputs;
 use crate::motion::WhirlSettings;
 use crate::tool::LiveParameters;
 
-/// What drives the model from a step on.
+/// Everything that acts on the model from a step on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunInputs {
     /// Steps taken before these values act, counted from the last reset.
     pub step: u64,
     /// Steps skipped so far.
     pub skipped: u64,
-    /// The model goes back to its state after the start before this step.
+    /// Whether the model is reset to its state after the start, before this step.
     pub reset: bool,
-    /// What the rig asks for: the model slews towards it.
+    /// The rig's targets, towards which the model slews.
     pub inputs: Inputs,
     /// Slew limits: rotary speed (rad/s2), weight on bit (N/s).
     pub slew: [f64; 2],
@@ -28,30 +28,30 @@ pub struct RunInputs {
     pub live: LiveParameters,
     /// Thresholds of the whirl analysis.
     pub whirl: WhirlSettings,
-    /// How the inputs are, as the whirl warnings tell it: the messages' INPUT_ constants.
+    /// The worse state of both inputs, as one of the messages' INPUT_ constants.
     pub input_quality: u8,
     /// Every step is taken in 2^this equal parts.
     pub refinement: u32,
-    /// Which outputs are due when.
+    /// The steps at which each output is due.
     pub schedule: Schedule,
 }
 
-/// What outputs are made from.
+/// Everything that the outputs of one step are made from.
 #[derive(Debug, Clone, Default)]
 pub struct Frame {
     /// State of the tool.
     pub snapshot: Snapshot,
-    /// Steps taken or skipped since the start, resets notwithstanding: the instant on the rig's clock.
+    /// Steps taken or skipped since the start, not reset with the model: the instant on the rig's clock.
     pub ticks: u64,
     /// Which outputs are due.
     pub due: Due,
-    /// The peak and root-mean-square statistics end with it, and begin anew.
+    /// Whether the interval of the peak and root-mean-square statistics ends with this frame.
     pub ends_interval: bool,
     /// As in [`RunInputs`].
     pub input_quality: u8,
 }
 
-/// A simulation with what drives it.
+/// A simulation with the inputs that act on it.
 pub struct Run {
     simulation: Simulation,
     applied: RunInputs,
@@ -60,7 +60,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Takes over a simulation at its start.
+    /// A run of a simulation at its start.
     pub fn new(mut simulation: Simulation, schedule: Schedule) -> Self {
         let settings = simulation.settings();
         let applied = RunInputs {
@@ -83,7 +83,7 @@ impl Run {
         }
     }
 
-    /// What drives it now; `step` is the current step.
+    /// The inputs that act now; `step` is the current step.
     pub fn applied(&self) -> RunInputs {
         RunInputs {
             step: self.simulation.step(),
@@ -92,8 +92,8 @@ impl Run {
         }
     }
 
-    /// Lets `applied` act from the next step on. Its `step` is not looked at: it acts now. The values are those of a
-    /// checked configuration and are not checked again; coefficients that are no numbers make the next step fail.
+    /// Lets `applied` act from the next step on; its `step` is ignored. The values come from a checked configuration and
+    /// are not checked again; a coefficient that is NaN makes the next step fail.
     pub fn apply(&mut self, applied: &RunInputs) {
         if applied.reset {
             self.before_reset += self.simulation.step();
@@ -130,7 +130,7 @@ impl Run {
         self.simulation.quality().choice.wanted
     }
 
-    /// Counts steps as skipped, without the model moving.
+    /// Counts steps as skipped; the model does not move.
     pub fn skip(&mut self, steps: u64) {
         self.applied.skipped += steps;
     }
@@ -140,8 +140,8 @@ impl Run {
         self.applied.schedule.due(self.simulation.step())
     }
 
-    /// Fills a frame with the present state, without allocating. To be called once whenever something is due: it ends
-    /// the interval of the statistics.
+    /// Fills a frame with the present state, without allocating. The caller captures one frame whenever an output is due,
+    /// since a frame can end the interval of the statistics.
     pub fn capture(&mut self, frame: &mut Frame) {
         let step = self.simulation.step();
         frame.ends_interval = self.applied.schedule.ends_interval(step);
@@ -164,7 +164,7 @@ impl Run {
         self.before_reset + self.simulation.step() + self.applied.skipped
     }
 
-    /// The simulation that is run, to read from.
+    /// The simulation, read-only.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
     }

@@ -1,4 +1,4 @@
-//! Which outputs are due at which model step, and which instant on the rig's clock a step is.
+//! The steps at which outputs are due, and the instant of a step on the rig's clock.
 //!
 //! Both are pure functions of the step, so that the node and a replay publish the same messages.
 
@@ -24,7 +24,7 @@ pub enum Output {
     Ageing,
     /// Output `twin/reactions`.
     Reactions,
-    /// Not a message of its own: the alarms of the tool are judged, whatever else is published.
+    /// No message: the alarms of the tool are evaluated, independently of what is published.
     Alarms,
 }
 
@@ -43,7 +43,7 @@ impl Output {
     ];
 }
 
-/// Every how many steps each output is due; 0 is never.
+/// Steps between two messages of each output; 0 is never.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Schedule {
     every: [u64; Output::ALL.len()],
@@ -89,7 +89,7 @@ impl Schedule {
         self.every[output as usize]
     }
 
-    /// Rate at which an output is published in fact (Hz); 0 is off.
+    /// Rate of an output after rounding to whole steps (Hz); 0 is off.
     pub fn rate(&self, output: Output, time_step: f64) -> f64 {
         match self.every[output as usize] {
             0 => 0.0,
@@ -104,17 +104,17 @@ impl Schedule {
 pub struct Due(u16);
 
 impl Due {
-    /// Whether it is one of them.
+    /// Whether `output` is in the set.
     pub fn has(self, output: Output) -> bool {
         self.0 & (1 << output as usize) != 0
     }
 
-    /// Whether there is none.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// In publishing order.
+    /// The outputs in publishing order.
     pub fn iter(self) -> impl Iterator<Item = Output> {
         Output::ALL.into_iter().filter(move |output| self.has(*output))
     }

@@ -1,4 +1,4 @@
-//! One tool, stepped.
+//! The simulation of one tool, step by step.
 
 use super::Snapshot;
 #[cfg(feature = "checkpoints")]
@@ -60,7 +60,7 @@ impl Simulation {
         Self::with_solver(tool, settings, SolverKind::default(), Instructions::best())
     }
 
-    /// The same with a choice of linear solver and of vector instructions, to hold one against the other.
+    /// The same with a choice of linear solver and of vector instructions, for comparisons.
     ///
     /// # Errors
     /// As [`Simulation::new`].
@@ -156,7 +156,7 @@ impl Simulation {
     }
 
     /// Fills `out` without allocating. With `end_interval`, the peak and root-mean-square statistics of the contact
-    /// forces and bit accelerations start anew.
+    /// forces and bit accelerations restart.
     pub fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
         self.stepper.stopwatch().start();
         self.stepper.refresh_view();
@@ -209,7 +209,7 @@ impl Simulation {
         [self.settings.rotary_speed_slew, self.settings.weight_on_bit_slew] = slew;
     }
 
-    /// Replaces the thresholds of the whirl analysis. They change what is said of the motion, not the motion.
+    /// Replaces the thresholds of the whirl analysis. They change the reports, not the motion.
     ///
     /// # Errors
     /// When they do not hold, see [`WhirlSettings::validate`]; then the present ones stay.
@@ -219,8 +219,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Takes every step in 2^`refinement` equal parts from the next one on, at most in four. It changes the motion as another
-    /// step does, and nothing else: inputs, samples and outputs keep the model step.
+    /// Divides every step into 2^`refinement` equal parts from the next one on, at most four. The motion changes as with
+    /// another step; inputs, samples and outputs keep the model step.
     pub fn set_refinement(&mut self, refinement: u32) {
         self.stepper.set_refinement(refinement);
         self.observer.set_refinement(self.stepper.refinement());
@@ -230,17 +230,17 @@ impl Simulation {
         self.observer.set_whirl(whirl);
     }
 
-    /// Measures with `clock` from now on where the time goes. It changes nothing else.
+    /// Measures the computing time of each phase with `clock` from now on. The motion is unaffected.
     pub fn set_clock(&mut self, clock: Clock) {
         self.stepper.stopwatch().set_clock(Some(clock));
     }
 
-    /// Time per phase since [`Simulation::set_clock`]; zeros without. Resets and checkpoints leave it alone.
+    /// Computing time per phase since [`Simulation::set_clock`]; zeros without a clock. Resets and checkpoints keep it.
     pub fn phase_times(&self) -> PhaseTimes {
         self.stepper.phase_times()
     }
 
-    /// How far the inputs can be trusted, 0 to 1. It changes what is said of the motion, not the motion.
+    /// Sets the trust in the inputs, 0 to 1. It changes the reports, not the motion.
     pub fn set_input_trust(&mut self, trust: f64) {
         self.observer.set_input_trust(trust);
     }
@@ -255,7 +255,7 @@ impl Simulation {
         self.step as f64 * self.settings.time_step
     }
 
-    /// The settings it runs with.
+    /// The present settings, with slew limits as set last.
     pub fn settings(&self) -> &SimulationSettings {
         &self.settings
     }
@@ -264,11 +264,10 @@ impl Simulation {
         &self.stepper
     }
 
-    /// Back to the state after the start, live parameters and slew limits as they are.
+    /// Resets the motion to the state after the start; live parameters and slew limits stay.
     pub fn reset(&mut self) {
         let inputs = self.settings.initial_inputs;
-        // A tool that starts from rest stands still and is then run up; one that is given as moving is driven at its
-        // speed at once.
+        // A tool that starts from rest is run up from standstill; one that starts in motion is driven at its speed at once.
         let rotary_speed = if self.stepper.model().description.static_start {
             0.0
         } else {

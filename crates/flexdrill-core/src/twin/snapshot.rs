@@ -1,4 +1,4 @@
-//! What is known about the tool at one instant: plain arrays, allocated once, filled in place.
+//! The state of the tool at one instant: plain arrays, allocated once, filled in place.
 //!
 //! Every output (messages, bags, the terminal view, plots) is made from a [`Snapshot`] and nothing else.
 
@@ -31,19 +31,19 @@ pub struct Snapshot {
     pub shape: Shape,
     /// Whirl at every watched station.
     pub whirl: WhirlReport,
-    /// The level that the warning logic stands at.
+    /// The level of the whirl warning.
     pub warning: WhirlWarningLevel,
     /// The level of lateral shock.
     pub shock: ShockLevel,
-    /// All dangers side by side, each with its level and its worst place.
+    /// Every hazard with its level and its worst location.
     pub hazards: Hazards,
-    /// What has aged since the start, joint by joint and station by station.
+    /// Ageing since the start, by joint and by station.
     pub ageing: Ageing,
     /// Counters of the solver since the start.
     pub solver: SolverCounters,
     /// Energy since the start (J).
     pub energy: EnergyAudit,
-    /// How far the motion can be trusted.
+    /// Quality of the computed motion.
     pub quality: ModelQuality,
 }
 
@@ -57,7 +57,7 @@ pub struct Applied {
     pub drive_angle: f64,
     /// Weight on bit (N).
     pub weight_on_bit: f64,
-    /// Torque that the drive puts in (N m), positive drives.
+    /// Torque of the drive on the pipe (N m), positive in the sense of the rotation.
     pub drive_torque: f64,
 }
 
@@ -68,7 +68,7 @@ pub struct Applied {
 pub struct Joints {
     /// Along the path from the kick-off (m).
     pub measured_depth: Vec<f64>,
-    /// Inclination there (rad).
+    /// Inclination of the bore (rad).
     pub inclination: Vec<f64>,
     /// Angle between the axes of the two links (rad, >= 0).
     pub bend_angle: Vec<f64>,
@@ -99,7 +99,7 @@ pub struct Joints {
 pub struct Contacts {
     /// Measured depth from the kick-off (m).
     pub measured_depth: Vec<f64>,
-    /// Inclination there (rad).
+    /// Inclination of the bore (rad).
     pub inclination: Vec<f64>,
     /// Table 2: 0 free, 1 inner, 2 outer, 3 both.
     pub state: Vec<u8>,
@@ -113,7 +113,7 @@ pub struct Contacts {
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ContactLayer {
-    /// Clearance left (m), negative is penetration.
+    /// Gap (m), negative is penetration.
     pub gap: Vec<f64>,
     /// Normal force (N, >= 0).
     pub normal: Vec<f64>,
@@ -137,7 +137,7 @@ pub struct Bit {
     pub torque: f64,
     /// Speed of the bit (rad/s).
     pub rotary_speed: f64,
-    /// N, as applied.
+    /// Weight on bit as applied (N).
     pub weight_on_bit: f64,
     /// (max - min) / (2 mean) over its window; 0 while the drive is below the gate.
     pub stick_slip_index: f64,
@@ -181,11 +181,11 @@ pub struct Reactions {
     pub bit: [f64; 3],
     /// Sum of the point loads (N).
     pub loads: [f64; 3],
-    /// Minus mass times acceleration, of all of the tool (N).
+    /// Minus mass times acceleration, summed over the tool (N).
     pub inertia: [f64; 3],
     /// Damping of the motion as a whole (N).
     pub damping: [f64; 3],
-    /// Sum of all of these: what the solver leaves (N).
+    /// Sum of all of these: the solver's residual (N).
     pub unbalance: [f64; 3],
 }
 

@@ -1,45 +1,46 @@
-//! How fine the steps are to be: what the motion asks for, from the energy that steps make up.
+//! Choice of the step's refinement, from the energy error of the steps.
 //!
-//! The model step stays what it is, and with it every grid of inputs, samples and outputs; it is taken in 2^n equal parts.
-//! What is asked for is a function of the motion alone. What is taken is an input of the run
-//! ([`RunInputs::refinement`](super::RunInputs)), so that a recording replays to the bit: live, the pace may allow less.
+//! The model step stays constant, and with it every grid of inputs, samples and outputs; it is divided into 2^n equal
+//! parts. The refinement that the motion needs is a function of the motion alone. The refinement in force is an input of
+//! the run ([`RunInputs::refinement`](super::RunInputs)), so that a recording replays to the bit: live, the machine may
+//! be too slow for the one that is needed.
 
 use serde::{Deserialize, Serialize};
 
-/// `solver.step`: how a model step is taken.
+/// `solver.step`: how a model step is divided.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepRule {
-    /// Whole, or in the parts that are set.
+    /// Undivided, or in a fixed number of parts.
     #[default]
     Fixed,
-    /// In as many parts as the motion asks for.
+    /// In as many parts as the motion needs.
     Auto,
 }
 
-/// What a run begins with, and returns to: half of a step. Its pipe-guide forces are 1 to 4 % off those of an eighth, a
-/// whole step's 3 to 6 % (`docs/measurements.md`), and a rig should have the truer answer where it costs nothing.
+/// Refinement at the start, to which a run returns: half steps. Its pipe-guide forces are 1 to 4 % off those of an eighth, a
+/// whole step's 3 to 6 % (`docs/measurements.md`), and the machine usually has time for the more accurate ones.
 const USUAL: u32 = 1;
 
-/// Share of the energy error from which the next finer step is asked for: half above the 0.18 to 0.21 that half a step
-/// has in the cases measured, whose forces are that near.
+/// Share of the energy error from which the next finer step is needed: half above the 0.18 to 0.21 of half steps in the
+/// measured cases, whose forces are accurate.
 const FINER_FROM: f64 = 0.30;
-/// Share below which the next coarser one is: the same cases have 0.07 to 0.08 with a quarter of a step. An error falls
-/// to a half or a third with half the step, so that what was left is not asked for again at once.
+/// Share below which the next coarser step suffices: the same cases have 0.07 to 0.08 with quarter steps. Halving the
+/// step reduces the error to a half or a third, so that the choice does not alternate.
 const COARSER_BELOW: f64 = 0.09;
-/// Judgements in a row, one a second, for a coarser step.
+/// Consecutive evaluations, one per second, before a coarser step.
 const CALM: u32 = 10;
 
-/// The refinement in force and the one that the motion asks for: a step is taken in 2^refinement parts.
+/// The refinement in force and the one that the motion needs: a step has 2^refinement parts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StepChoice {
     /// How it is chosen.
     pub rule: StepRule,
-    /// In force.
+    /// Refinement in force.
     pub in_force: u32,
-    /// Asked for by the motion; 0 with [`StepRule::Fixed`].
+    /// Refinement that the motion needs; 0 with [`StepRule::Fixed`].
     pub wanted: u32,
-    /// Finest that can be asked for: in shorter steps the stations inside a span would not follow its ends.
+    /// Finest refinement allowed: in shorter steps the stations inside a span would not follow its ends.
     pub finest: u32,
     calm: u32,
 }
@@ -58,7 +59,7 @@ impl StepChoice {
         }
     }
 
-    /// Takes the share of the energy error over a window with the refinement in force.
+    /// Updates the choice with the share of the energy error over a window, at the refinement in force.
     pub(super) fn judge(&mut self, error_share: f64) {
         if self.rule == StepRule::Fixed {
             return;
@@ -77,7 +78,7 @@ impl StepChoice {
         }
     }
 
-    /// What would make the motion better.
+    /// The remedy for poor quality, for the quality message.
     pub(super) fn remedy(&self) -> &'static str {
         match self.rule {
             StepRule::Auto if self.wanted > self.in_force => {

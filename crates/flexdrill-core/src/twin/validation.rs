@@ -1,4 +1,4 @@
-//! What the settings of a simulation must satisfy.
+//! Checks of the settings of a simulation.
 
 use super::settings::SimulationSettings;
 use crate::dynamics::Scheme;

@@ -37,7 +37,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         let mut whole = Assembler::new(&model, instructions);
         let mut at_stations = Interactions::new(&model, instructions);
         whole.residual(&mut at_stations, &model, &full, &conditions);
-        let inside = |layer: &Layer| {
+        let inside = |layer: &LayerContacts| {
             layer
                 .iter()
                 .filter(|(station, _)| model.stations[*station].joint.is_none())

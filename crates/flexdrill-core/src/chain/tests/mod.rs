@@ -20,7 +20,7 @@ use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stations::Assembler;
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
-use crate::elements::gap::Layer;
+use crate::elements::gap::LayerContacts;
 use crate::elements::joint::Joint;
 use crate::model::Model;
 use crate::tool::description::LiveParameters;

@@ -3,7 +3,7 @@
 use super::*;
 
 /// Station and force of each contact, in the order of the stations.
-fn contacts(layer: &Layer) -> Vec<(usize, [f64; 6])> {
+fn contacts(layer: &LayerContacts) -> Vec<(usize, [f64; 6])> {
     let mut contacts: Vec<_> = layer.iter().map(|(station, touch)| (station, touch.force())).collect();
     contacts.sort_by_key(|(station, _)| *station);
     contacts

@@ -6,7 +6,7 @@
 mod joints;
 
 use crate::elements::bit::BitTorque;
-use crate::elements::gap::Layer;
+use crate::elements::gap::LayerContacts;
 use crate::model::Model;
 use crate::simd::Instructions;
 
@@ -15,9 +15,9 @@ pub(crate) use joints::{JointLinearisation, JointTangent, Joints, rotations};
 /// Contacts, joints and the rock's torque at the last residual.
 pub struct Interactions {
     /// Closed gaps between pipe and guide.
-    pub inner: Layer,
+    pub inner: LayerContacts,
     /// Closed gaps between guide and wall.
-    pub outer: Layer,
+    pub outer: LayerContacts,
     /// Rotational rows and stops of the joints.
     pub joints: Joints,
     /// Torque of the rock on the bit.
@@ -28,8 +28,8 @@ impl Interactions {
     /// Room for those of `model`.
     pub fn new(model: &Model, instructions: Instructions) -> Self {
         Self {
-            inner: Layer::new(model.stations.len()),
-            outer: Layer::new(model.stations.len()),
+            inner: LayerContacts::new(model.stations.len()),
+            outer: LayerContacts::new(model.stations.len()),
             joints: Joints::new(model, instructions),
             bit: BitTorque::default(),
         }

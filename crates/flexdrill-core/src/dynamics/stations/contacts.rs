@@ -8,7 +8,7 @@ use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, inner_lateral, node};
-use crate::elements::gap::{GapVector, Layer};
+use crate::elements::gap::{GapVector, LayerContacts};
 use crate::linear::{ContactBlock, Touching};
 use crate::model::{Model, Station};
 use crate::simd::Kernel;
@@ -82,7 +82,7 @@ impl Assembler {
 
 /// Finds what touches.
 struct Search<'a> {
-    layers: [&'a mut Layer; 2],
+    layers: [&'a mut LayerContacts; 2],
     model: &'a Model,
     state: &'a State,
     conditions: &'a Conditions,

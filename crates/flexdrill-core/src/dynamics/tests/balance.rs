@@ -64,7 +64,7 @@ fn nothing_moves_after_the_static_start() {
     let inputs = simulation.settings().initial_inputs;
     let start = simulation.stepper().state();
     for _ in 0..400 {
-        simulation.advance(&inputs);
+        simulation.advance(&inputs).ok().unwrap();
     }
     let state = simulation.stepper().state();
     let moved = state

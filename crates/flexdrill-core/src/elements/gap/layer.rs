@@ -1,4 +1,4 @@
-//! All contacts of a layer: the law of the gap over eight touching stations at a time.
+//! All contacts of a layer. The gap law runs over eight closed gaps at a time: stations queue until eight lanes are full.
 
 use std::ops::Range;
 
@@ -8,46 +8,46 @@ use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
 
-/// What touches in a layer, at the last residual.
+/// The closed gaps of a layer at the last residual, with their contacts.
 #[derive(Debug)]
-pub struct Layer {
-    /// Stations found to touch since the layer was cleared, in this order.
+pub struct LayerContacts {
+    /// Stations whose gap was found closed since the layer was cleared, in this order; the index is their slot.
     found: Vec<Found>,
-    /// Their contacts, eight to a group. Lanes beyond the last are of no use.
+    /// Their contacts by slot, eight to a group. Lanes after the last slot are unused.
     touches: Vec<Touch<Lane>>,
-    /// Per station one more than its place in `found`, or 0 where it has none.
-    places: Vec<usize>,
-    /// Whether some stations only are looked at again, so that contacts keep their places.
-    again: bool,
-    /// Places of those that wait to be evaluated.
+    /// Per station one more than its slot, or 0 where it has none.
+    slots: Vec<usize>,
+    /// Whether only some stations are being evaluated again, so that contacts keep their slots.
+    partial: bool,
+    /// Slots of the contacts that wait to be evaluated.
     waiting: [usize; 8],
     count: usize,
-    /// Their places in the gap, and the velocity of each in its first six lanes; what is beyond is of others.
+    /// Their lateral displacements, and the velocity of each in its first six lanes; the other two lanes are unused.
     lateral: [Lane; 2],
     clearance: Lane,
     velocities: [Lane; 8],
     memory: LayerMemory,
 }
 
-/// A station with a place.
+/// A station with a slot.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     station: usize,
-    /// Whether its gap is still closed.
+    /// Whether its gap is closed now.
     closed: bool,
 }
 
-impl Layer {
-    /// Room for so many stations.
+impl LayerContacts {
+    /// A layer of `stations` stations, all gaps open.
     pub(crate) fn new(stations: usize) -> Self {
         Self {
             found: Vec::with_capacity(stations),
             touches: vec![Touch::default(); stations.div_ceil(8)],
-            places: vec![0; stations],
-            again: false,
+            slots: vec![0; stations],
+            partial: false,
             waiting: [0; 8],
             count: 0,
-            // Any distance but zero will do.
+            // Unused lanes are evaluated too: any distance other than zero avoids a division by zero.
             lateral: [Aligned([1.0; 8]); 2],
             clearance: Lane::default(),
             velocities: [Lane::default(); 8],
@@ -55,7 +55,7 @@ impl Layer {
         }
     }
 
-    /// Begins the corrections of a step: what those of the step before have learned is forgotten.
+    /// Starts a step: the friction's memory of the previous step becomes void.
     pub(crate) fn begin(&mut self) {
         self.memory.begin();
     }
@@ -63,24 +63,24 @@ impl Layer {
     /// Opens all gaps.
     pub(crate) fn clear(&mut self) {
         for found in &self.found {
-            self.places[found.station] = 0;
+            self.slots[found.station] = 0;
         }
         self.found.clear();
-        self.again = false;
+        self.partial = false;
     }
 
-    /// Opens the gaps of some stations, which are looked at again; the others stay as they are.
+    /// Opens the gaps of some stations before these are evaluated again; the others keep their contacts.
     pub(crate) fn open(&mut self, stations: Range<usize>) {
-        self.again = true;
-        for place in &self.places[stations] {
-            if let Some(place) = place.checked_sub(1) {
-                self.found[place].closed = false;
+        self.partial = true;
+        for slot in &self.slots[stations] {
+            if let Some(slot) = slot.checked_sub(1) {
+                self.found[slot].closed = false;
             }
         }
     }
 
-    /// Adds the closed gap of a station with its motion, the velocity in six lanes, see [`GapLaw::touch`]; what touches is
-    /// known after [`Layer::finish`].
+    /// Queues the closed gap of a station with its motion, the velocity in six lanes, see [`GapLaw::touch`]. Contacts are
+    /// complete after [`LayerContacts::finish`].
     #[inline(always)]
     pub(crate) fn push<V: Vector>(
         &mut self,
@@ -90,15 +90,15 @@ impl Layer {
         clearance: f64,
         velocity: V,
     ) {
-        let known = if self.again { self.places[station] } else { 0 };
-        let place = match known.checked_sub(1) {
-            Some(place) => {
-                self.found[place].closed = true;
-                place
+        let known = if self.partial { self.slots[station] } else { 0 };
+        let slot = match known.checked_sub(1) {
+            Some(slot) => {
+                self.found[slot].closed = true;
+                slot
             }
             None => {
                 self.found.push(Found { station, closed: true });
-                self.places[station] = self.found.len();
+                self.slots[station] = self.found.len();
                 self.found.len() - 1
             }
         };
@@ -108,14 +108,14 @@ impl Layer {
         }
         self.clearance[lane] = clearance;
         velocity.store(&mut self.velocities[lane]);
-        self.waiting[lane] = place;
+        self.waiting[lane] = slot;
         self.count += 1;
         if self.count == 8 {
             self.evaluate::<V>(law);
         }
     }
 
-    /// Evaluates what is left of the last group.
+    /// Evaluates the last, incomplete group.
     #[inline(always)]
     pub(crate) fn finish<V: Vector>(&mut self, law: &GapLaw) {
         if self.count > 0 {
@@ -125,6 +125,7 @@ impl Layer {
 
     #[inline(always)]
     fn evaluate<V: Vector>(&mut self, law: &GapLaw) {
+        // The velocities were stored by station; the law needs them by component, one station per lane.
         let mut velocity = [Eight::<V>::of(0.0); 6];
         for (k, x) in velocity.iter_mut().enumerate() {
             let mut lanes = Lane::default();
@@ -136,15 +137,18 @@ impl Layer {
         let lateral = [Eight::load(&self.lateral[0]), Eight::load(&self.lateral[1])];
         let touch = law.touch(lateral, Eight::load(&self.clearance), &velocity);
         let waiting = &self.waiting[..self.count];
-        let stations = waiting.iter().map(|&place| self.found[place].station);
-        if self.again {
+        let stations = waiting.iter().map(|&slot| self.found[slot].station);
+        if self.partial {
+            // The slots of these contacts are scattered over the groups.
+
             let mut lanes = Touch::default();
             touch.store(&mut lanes);
             self.memory.follow(law, stations, &mut lanes);
-            for (lane, &place) in waiting.iter().enumerate() {
-                self.touches[place / 8].put(place % 8, &lanes.lane(lane));
+            for (lane, &slot) in waiting.iter().enumerate() {
+                self.touches[slot / 8].set_lane(slot % 8, &lanes.lane(lane));
             }
         } else {
+            // All gaps are evaluated in order: the eight slots are one group.
             let lanes = &mut self.touches[waiting[0] / 8];
             touch.store(lanes);
             self.memory.follow(law, stations, lanes);
@@ -152,7 +156,7 @@ impl Layer {
         self.count = 0;
     }
 
-    /// How many gaps are closed.
+    /// Number of closed gaps.
     #[cfg(test)]
     pub(crate) fn count(&self) -> usize {
         self.found.iter().filter(|found| found.closed).count()
@@ -161,25 +165,23 @@ impl Layer {
     /// The contact at a station, or `None` where the gap is open.
     #[inline(always)]
     pub fn get(&self, station: usize) -> Option<Touch> {
-        let place = self.places.get(station)?.checked_sub(1)?;
-        self.found[place]
-            .closed
-            .then(|| self.touches[place / 8].lane(place % 8))
+        let slot = self.slots.get(station)?.checked_sub(1)?;
+        self.found[slot].closed.then(|| self.touches[slot / 8].lane(slot % 8))
     }
 
-    /// Touching stations with their contacts.
+    /// Stations with a closed gap, and their contacts.
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = (usize, Touch)> + '_ {
         self.among(|_| true)
     }
 
-    /// Those of them that are `wanted`.
+    /// The `wanted` ones of them.
     #[inline(always)]
     pub(crate) fn among(&self, wanted: impl Fn(usize) -> bool) -> impl Iterator<Item = (usize, Touch)> {
-        let touch = |place: usize| self.touches[place / 8].lane(place % 8);
+        let touch = |slot: usize| self.touches[slot / 8].lane(slot % 8);
         let found = self.found.iter().enumerate();
         found
             .filter(move |(_, found)| found.closed && wanted(found.station))
-            .map(move |(place, found)| (found.station, touch(place)))
+            .map(move |(slot, found)| (found.station, touch(slot)))
     }
 }

@@ -1,28 +1,28 @@
-//! What the corrections of a step have learned of the friction of a layer's contacts.
+//! Memory of the friction at the contacts of a layer, over the corrections of a step.
 
 use super::{GapLaw, Touch};
 use crate::elements::slip::{Slip, SlipMemory};
 use crate::simd::number::Lane;
 
-/// Of all stations of a layer.
+/// Memory of all stations of a layer.
 #[derive(Debug)]
 pub(super) struct LayerMemory {
-    /// Steps begun so far.
+    /// Number of the step; entries of earlier steps are void, so that starting a step clears nothing.
     step: u64,
     contacts: Vec<ContactMemory>,
 }
 
-/// Of one station.
+/// Memory of one station.
 #[derive(Debug, Clone, Copy)]
 struct ContactMemory {
-    /// The step in which it was learned.
+    /// The step that it belongs to.
     step: u64,
-    /// Around and along.
+    /// Sliding around the circumference and along the axis.
     slip: [SlipMemory; 2],
 }
 
 impl LayerMemory {
-    /// Room for so many stations.
+    /// A memory for `stations` stations.
     pub(super) fn new(stations: usize) -> Self {
         let nothing = ContactMemory {
             step: 0,
@@ -34,13 +34,13 @@ impl LayerMemory {
         }
     }
 
-    /// Begins the corrections of a step: what was learned before is forgotten.
+    /// Starts a step: the memory of the previous one becomes void.
     pub(super) fn begin(&mut self) {
         self.step += 1;
     }
 
-    /// Sets the slopes of the friction of `touches`, the contacts at `stations` lane by lane. A contact that opened and
-    /// shut again within a step continues with what was learned of it.
+    /// Sets the slopes of the friction of `touches`, the contacts at `stations` lane by lane. A contact that opens and
+    /// closes again within a step keeps its memory.
     #[inline(always)]
     pub(super) fn follow(&mut self, law: &GapLaw, stations: impl Iterator<Item = usize>, touches: &mut Touch<Lane>) {
         let full = law.friction();
@@ -63,12 +63,12 @@ impl LayerMemory {
 
 #[cfg(test)]
 mod tests {
-    use crate::elements::gap::{GapLaw, Layer};
+    use crate::elements::gap::{GapLaw, LayerContacts};
     use crate::simd::vector::{Portable, Vector};
     use crate::tool::GapDescription;
 
     /// A contact that slides around at `speed` (m/s).
-    fn slide(layer: &mut Layer, speed: f64) -> [f64; 2] {
+    fn slide(layer: &mut LayerContacts, speed: f64) -> [f64; 2] {
         let law = GapLaw {
             surface: GapDescription {
                 stiffness: 1e7,
@@ -88,8 +88,8 @@ mod tests {
 
     #[test]
     fn a_turned_slide_is_remembered_within_a_step_only() {
-        let exact = |speed: f64| slide(&mut Layer::new(5), speed);
-        let mut layer = Layer::new(5);
+        let exact = |speed: f64| slide(&mut LayerContacts::new(5), speed);
+        let mut layer = LayerContacts::new(5);
         layer.begin();
         assert_eq!(slide(&mut layer, 0.1), exact(0.1));
         let [friction, slope] = slide(&mut layer, -0.1);

@@ -16,7 +16,7 @@
 mod layer;
 mod memory;
 
-pub use layer::Layer;
+pub use layer::LayerContacts;
 
 use nalgebra::{SVector, Vector2};
 
@@ -27,7 +27,7 @@ use crate::tool::GapDescription;
 /// Local motion or force of a gap.
 pub type GapVector = SVector<f64, 6>;
 
-/// Law of one layer.
+/// The law of a layer's contacts.
 #[derive(Debug, Clone, Copy)]
 pub struct GapLaw {
     /// Stiffness, damping, friction.
@@ -36,7 +36,7 @@ pub struct GapLaw {
     pub slip_speed: f64,
 }
 
-/// A touching gap, or one in each of eight lanes.
+/// The contact of a closed gap, or one in each of eight lanes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Touch<N = f64> {
     /// Normal force (N, >= 0).
@@ -53,7 +53,7 @@ pub struct Touch<N = f64> {
     pub friction_power: N,
     /// Unit vector from the outer body's axis to the inner's, y and z: the normal n. The tangent is t = (-n_z, n_y).
     direction: [N; 2],
-    /// One over the distance of the axes (1/m).
+    /// Curvature of the relative path: one over the distance of the axes (1/m).
     curvature: N,
     /// d normal / d displacement along n and along t (N/m), d normal / d closing speed (N s/m).
     normal_by: [N; 3],
@@ -63,8 +63,8 @@ pub struct Touch<N = f64> {
     slip: [Slip<N>; 2],
 }
 
-/// The derivative of a gap's force: the force changes by minus the sum of four products, each a local force times what
-/// it is per local motion.
+/// The derivative of a gap's force as four dyads: the force changes by minus the sum of `on` times (`by` . motion). Kept
+/// in this form, a tangent costs four products with the nodes' directions instead of a 6 x 6 matrix.
 ///
 /// Local directions with n and t of [`Touch`]: `normal` (0, n, 0, 0, 0), `tangent` (0, t, 0, 0, 0), `around` (0, t, 1, 0,
 /// 0), `along` (1, 0, 0, 0, n_z, -n_y), `tilt` (0, 0, 0, 0, n_y, n_z).
@@ -82,17 +82,17 @@ pub struct GapTangent {
     pub by_along: f64,
 }
 
-/// A product of a [`GapTangent`].
+/// A dyad of a [`GapTangent`].
 #[derive(Debug, Clone, Copy)]
 pub struct TangentTerm {
     /// Local force.
     pub on: GapVector,
-    /// Its size per local motion.
+    /// The local motion that it is proportional to.
     pub by: GapVector,
 }
 
 impl GapTangent {
-    /// Written out; the first is Eq. 22.
+    /// The four dyads in local directions; the first is Eq. 22.
     pub fn terms(&self) -> [TangentTerm; 4] {
         let [y, z] = self.direction;
         let of = |components: [f64; 6]| GapVector::from_column_slice(&components);
@@ -128,7 +128,7 @@ impl Touch {
         self.of_parts(self.normal)
     }
 
-    /// Its friction.
+    /// The friction part of [`Touch::force`].
     #[inline(always)]
     pub fn friction_force(&self) -> [f64; 6] {
         self.of_parts(0.0)
@@ -176,7 +176,7 @@ impl Touch {
 }
 
 impl Touch<Lane> {
-    /// The touch in a lane.
+    /// The contact in lane `k`.
     #[inline(always)]
     fn lane(&self, k: usize) -> Touch {
         let two = |x: &[Lane; 2]| [x[0][k], x[1][k]];
@@ -195,9 +195,9 @@ impl Touch<Lane> {
         }
     }
 
-    /// Writes the touch in a lane.
+    /// Sets the contact in lane `k`.
     #[inline(always)]
-    fn put(&mut self, k: usize, from: &Touch) {
+    fn set_lane(&mut self, k: usize, from: &Touch) {
         let two = |x: &mut [Lane; 2], from: &[f64; 2]| (x[0][k], x[1][k]) = (from[0], from[1]);
         self.normal[k] = from.normal;
         self.tangential[k] = from.tangential;
@@ -212,13 +212,13 @@ impl Touch<Lane> {
         }
         two(&mut self.sliding_by, &from.sliding_by);
         for (x, from) in self.slip.iter_mut().zip(&from.slip) {
-            x.put(k, from);
+            x.set_lane(k, from);
         }
     }
 }
 
 impl Slip<Lane> {
-    /// The slip in a lane.
+    /// The slip in lane `k`.
     #[inline(always)]
     fn lane(&self, k: usize) -> Slip {
         Slip {
@@ -228,9 +228,9 @@ impl Slip<Lane> {
         }
     }
 
-    /// Writes the slip in a lane.
+    /// Sets the slip in lane `k`.
     #[inline(always)]
-    fn put(&mut self, k: usize, from: &Slip) {
+    fn set_lane(&mut self, k: usize, from: &Slip) {
         (self.speed[k], self.friction[k], self.slope[k]) = (from.speed, from.friction, from.slope);
     }
 }
@@ -258,7 +258,7 @@ impl<N: Number> Touch<N> {
     }
 }
 
-/// Gap left (m, negative is penetration) at lateral displacement (y, z) in clearance `clearance`, Eq. 27 and 31.
+/// Gap (m, negative is penetration) at the lateral displacement (y, z) within `clearance`, Eq. 27 and 31.
 pub fn gap(lateral: Vector2<f64>, clearance: f64) -> f64 {
     clearance - lateral.norm()
 }
@@ -283,9 +283,10 @@ impl GapLaw {
         let depth = zero.largest(distance - clearance);
         let curvature = one.over(distance);
         let (y, z) = (lateral[0] * curvature, lateral[1] * curvature);
+        // Relative velocity along n (closing) and along t (swinging).
         let closing = (y * velocity[1]).plus_product(z, velocity[2]);
         let swinging = y * velocity[2] - z * velocity[1];
-        // Leaving faster than the law can push: no force, and the spring's energy is lost to its damping.
+        // Bodies that part faster than the law can push have no force; the spring's energy is lost to the damping.
         let viscous = zero.largest(one.plus_product(c, closing));
         let spring = k * depth;
         let normal = spring * viscous;

@@ -1,4 +1,4 @@
-//! Joints eight at a time: [`super::law`] over eight lanes, with what was linearised last kept in memory.
+//! Joints eight at a time: [`super::law`] over eight lanes. The last linearisation stays in memory for the tangent.
 
 use super::Joint;
 use super::law::{JointLaw, RotationFunction, tangent};
@@ -8,7 +8,7 @@ use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
 
-/// Up to eight joints next to each other, as given and as linearised last. Lanes without a joint repeat the last one.
+/// Up to eight neighbouring joints with their last linearisation. Lanes without a joint repeat the last joint.
 #[derive(Debug, Clone)]
 pub struct JointGroup {
     law: JointLaw<Lane>,
@@ -17,13 +17,13 @@ pub struct JointGroup {
     /// Rotational rows per joint.
     count: usize,
     stop: Stop<Lane>,
-    /// Whether some stop is shut; where not, the stop's derivatives are not kept up.
+    /// Whether some stop is shut; if none is, the derivatives in `stop` are out of date.
     shut: bool,
     rate: [Lane; 6],
 }
 
 impl JointGroup {
-    /// Of up to eight joints of one kind; there is at least one.
+    /// A group of one to eight joints of one kind.
     pub fn of(joints: &[Joint]) -> Self {
         let at = |lane: usize| &joints[lane.min(joints.len() - 1)].law;
         let each = |value: &dyn Fn(&JointLaw<f64>) -> f64| Aligned(std::array::from_fn(|lane| value(at(lane))));
@@ -52,7 +52,7 @@ impl JointGroup {
         &self.rows[..self.count]
     }
 
-    /// The stops' moments, energies and powers; their derivatives only where one is shut.
+    /// Moments, energies and powers of the stops; their derivatives are valid only if one is shut.
     pub fn stop(&self) -> &Stop<Lane> {
         &self.stop
     }
@@ -63,7 +63,7 @@ impl JointGroup {
         V::call(Linearise { group: self, q, rate });
     }
 
-    /// The stops as linearised last, if some of them are shut.
+    /// The stops at the last linearisation, if one of them is shut.
     pub fn shut_stop(&self) -> Option<&Stop<Lane>> {
         self.shut.then_some(&self.stop)
     }
@@ -97,6 +97,7 @@ impl Kernel for Linearise<'_> {
         group.rate = *rate;
         let (q, rate): ([Eight<V>; 6], [Eight<V>; 6]) = (load(q), load(rate));
         group.law.rows(&q, &mut group.rows);
+        // An open stop leaves `stop` unchanged, so the values of a stop that has just opened are cleared here.
         let was_shut = group.shut;
         group.shut = group.law.has_stop() && group.law.stop(&q, &rate, &mut group.stop);
         if was_shut && !group.shut {

@@ -1,5 +1,5 @@
-//! Numbers with their first and second derivatives in three variables, of which the joint rows' gradients and Hessians
-//! (the exact tangents) are made.
+//! Numbers with their first and second derivatives in three variables. The rows of a joint are written over them, which
+//! yields their exact gradients and Hessians.
 
 use crate::simd::number::Number;
 

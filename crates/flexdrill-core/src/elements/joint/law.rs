@@ -1,7 +1,7 @@
 //! The law of a joint, for one joint (`T` = f64) or eight at a time: rotational rows of Eq. 13, and the moments of rows
 //! and [stop](super::stop).
 //!
-//! `M` is a number as kept in memory (`Number::Memory`): what a residual linearises is kept until the tangent needs it.
+//! `M` is a number in memory (`Number::Memory`): the linearisation of a residual is stored until the tangent needs it.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -22,7 +22,7 @@ pub struct RotationFunction<M> {
     pub hessian: [[M; 6]; 6],
 }
 
-/// Where a joint stands and how far it bends.
+/// Constants of a joint's law: the relative frame of its links, the cross, the hinge and the stop.
 #[derive(Debug, Clone, Copy)]
 pub struct JointLaw<M> {
     /// Which rotational rows it has, and whether a stop.
@@ -35,8 +35,9 @@ pub struct JointLaw<M> {
     pub hinge_cosine: M,
     /// Bend angle at which the stop begins (rad).
     pub limit: M,
-    /// Cosine and sine of the limit: the stop is looked for without an angle.
+    /// Cosine of the limit: whether the stop is shut follows from the cosine of the bend, without an angle.
     pub limit_cosine: M,
+    /// Sine of the limit.
     pub limit_sine: M,
     /// k of the stop (N m/rad).
     pub stop_stiffness: f64,
@@ -45,7 +46,7 @@ pub struct JointLaw<M> {
 }
 
 impl<M> RotationFunction<M> {
-    /// Keeps `product`.
+    /// Stores `product`.
     #[inline(always)]
     fn set<T: Number<Memory = M>>(&mut self, product: &Product<T>) {
         product.value.store(&mut self.value);
@@ -101,7 +102,7 @@ impl<T: Number> Product<T> {
         out
     }
 
-    /// This less `other`.
+    /// The difference to `other`.
     #[inline(always)]
     fn less(mut self, other: &Self) -> Self {
         self.value = self.value - other.value;
@@ -116,7 +117,7 @@ impl<T: Number> Product<T> {
 }
 
 impl<M> JointLaw<M> {
-    /// Whether the bend angle is limited by the stop. A revolute joint's is kept by its second row.
+    /// Whether a stop limits the bend angle. The second row of a revolute joint fixes it instead.
     pub fn has_stop(&self) -> bool {
         self.kind != JointKind::Revolute
     }
@@ -141,8 +142,8 @@ impl<M> JointLaw<M> {
     }
 
     /// a_y(a) . a_z(b) - a_z(a) . a_y(b) = 0, a constant-velocity joint: the turn from one end to the other is about an
-    /// axis normal to the bisector of the two shafts, so that the spins are equal whatever the bend and whichever frame
-    /// they are seen from. Its moment lies along that bisector.
+    /// axis normal to the bisector of the two shafts, so that the spins are equal at any bend and in any frame. Its moment
+    /// lies along that bisector.
     #[inline(always)]
     fn equal_spin_row<T: Number<Memory = M>>(&self, q: &[T; 6], row: &mut RotationFunction<M>) {
         let axes = |psi: T, y: T, z: T| {
@@ -182,9 +183,9 @@ impl<M> JointLaw<M> {
     }
 }
 
-#[cfg(test)]
 /// Moments on the six rotations that a joint must balance: rows times their multipliers `lambda` (N m), and the stop's
-/// where it is shut.
+/// where it is shut. The plain form, which tests compare the residual's kernel with.
+#[cfg(test)]
 pub fn moments<T: Number>(
     rows: &[RotationFunction<T::Memory>],
     lambda: &[T],
@@ -230,7 +231,8 @@ pub fn tangent<T: Number>(
     let Some((stop, rate)) = stop else { return };
     let (by_angle, by_rate, moment) = (T::load(&stop.stiffness), T::load(&stop.damping), T::load(&stop.moment));
     for (l, column) in out.iter_mut().enumerate() {
-        // d M / d q_l = k (1 + c angle') g_l + k over c (H rate)_l, and with the rates k over c g_l.
+        // With the angle past the limit d: d M / d q_l = k (1 + c angle') g_l + k d c (H rate)_l, and d M / d rate_l =
+        // k d c g_l.
         let mut turned = T::of(0.0);
         for (hessian, rate) in stop.hessian[l].iter().zip(rate) {
             turned = turned + T::load(hessian) * T::load(rate);
@@ -325,7 +327,7 @@ pub(super) mod tests {
     /// Rotations of a node that has the rotation `r` in its link's frame.
     fn coordinates(r: &Rotation3<f64>) -> [f64; 3] {
         let shaft = r * Vector3::x();
-        // The tilt is the shortest turn that takes the frame's axis into the shaft; the spin is what is left.
+        // The tilt is the shortest rotation from the frame's axis to the shaft; the spin is the rest.
         let tilt = Rotation3::rotation_between(&Vector3::x(), &shaft).unwrap();
         let (spin, tilt) = (tilt.inverse() * r, tilt.scaled_axis());
         [spin.scaled_axis().x, tilt.y, tilt.z]
@@ -341,7 +343,7 @@ pub(super) mod tests {
         };
         let (above, below) = (turn(q[0], q[1], q[2]), turn(q[3], q[4], q[5]));
         let value = cage(&law, &q).value;
-        assert!(value.abs() > 0.01, "nothing to compare");
+        assert!(value.abs() > 0.01, "the two values would agree anyway");
         // Both ends turned together, about axes that tilt and spin.
         for by in [[0.3, 0.0, 0.0], [0.0, 0.2, -0.1], [0.4, -0.15, 0.2]] {
             let by = Rotation3::new(Vector3::from(by));

@@ -8,8 +8,7 @@
 //! | rows | the rotational rows of Eq. 13, zero where they hold |
 //! | bend angle | between the two links' axes at the joint (rad, >= 0) |
 //!
-//! The law is written once, in [`law`], over `Number`: for one joint, and for eight at a time in
-//! [`group`].
+//! The law is written once, in [`law`], over `Number`: for one joint, and for eight at a time in [`group`].
 
 pub mod group;
 mod jet;
@@ -26,10 +25,10 @@ use rotation::shaft_direction;
 /// Values of the six rotational coordinates of a joint, or moments on them.
 pub type Rotations = [f64; 6];
 
-/// A joint as built: where its two links lie, and its law.
+/// A joint as built: the frames of its two links, and its law.
 #[derive(Debug, Clone, Copy)]
 pub struct Joint {
-    /// Frame of the link above, columns in the world: with the turn of the node the Lambda of Eq. 11.
+    /// Frame of the link above, columns in the world. With the rotation of the node it is the Lambda of Eq. 11.
     pub upper: Matrix3<f64>,
     /// Frame of the link below (Lambda of Eq. 11 for a node that has not turned).
     pub lower: Matrix3<f64>,
@@ -60,7 +59,7 @@ impl Joint {
         Self { upper, lower, law }
     }
 
-    /// Number of rotational rows beside the three translational ones.
+    /// Number of rotational rows, in addition to the three translational ones.
     pub fn rotational_rows(kind: JointKind) -> usize {
         match kind {
             JointKind::Universal | JointKind::BallCage => 1,
@@ -97,8 +96,8 @@ mod tests {
     use super::*;
     use crate::tool::{frame_along, tangent};
 
-    /// With the angle as built, the undeflected joint is at rest whatever its bend; half a turn on, the bend is kept to
-    /// the other side, so that the row is off by twice its cosine.
+    /// With the angle as built, the undeflected joint satisfies its row at any bend. After half a turn the bend points to
+    /// the other side, and the row is off by twice its cosine.
     #[test]
     fn a_hinge_as_built_fits_once_per_turn() {
         let bend = 0.05_f64;

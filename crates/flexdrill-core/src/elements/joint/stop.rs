@@ -1,4 +1,4 @@
-//! The stop that limits a joint's bend: Eq. 13, third row, read as a limit.
+//! The stop that limits a joint's bend: the third row of Eq. 13 as an inequality.
 
 use super::law::{JointLaw, Product};
 use super::rotation::{shaft_axis, shaft_direction};
@@ -15,10 +15,10 @@ const ARC_SINE: [f64; 10] = {
     }
     c
 };
-/// Up to this sine (7 degrees) they give the angle to rounding: the next term is 0.125^20 / 120.
+/// Up to this sine (7 degrees) the series yields the angle to rounding: the next term is 0.125^20 / 120.
 const LARGEST_SINE: f64 = 0.125;
 
-/// The stop's moment with what its tangent takes. All zero where it is open.
+/// The stop's moment with its derivatives. All of them are zero while the stop is open.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Stop<M> {
     /// Moment M (N m, >= 0).
@@ -38,12 +38,15 @@ pub struct Stop<M> {
 }
 
 impl<M> JointLaw<M> {
-    /// Bend angle less the limit (rad), of the sine and cosine of the bend angle; where it is negative only its sign.
+    /// Bend angle minus the limit (rad), from the sine and cosine of the bend angle. Only the sign of a negative result is
+    /// valid: an open stop needs no more.
     #[inline(always)]
-    fn beyond_limit<T: Number<Memory = M>>(&self, sine: T, cosine: T) -> T {
+    fn angle_past_limit<T: Number<Memory = M>>(&self, sine: T, cosine: T) -> T {
         let (limit_sine, limit_cosine) = (T::load(&self.limit_sine), T::load(&self.limit_cosine));
+        // Sine and cosine of the difference of the two angles.
         let of_sine = sine * limit_cosine - cosine * limit_sine;
         let of_cosine = cosine * limit_cosine + sine * limit_sine;
+        // The arc tangent is a scalar function; it runs only where a lane is outside the range of the series.
         if T::of(LARGEST_SINE).any_below(of_sine) || of_cosine.any_below(T::of(0.0)) {
             return of_sine.zip(of_cosine, libm::atan2);
         }
@@ -55,9 +58,9 @@ impl<M> JointLaw<M> {
         sum * of_sine
     }
 
-    /// Eq. 13, third row read as a limit: the stop at rotations `q` and rates `rate`,
-    /// M = k (angle - limit)(1 + c angle') >= 0, which is continuous at onset. Returns whether it is shut (for some
-    /// joint of `T`); where not, as nearly always, `stop` is left as it is.
+    /// Evaluates the stop at rotations `q` and rates `rate`: M = k (angle - limit)(1 + c angle') >= 0, continuous at onset
+    /// (third row of Eq. 13 as an inequality). Returns whether the stop of some joint in `T` is shut. If none is, which is
+    /// the usual case, `stop` stays unchanged.
     #[inline(always)]
     pub fn stop<T: Number<Memory = M>>(&self, q: &[T; 6], rate: &[T; 6], stop: &mut Stop<M>) -> bool {
         let relative = self.relative::<T>();
@@ -68,6 +71,7 @@ impl<M> JointLaw<M> {
             *lower = row[0] * below[0] + row[1] * below[1] + row[2] * below[2];
         }
         let cosine = upper[0] * lower[0] + upper[1] * lower[1] + upper[2] * lower[2];
+        // The cosine alone decides whether the stop is shut: most calls end here, without a root or an angle.
         if !cosine.any_below(T::load(&self.limit_cosine)) {
             return false;
         }
@@ -77,13 +81,13 @@ impl<M> JointLaw<M> {
             upper[0] * lower[1] - upper[1] * lower[0],
         ];
         let sine = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).root();
-        let over = self.beyond_limit(sine, cosine);
+        let over = self.angle_past_limit(sine, cosine);
         let (k, c) = (self.stop_stiffness, self.stop_damping);
         let spring = over.map(|over| if over > 0.0 { k * over } else { 0.0 });
         let inverse = sine.zip(over, |sine, over| if over > 0.0 { 1.0 / sine } else { 0.0 });
         let ratio = cosine * inverse;
 
-        // cos(angle) is smooth in the rotations; the angle follows from it by the chain rule.
+        // cos(angle) is smooth in the rotations, also at bend 0; the derivatives of the angle follow by the chain rule.
         let bend = Product::of(&shaft_axis(q[1], q[2]), &relative, &shaft_axis(q[4], q[5]));
         let mut gradient = bend.gradient;
         let mut angle_rate = T::of(0.0);
@@ -98,8 +102,8 @@ impl<M> JointLaw<M> {
                 (-(bend.hessian[i][j] * inverse) - bent).store(&mut stop.hessian[i][j]);
             }
         }
-        // Pushing: shut, and not opening faster than the law can push. Where it opens too fast there is no moment and
-        // the spring's energy goes into its damping.
+        // The stop pushes while it is shut and does not open faster than the law can push. A stop that opens faster has
+        // no moment, and its spring's energy is lost to the damping.
         let pushing = |spring: f64, rate: f64| spring > 0.0 && 1.0 + c * rate > 0.0;
         let zero_or = |pushing: bool, value: f64| if pushing { value } else { 0.0 };
         spring
@@ -134,16 +138,16 @@ mod tests {
     use crate::tool::JointKind;
 
     #[test]
-    fn the_angle_beyond_the_limit_is_that_of_the_arc_tangent() {
+    fn the_angle_past_the_limit_is_that_of_the_arc_tangent() {
         let law = joint(JointKind::Universal).law;
         let (mut by_series, mut by_arc_tangent) = (0, 0);
         for step in 1..=400 {
             let beyond = 0.001 * f64::from(step);
             let angle: f64 = law.limit + beyond;
-            let got = law.beyond_limit(angle.sin(), angle.cos());
+            let got = law.angle_past_limit(angle.sin(), angle.cos());
             // Rounding of an angle of at most 0.5 rad, of its sine and cosine, and of their four products.
             assert!((got - beyond).abs() < 4e-16, "{got} against {beyond}");
-            assert!(law.beyond_limit((law.limit - beyond).sin(), (law.limit - beyond).cos()) < 0.0);
+            assert!(law.angle_past_limit((law.limit - beyond).sin(), (law.limit - beyond).cos()) < 0.0);
             if beyond.sin() < LARGEST_SINE {
                 by_series += 1;
             } else {
