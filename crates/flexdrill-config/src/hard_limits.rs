@@ -1,7 +1,8 @@
 //! `inputs.hard_limits`: what no parameter goes beyond while the twin runs, whoever asks.
 //!
 //! A parameter that is set while the twin runs comes over the network. The configuration is what the operator of the
-//! machine has allowed; its hard limits hold for everything that may be set live and loosens how the inputs are watched.
+//! machine has allowed; its hard limits hold for everything that may be set live and loosens how the inputs are
+//! watched.
 
 use super::Config;
 use super::error::{ConfigError, Problem};

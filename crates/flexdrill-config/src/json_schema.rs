@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
-/// The schema of a configuration file: JSON Schema, draft 2020-12. `minimum` and `maximum` are the bounds of the checks;
-/// limits that depend on other keys stand in the descriptions only.
+/// The schema of a configuration file: JSON Schema, draft 2020-12. `minimum` and `maximum` are the bounds of the
+/// checks; limits that depend on other keys stand in the descriptions only.
 pub fn json_schema() -> Value {
     let generator = SchemaSettings::draft2020_12().into_generator();
     let mut schema = generator.into_root_schema_for::<super::Schema>().to_value();

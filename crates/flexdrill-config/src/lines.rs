@@ -198,8 +198,8 @@ mod tests {
         assert_eq!(lines.key_at(2, 6), "a.b");
     }
 
-    /// Anybody may write a configuration, or send one. Five lines stand for a hundred thousand values here, which took part
-    /// of a second to read, and another line makes it ten times as many.
+    /// Anybody may write a configuration, or send one. Five lines stand for a hundred thousand values here, which took
+    /// part of a second to read, and another line makes it ten times as many.
     #[test]
     fn aliases_that_repeat_one_another_are_not_expanded() {
         let text = |levels: usize| {

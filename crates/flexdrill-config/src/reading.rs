@@ -42,8 +42,8 @@ pub fn checked<T: DeserializeOwned>(
     checker.finish().map(|()| value)
 }
 
-/// A short text whose aliases repeat one another is not expanded without end: a configuration that is written by hand needs
-/// a few of them.
+/// A short text whose aliases repeat one another is not expanded without end: a configuration that is written by hand
+/// needs a few of them.
 pub fn alias_limits() -> serde_saphyr::options::AliasLimits {
     /// Values that aliases may repeat, in all: more than a configuration has.
     const MOST_REPEATED: usize = 10_000;

@@ -6,7 +6,8 @@
 /// ([`Bound`](crate::checker::Bound)). A limit is a literal, which the JSON Schema of the key then carries too, or an
 /// expression that refers to other keys through the name in parentheses after the section's name, which only the check
 /// can evaluate. A row without a bound is checked elsewhere; `below` instead of a bound checks the numbers of a section
-/// within this one. In a section whose rows have no defaults every key must be given, unless serde has a default for it.
+/// within this one. In a section whose rows have no defaults every key must be given, unless serde has a default for
+/// it.
 macro_rules! section {
     (
         $(#[$outer:meta])*

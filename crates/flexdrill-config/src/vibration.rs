@@ -1,5 +1,5 @@
-//! `stick_slip`, `shock`, `chaotic_whirl` and `joint_load`: levels of the bit's speed swing, of single collisions, of the
-//! power of all collisions, and of the joints' stops.
+//! `stick_slip`, `shock`, `chaotic_whirl` and `joint_load`: levels of the bit's speed swing, of single collisions, of
+//! the power of all collisions, and of the joints' stops.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
-//! What collisions take from the paper's tool, and how much of the pipe is chaotic, by friction, speed and weight on bit:
-//! where the levels of chaotic whirl come from. A line per run; with a fifth argument the speed is brought to that one
-//! (r/min) when half of the time is over.
+//! What collisions take from the paper's tool, and how much of the pipe is chaotic, by friction, speed and weight on
+//! bit: where the levels of chaotic whirl come from. A line per run; with a fifth argument the speed is brought to that
+//! one (r/min) when half of the time is over.
 //!
 //!     cargo run --release -p flexdrill-core --example collision_power -- 16 0.2,0.4,0.7 40,60,80,100,120 5,10,20
 //!     cargo run --release -p flexdrill-core --example collision_power -- 30 0.7 80,100,120 10 48

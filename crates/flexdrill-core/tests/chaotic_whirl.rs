@@ -26,8 +26,8 @@ struct Run {
     most: f64,
 }
 
-/// Runs at a friction of the pipe in the guide, a weight on bit and the speed that `rpm` gives for a time (s), in halves of
-/// the step as the node does.
+/// Runs at a friction of the pipe in the guide, a weight on bit and the speed that `rpm` gives for a time (s), in
+/// halves of the step as the node does.
 fn run(friction: f64, kn: f64, seconds: f64, rpm: impl Fn(f64) -> f64) -> Run {
     let mut twin = Simulation::new(&ToolDescription::paper(), &SimulationSettings::default()).unwrap();
     let mut live = twin.live();
@@ -93,8 +93,8 @@ fn a_lower_speed_ends_it() {
     assert_eq!(run.last, Severity::Ok);
 }
 
-/// Usual friction at three times the paper's speed: collisions take as much as at 80 r/min with a friction of 0.7 and 5 kN,
-/// but the pipe turns in order.
+/// Usual friction at three times the paper's speed: collisions take as much as at 80 r/min with a friction of 0.7 and 5
+/// kN, but the pipe turns in order.
 #[test]
 fn fast_drilling_with_usual_friction_is_none() {
     let run = run(0.2, 10.0, 16.0, |_| 120.0);

@@ -18,8 +18,8 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 /// Time between two looks (s), as the alarms take.
 const LOOK: f64 = 0.1;
 
-/// Drives the paper's tool at 10 kN with the speed that `rpm` gives for a time (s), no faster than `slew` (r/min per s),
-/// and shows every tenth of a second.
+/// Drives the paper's tool at 10 kN with the speed that `rpm` gives for a time (s), no faster than `slew` (r/min per
+/// s), and shows every tenth of a second.
 fn drive(slew: f64, seconds: f64, rpm: impl Fn(f64) -> f64, mut look: impl FnMut(&Snapshot)) {
     let settings = SimulationSettings::default().with(|settings| settings.rotary_speed_slew = rpm_to_rad_per_s(slew));
     let mut twin = Simulation::new(&ToolDescription::paper(), &settings).unwrap();
@@ -38,8 +38,8 @@ fn drive(slew: f64, seconds: f64, rpm: impl Fn(f64) -> f64, mut look: impl FnMut
     }
 }
 
-/// 40 r/min with a swing of 95 % at 0.2 Hz, as a sensor above the tool shows severe stick-slip. The model follows at 200
-/// r/min per s, as the configuration has it for speeds that are measured downhole.
+/// 40 r/min with a swing of 95 % at 0.2 Hz, as a sensor above the tool shows severe stick-slip. The model follows at
+/// 200 r/min per s, as the configuration has it for speeds that are measured downhole.
 #[test]
 fn a_swing_of_the_drive_is_critical_stick_slip_and_suppresses_nothing() {
     const BEGINS: f64 = 8.0;

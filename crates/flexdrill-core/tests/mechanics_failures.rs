@@ -174,7 +174,8 @@ fn a_start_that_overflows() {
     );
 }
 
-/// A support at a joint holds the end above it; the start below follows through the joint, so that nothing is held twice.
+/// A support at a joint holds the end above it; the start below follows through the joint, so that nothing is held
+/// twice.
 #[test]
 fn a_joint_held_in_place_starts_and_stays() {
     let mut tool = tiny();

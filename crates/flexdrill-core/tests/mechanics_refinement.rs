@@ -1,4 +1,5 @@
-//! Steps in parts: the same motion as that of shorter steps, no jump where the parts change, the same bits from a checkpoint.
+//! Steps in parts: the same motion as that of shorter steps, no jump where the parts change, the same bits from a
+//! checkpoint.
 
 #![allow(
     clippy::unwrap_used,
@@ -174,8 +175,8 @@ fn a_motion_whose_steps_err_asks_for_more_parts() {
     assert_eq!(run(StepRule::Fixed, 1e-3, 13.0).0, [0]);
 }
 
-/// Inner stations follow the ends of their span where their slowest frequency times the step is at least 8: 19 for a guide
-/// of a twentieth of its stiffness in whole steps, and 4.8 in quarters, which are not taken.
+/// Inner stations follow the ends of their span where their slowest frequency times the step is at least 8: 19 for a
+/// guide of a twentieth of its stiffness in whole steps, and 4.8 in quarters, which are not taken.
 #[test]
 fn a_soft_guide_has_no_quarter_steps() {
     let mut tool = calm();

@@ -13,7 +13,8 @@ use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::twin::{Simulation, SimulationSettings};
 use flexdrill_core::units::{rad_per_s_to_rpm, rpm_to_rad_per_s};
 
-/// Lowest and highest speed of the bit (r/min) in the first 20 ms with steps of `time_step` (s), and the audit's error (J).
+/// Lowest and highest speed of the bit (r/min) in the first 20 ms with steps of `time_step` (s), and the audit's error
+/// (J).
 fn first_swing(time_step: f64) -> (f64, f64, f64) {
     let mut tool = ToolDescription::paper();
     tool.static_start = false;

@@ -382,8 +382,8 @@ fn a_second_line_does_not_make_a_whirl_doubtful() {
     assert!(bench.report.confidence[0] > 0.85, "{}", bench.report.confidence[0]);
 }
 
-/// Rolling backward whirl that turns into forward whirl: for as long as the level is held, the hazard and the warning keep
-/// the figures of the worst moment and not those of the forward whirl, and say when the motion ended.
+/// Rolling backward whirl that turns into forward whirl: for as long as the level is held, the hazard and the warning
+/// keep the figures of the worst moment and not those of the forward whirl, and say when the motion ended.
 #[test]
 fn a_held_level_keeps_its_worst_moment_and_says_when_it_ended() {
     let rolling = -63.0 / 17.0;
@@ -457,8 +457,8 @@ fn doubtful_inputs_lower_the_confidence_and_freeze_the_level() {
     assert_eq!(stale.analysis.level().severity, Severity::Watch);
 }
 
-/// Rolling is told from sliding by the rate: at 95 % of the rolling rate it rolls and is critical, at 40 % it slides and
-/// bends the pipe two and a half times per turn.
+/// Rolling is told from sliding by the rate: at 95 % of the rolling rate it rolls and is critical, at 40 % it slides
+/// and bends the pipe two and a half times per turn.
 #[test]
 fn rolling_is_told_from_sliding() {
     for (share, rolls, expected) in [(0.95, true, Severity::Critical), (0.4, false, Severity::Warning)] {

@@ -35,8 +35,8 @@ pub trait Clock: Send {
     }
 }
 
-/// The present instant for stamps (ns since 1970): the system's clock as it was when this was first called, carried on by
-/// the monotonic one. All stamps of a process are on this one clock, whatever the system's is set to meanwhile.
+/// The present instant for stamps (ns since 1970): the system's clock as it was when this was first called, carried on
+/// by the monotonic one. All stamps of a process are on this one clock, whatever the system's is set to meanwhile.
 pub fn rig_clock() -> u64 {
     static OFFSET: OnceLock<u64> = OnceLock::new();
     let offset = OFFSET.get_or_init(|| {

@@ -139,9 +139,9 @@ impl Gauges {
         }
     }
 
-    /// Instant of the first tick on the rig's clock (ns since 1970), such that tick times step, added to it, is an instant
-    /// of the present clock; `None` before the model has started. It moves where a simulated clock is set, and may lie
-    /// before 1970 then.
+    /// Instant of the first tick on the rig's clock (ns since 1970), such that tick times step, added to it, is an
+    /// instant of the present clock; `None` before the model has started. It moves where a simulated clock is set, and
+    /// may lie before 1970 then.
     pub fn start(&self) -> Option<i64> {
         Some(self.start.load(Ordering::Acquire)).filter(|start| *start != 0)
     }

@@ -1,4 +1,5 @@
-//! Whether the model keeps up with the clock, judged over seconds: one judgement for status, diagnostics, alarm and log.
+//! Whether the model keeps up with the clock, judged over seconds: one judgement for status, diagnostics, alarm and
+//! log.
 
 use crate::RealTimeFactor;
 
@@ -9,11 +10,11 @@ pub const FAR_BEHIND: f64 = 0.9;
 
 /// Time that the judged factor spans (s): a machine that falls behind for single steps is not too slow.
 const WINDOW: f64 = 10.0;
-/// Time that the factor must stay below a limit before the level rises (ns). Longer than the window, which shows a stall
-/// for its own length and that of the window: one of up to two seconds changes nothing.
+/// Time that the factor must stay below a limit before the level rises (ns). Longer than the window, which shows a
+/// stall for its own length and that of the window: one of up to two seconds changes nothing.
 const RISE: u64 = 12_000_000_000;
-/// Time that the factor must stay above a limit and its deadband before the level falls (ns): load on a computer comes and
-/// goes within half a minute.
+/// Time that the factor must stay above a limit and its deadband before the level falls (ns): load on a computer comes
+/// and goes within half a minute.
 const FALL: u64 = 30_000_000_000;
 /// Part of the factor between the limit that raises a level and the one that lets it fall.
 const DEADBAND: f64 = 0.01;

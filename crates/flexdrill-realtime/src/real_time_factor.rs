@@ -1,7 +1,7 @@
 //! How fast model time runs against wall time.
 
-/// Marks kept. Two more than a window has, so that the oldest of a full ring is always at least a window old; the factor
-/// then spans window x (1 + 1/MARKS) at most.
+/// Marks kept. Two more than a window has, so that the oldest of a full ring is always at least a window old; the
+/// factor then spans window x (1 + 1/MARKS) at most.
 const MARKS: usize = 64;
 
 /// Model time gained per wall time over a sliding window.

@@ -2,8 +2,8 @@
 //! and hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
 //!
 //! A period is a whole number of model steps. A little lateness is caught up; when the solver is late by more, whole
-//! periods are skipped and counted: model and clock stay together. How fine a step is taken is what the motion asks for, as
-//! far as the pace allows it ([`StepPace`]); it acts like an input, and is handed out as one.
+//! periods are skipped and counted: model and clock stay together. How fine a step is taken is what the motion asks
+//! for, as far as the pace allows it ([`StepPace`]); it acts like an input, and is handed out as one.
 
 use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
@@ -85,7 +85,8 @@ impl<C: Clock> RealTimeLoop<C> {
     /// Runs until [`Gauges::stop`](crate::link::Gauges::stop) is set.
     pub fn run(mut self) {
         while self.clock.now() == 0 && !self.stopped() {
-            // A simulated clock has not ticked yet. What is asked for meanwhile must not fill the ring: the newest acts.
+            // A simulated clock has not ticked yet. What is asked for meanwhile must not fill the ring: the newest
+            // acts.
             self.handle_commands();
             self.clock.wait_until(1);
         }
@@ -111,12 +112,12 @@ impl<C: Clock> RealTimeLoop<C> {
         deadline.saturating_sub(now) > SET_BACK || now.saturating_sub(deadline) > self.clock.leap()
     }
 
-    /// The next period is due at `now`, and stamps follow the clock from here: what was set is no time that the model has
-    /// missed.
+    /// The next period is due at `now`, and stamps follow the clock from here: what was set is no time that the model
+    /// has missed.
     fn follow_set_clock(&mut self, now: u64) {
         self.pacer.restart(now);
-        // The steps of a period are taken at its begin. Their stamps are within the period before, so that none is ahead of
-        // the clock when it is published.
+        // The steps of a period are taken at its begin. Their stamps are within the period before, so that none is
+        // ahead of the clock when it is published.
         let time_step = self.run.simulation().settings().time_step;
         let gone = (self.run.ticks() as f64 * time_step * 1e9).round() as i64;
         let first = i64::try_from(self.clock.rig_time().saturating_sub(self.period)).unwrap_or(i64::MAX);

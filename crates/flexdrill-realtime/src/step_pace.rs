@@ -2,7 +2,8 @@
 
 /// What is judged at once (ns).
 const WINDOW: u64 = 1_000_000_000;
-/// Part of the time that computing may take before a coarser step is taken. The rest is for whatever else the machine does.
+/// Part of the time that computing may take before a coarser step is taken. The rest is for whatever else the machine
+/// does.
 const MOST: f64 = 0.75;
 /// What the next finer step may be expected to take at most. Half a step costs twice as much; iterations get fewer.
 const ENOUGH: f64 = 0.6;
@@ -43,8 +44,8 @@ impl StepPace {
         self.allowed
     }
 
-    /// A period was computed between two instants (ns) with a refinement `in_force`; `late` where others had to be skipped for
-    /// it.
+    /// A period was computed between two instants (ns) with a refinement `in_force`; `late` where others had to be
+    /// skipped for it.
     pub fn note(&mut self, (from, to): (u64, u64), late: bool, in_force: u32) {
         let began = *self.began.get_or_insert(from);
         self.busy += to.saturating_sub(from);

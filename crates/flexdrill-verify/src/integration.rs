@@ -31,8 +31,8 @@ pub(super) fn free_vibration() -> Result<Vec<Row>, VerifyError> {
         0.05,
     )];
 
-    // 1e5 periods at five steps each: nothing of the energy may go or come. A correction in single precision leaves 1e-7
-    // of the forces, of one sign step after step; the next one takes it.
+    // 1e5 periods at five steps each: nothing of the energy may go or come. A correction in single precision leaves
+    // 1e-7 of the forces, of one sign step after step; the next one takes it.
     let mut bench = Bench::within(CASE, 1e-6, |config| config.with_value("solver.time_step", 0.01))?;
     let tool = bench.config.tool();
     let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);

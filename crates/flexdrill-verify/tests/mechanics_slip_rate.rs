@@ -25,8 +25,8 @@ fn the_smallest_slip_rate_converges_through_a_bit_that_sticks() {
     let mut twin = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     let mut snapshot = twin.new_snapshot();
     let (mut breaks_loose, mut sticks, mut stuck) = (0, 0, false);
-    // Up to 40 r/min, then the drive stops under four times the weight, and turns slowly again: the bit sticks, slips and
-    // sticks.
+    // Up to 40 r/min, then the drive stops under four times the weight, and turns slowly again: the bit sticks, slips
+    // and sticks.
     for (until, rpm, weight_on_bit) in [(2.5, 40.0, 10e3), (5.0, 0.0, 40e3), (7.0, 3.0, 40e3)] {
         let inputs = Inputs {
             rotary_speed: rpm_to_rad_per_s(rpm),
@@ -46,7 +46,7 @@ fn the_smallest_slip_rate_converges_through_a_bit_that_sticks() {
         "stuck {sticks} times, loose {breaks_loose} times"
     );
     let solver = snapshot.solver;
-    // One sub-step of 14 000 is too long, in a collision, and ten in other runs of the tool; with Newton's own slope the
-    // bit made 270 in a run like this.
+    // One sub-step of 14 000 is too long, in a collision, and ten in other runs of the tool; with Newton's own slope
+    // the bit made 270 in a run like this.
     assert!(solver.rejected < 40, "{} sub-steps rejected", solver.rejected);
 }

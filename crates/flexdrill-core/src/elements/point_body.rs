@@ -13,8 +13,9 @@
 //! ```
 //!
 //! to second. The forces follow by Lagrange's equations from T = m |u' + r'|^2 / 2 + J_p Omega^2 / 2 + J_t (phi_y'^2 +
-//! phi_z'^2) / 2, so that their work is exactly the gain of T: on the node the unbalance m e psi'^2 that turns with the spin, on the
-//! tilts the gyroscopic moment J_p psi' phi'. Damping is alpha dT/dq' (Eq. 7), on the velocity of the centre of mass.
+//! phi_z'^2) / 2, so that their work is exactly the gain of T: on the node the unbalance m e psi'^2 that turns with the
+//! spin, on the tilts the gyroscopic moment J_p psi' phi'. Damping is alpha dT/dq' (Eq. 7), on the velocity of the
+//! centre of mass.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

@@ -1,12 +1,12 @@
 //! Friction against a sliding speed, of contacts and of the bit: a smooth sign of the speed, and its slope for Newton's
 //! method.
 //!
-//! Where a body sticks or rolls, the smooth sign is much steeper than every other force on the body. Newton's tangent at
-//! a speed on one side of zero then leads far to the other side, and back from there, without end. After a correction has
-//! overshot zero, the slope is therefore taken from t sqrt(v^2 + w^2) = F v, linearised in both the friction t and the
-//! speed v, with t as the previous correction predicted it (Chan, Golub and Mulet, SIAM J. Sci. Comput. 20, 1999). This
-//! slope is never negative. It equals the exact one where prediction and friction agree, so that the last corrections
-//! converge as Newton's do. The residual is unchanged, and so is the solution.
+//! Where a body sticks or rolls, the smooth sign is much steeper than every other force on the body. Newton's tangent
+//! at a speed on one side of zero then leads far to the other side, and back from there, without end. After a
+//! correction has overshot zero, the slope is therefore taken from t sqrt(v^2 + w^2) = F v, linearised in both the
+//! friction t and the speed v, with t as the previous correction predicted it (Chan, Golub and Mulet, SIAM J. Sci.
+//! Comput. 20, 1999). This slope is never negative. It equals the exact one where prediction and friction agree, so
+//! that the last corrections converge as Newton's do. The residual is unchanged, and so is the solution.
 
 use crate::simd::number::Number;
 
@@ -15,7 +15,8 @@ use crate::simd::number::Number;
 pub struct Slip<N = f64> {
     /// Sliding speed (m/s, of the bit rad/s).
     pub speed: N,
-    /// Friction that opposes it, of the sign of the speed: per normal force (-) in a contact, the torque (N m) of the bit.
+    /// Friction that opposes it, of the sign of the speed: per normal force (-) in a contact, the torque (N m) of the
+    /// bit.
     pub friction: N,
     /// d friction / d speed that the tangent uses.
     pub slope: N,
@@ -54,8 +55,8 @@ impl SlipMemory {
         }
     }
 
-    /// Takes the friction, at most `full`, at the residual after a correction, and replaces its slope where the exact one
-    /// would not converge.
+    /// Takes the friction, at most `full`, at the residual after a correction, and replaces its slope where the exact
+    /// one would not converge.
     #[inline(always)]
     pub fn follow(&mut self, slip: &mut Slip, full: f64, width: f64) {
         let last = &self.last;

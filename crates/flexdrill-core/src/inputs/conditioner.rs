@@ -85,8 +85,8 @@ impl Conditioner {
     /// The same for a sample with the time of its measurement and its quality: its age counts from that time.
     ///
     /// # Errors
-    /// As [`Conditioner::offer`], and when its source marks it as bad, or its stamp is older than `max_age` or more than
-    /// `stamp.max_skew` ahead of the clock.
+    /// As [`Conditioner::offer`], and when its source marks it as bad, or its stamp is older than `max_age` or more
+    /// than `stamp.max_skew` ahead of the clock.
     pub fn offer_stamped(&mut self, kind: InputKind, value: f64, time: f64, stamp: &Stamp) -> Result<(), Rejection> {
         let rule = self.rule(kind);
         let measured = time - stamp.age.max(0.0);
@@ -170,8 +170,8 @@ impl Conditioner {
         }
     }
 
-    /// Time (s) without a good sample: since the last one, or since the first refusal if none was good; `None` before any
-    /// sample.
+    /// Time (s) without a good sample: since the last one, or since the first refusal if none was good; `None` before
+    /// any sample.
     pub fn without_good(&self, kind: InputKind, now: f64) -> Option<f64> {
         let channel = &self.channels[kind.index()];
         let since = channel.good.map(|sample| sample.time).or(channel.refusing_since);
@@ -217,12 +217,12 @@ impl Conditioner {
     }
 
     /// The target at `now` (s), in the unit of the samples: the last good value, held while it ages, then ramped to the
-    /// safe value. Before the first good sample it is the start value, which is held and ramped in the same way while all
-    /// samples are refused.
+    /// safe value. Before the first good sample it is the start value, which is held and ramped in the same way while
+    /// all samples are refused.
     ///
-    /// Silence never raises speed or load: a safe value larger than the held value acts as the held value, one of the other
-    /// sign as zero. The target is always within the limits, except that a minimum raised above the held value does not
-    /// raise the target.
+    /// Silence never raises speed or load: a safe value larger than the held value acts as the held value, one of the
+    /// other sign as zero. The target is always within the limits, except that a minimum raised above the held value
+    /// does not raise the target.
     pub fn target(&self, kind: InputKind, now: f64) -> f64 {
         let rule = self.rule(kind);
         let carried = self.channels[kind.index()].carried;
@@ -252,8 +252,8 @@ impl Conditioner {
         }
     }
 
-    /// Restarts the ages of all samples at `now`, after the caller's clock was set (a simulated clock that restarted), so
-    /// that no sample is refused for preceding the earlier ones.
+    /// Restarts the ages of all samples at `now`, after the caller's clock was set (a simulated clock that restarted),
+    /// so that no sample is refused for preceding the earlier ones.
     pub fn clock_set(&mut self, now: f64) {
         for channel in &mut self.channels {
             if let Some(sample) = &mut channel.good {

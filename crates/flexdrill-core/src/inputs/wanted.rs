@@ -19,8 +19,8 @@ const FASTEST: f64 = 1000.0;
 const HEAVIEST: f64 = 1e7;
 
 impl Inputs {
-    /// Smallest and largest value of an input (rad/s or N). A value outside is an error of the caller; the mechanics would
-    /// compute meaningless forces from it.
+    /// Smallest and largest value of an input (rad/s or N). A value outside is an error of the caller; the mechanics
+    /// would compute meaningless forces from it.
     pub const fn bounds(kind: InputKind) -> [f64; 2] {
         match kind {
             InputKind::RotarySpeed => [-FASTEST, FASTEST],

@@ -1,8 +1,8 @@
 //! Gauss-Jordan elimination of one small dense block against several right-hand sides, with threshold pivoting.
 //!
-//! Every inner loop runs over a whole column of fixed length, so that it compiles to a few vector instructions; the pivot
-//! row has a zero multiplier and stays unchanged. Eliminating above and below the pivot at once avoids a second sweep
-//! over the right-hand sides.
+//! Every inner loop runs over a whole column of fixed length, so that it compiles to a few vector instructions; the
+//! pivot row has a zero multiplier and stays unchanged. Eliminating above and below the pivot at once avoids a second
+//! sweep over the right-hand sides.
 
 use crate::simd::vector::Vector;
 

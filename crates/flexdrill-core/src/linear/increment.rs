@@ -85,7 +85,8 @@ impl TangentIncrement {
             }
             if joint < self.joints.len() && system.layout().is_large(station) {
                 let change = &self.joints[joint];
-                // In the block of 24 the rotations of the end above are at 3 to 5, those of the start below at 15 to 17.
+                // In the block of 24 the rotations of the end above are at 3 to 5, those of the start below at 15 to
+                // 17.
                 let index = |k: usize| if k < 3 { 3 + k } else { 12 + k };
                 for (j, column) in change.rotations.iter().enumerate() {
                     for (i, &x) in column.iter().enumerate() {

@@ -49,8 +49,8 @@ impl Model {
     pub(super) fn attach(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
         for support in &d.supports {
             for node in self.nodes("supports", support.location, support.body, true)? {
-                // A joint transmits displacements and spin: holding them above the joint holds them below. The tilts below
-                // are free, and are held on their own.
+                // A joint transmits displacements and spin: holding them above the joint holds them below. The tilts
+                // below are free, and are held on their own.
                 let station = &self.stations[self.layout.station_of(node)];
                 let below_joint = station.joint.is_some() && node == station.pipe_below;
                 let directions = support

@@ -31,7 +31,8 @@ pub struct Places {
     pub loads: Vec<usize>,
     /// Of every mass, (u, v, w, psi, phi_y, phi_z).
     pub masses: Vec<[usize; 6]>,
-    /// Of every unknown that a support holds, in the order of [`Model::held`]; `None` where the numbering has none for it.
+    /// Of every unknown that a support holds, in the order of [`Model::held`]; `None` where the numbering has none for
+    /// it.
     pub held: Vec<Option<usize>>,
 }
 

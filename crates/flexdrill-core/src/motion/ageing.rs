@@ -1,7 +1,8 @@
-//! Relative ageing of the tool: damage of joints and links by counted load cycles, work of the friction at every station.
+//! Relative ageing of the tool: damage of joints and links by counted load cycles, work of the friction at every
+//! station.
 //!
-//! The damage of a cycle is (range / rated moment)^slope, Palmgren and Miner's sum with a Woehler line of that slope. It
-//! compares stations and drilling parameters. It predicts no life, since the position of the line is unknown.
+//! The damage of a cycle is (range / rated moment)^slope, Palmgren and Miner's sum with a Woehler line of that slope.
+//! It compares stations and drilling parameters. It predicts no life, since the position of the line is unknown.
 
 use serde::{Deserialize, Serialize};
 
@@ -103,8 +104,8 @@ impl AgeingWatch {
         self.joints[joint].angular_impulse += moment * dt;
     }
 
-    /// Ends an interval of `elapsed` (s): the stops' mean moments in it and `bending`, the moment (N m) in the middle of
-    /// the link below each joint about two axes that turn with it, are the next values of the loads.
+    /// Ends an interval of `elapsed` (s): the stops' mean moments in it and `bending`, the moment (N m) in the middle
+    /// of the link below each joint about two axes that turn with it, are the next values of the loads.
     pub fn sample(&mut self, elapsed: f64, bending: impl Fn(usize) -> [f64; 2]) {
         self.duration += elapsed;
         let AgeingSettings { slope, rated_moment } = self.settings;

@@ -1,9 +1,10 @@
-//! Chaotic whirl: the pipe moves through the guide without direction. It is judged by the power that collisions dissipate.
+//! Chaotic whirl: the pipe moves through the guide without direction. It is judged by the power that collisions
+//! dissipate.
 //!
-//! The measure is the power of all collisions per metre of the tool, from the energy audit, times the share of the watched
-//! stations at which the pipe moves chaotically. Power alone does not distinguish chaotic motion from fast drilling: it
-//! grows with the square of the speed. The share alone does not either: in steady drilling a few stations move
-//! chaotically, with weak collisions.
+//! The measure is the power of all collisions per metre of the tool, from the energy audit, times the share of the
+//! watched stations at which the pipe moves chaotically. Power alone does not distinguish chaotic motion from fast
+//! drilling: it grows with the square of the speed. The share alone does not either: in steady drilling a few stations
+//! move chaotically, with weak collisions.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,8 +19,8 @@ const BLOCKS: usize = 6;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ChaoticWhirlSettings {
-    /// Time over which the power is averaged (s): two turns at 40 r/min, so that an impact once per turn counts fully and
-    /// a single one hardly.
+    /// Time over which the power is averaged (s): two turns at 40 r/min, so that an impact once per turn counts fully
+    /// and a single one hardly.
     pub window: f64,
     /// Levels of the power of the collisions per metre of the tool, times the share of the pipe that moves chaotically
     /// (W/m). `docs/whirl.md` lists the runs behind them.
@@ -44,8 +45,8 @@ impl Default for ChaoticWhirlSettings {
 pub struct ChaoticWhirlLevel {
     /// Level.
     pub severity: Severity,
-    /// Power that collisions dissipated in a window, per metre of the tool and times the chaotic share (W/m): the largest
-    /// since the level was reached, that of the last window while the level is OK.
+    /// Power that collisions dissipated in a window, per metre of the tool and times the chaotic share (W/m): the
+    /// largest since the level was reached, that of the last window while the level is OK.
     pub power: f64,
     /// Share of the watched stations of the pipe that moved chaotically then, 0 to 1.
     pub share: f64,
@@ -72,8 +73,8 @@ pub struct ChaoticWhirlWatch {
     elapsed: f64,
     /// Integral of the chaotic share since the end of the last block (s).
     share_time: f64,
-    /// Energy that collisions of the pipe dissipated at each station (J), with exponential forgetting: a third after one
-    /// window.
+    /// Energy that collisions of the pipe dissipated at each station (J), with exponential forgetting: a third after
+    /// one window.
     at: Vec<f64>,
     /// Total dissipation by the audit at the end of the last step (J).
     taken: f64,
@@ -98,8 +99,8 @@ impl ChaoticWhirlWatch {
         }
     }
 
-    /// Takes the energy (J) that the contact of pipe and guide dissipated at a station in a step. It determines the worst
-    /// station, not the level.
+    /// Takes the energy (J) that the contact of pipe and guide dissipated at a station in a step. It determines the
+    /// worst station, not the level.
     pub fn push(&mut self, station: usize, energy: f64) {
         self.at[station] += energy;
     }

@@ -8,20 +8,20 @@ use super::orbit::Orbit;
 use super::orbit_window::Round;
 use super::settings::WhirlSettings;
 
-/// Turns that an orbit must make in the long window. Half an arc about its own centre appears as up to 0.7 turns, so that
-/// fewer turns may be a drift.
+/// Turns that an orbit must make in the long window. Half an arc about its own centre appears as up to 0.7 turns, so
+/// that fewer turns may be a drift.
 const MIN_TURNS: f64 = 0.8;
 
-/// Direction and concentration from which the short window overrules the long one. Over a few turns broad-band motion can
-/// appear directed, but not both pure and concentrated on one line.
+/// Direction and concentration from which the short window overrules the long one. Over a few turns broad-band motion
+/// can appear directed, but not both pure and concentrated on one line.
 const CLEAN_DIRECTION: f64 = 0.9;
 const CLEAN_CONCENTRATION: f64 = 0.9;
 
 /// Agreement of the two rates from which the orbit counts as one line; the spectrum is accurate to a few percent.
 const SINGLE_LINE: f64 = 0.9;
 
-/// Agreement of turns and strongest line from which the line, which is more accurate, determines the rate. The turns of a
-/// window of two turns are accurate to a quarter of a turn.
+/// Agreement of turns and strongest line from which the line, which is more accurate, determines the rate. The turns of
+/// a window of two turns are accurate to a quarter of a turn.
 const SAME_RATE: f64 = 0.8;
 
 /// Net share of the turns about the gap's centre from which a motion whose lines have no direction counts as whirl: a
@@ -53,8 +53,8 @@ impl View {
             && self.lines.concentration >= CLEAN_CONCENTRATION
     }
 
-    /// 1 where the estimators in time and in frequency yield the same rate, 0 where they differ by their own size. In time
-    /// the swept area or the turns may agree: for one line both do, for several the turns follow the larger one.
+    /// 1 where the estimators in time and in frequency yield the same rate, 0 where they differ by their own size. In
+    /// time the swept area or the turns may agree: for one line both do, for several the turns follow the larger one.
     fn agreement(&self) -> f64 {
         let agree = |time: f64| agreement(time, self.lines.rate);
         agree(self.orbit.rate).max(self.turning.map_or(0.0, agree))
@@ -66,8 +66,8 @@ impl View {
     }
 
     /// The whirl rate (rad/s). The swept area is exact for a single line. For several lines it is the mean; then the
-    /// strongest line is better, unless the counted turns contradict it: the strongest line of chords is not the rate of
-    /// their revolution. Turns about the gap's centre count where the motion encloses it.
+    /// strongest line is better, unless the counted turns contradict it: the strongest line of chords is not the rate
+    /// of their revolution. Turns about the gap's centre count where the motion encloses it.
     fn rate(&self) -> f64 {
         let Some(turning) = self.turning else {
             return self.orbit.rate;
@@ -183,9 +183,9 @@ impl Gates {
 
 /// Names the motion of a station.
 pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: &Rotation) -> Verdict {
-    // Three cases in which the long window decides: after chaos, a few turns of which resemble one whirl by chance; for a
-    // motion that repeats itself without revolving, whose parts do so too; and where the short window would take a large
-    // slow line for the drift of a small fast one.
+    // Three cases in which the long window decides: after chaos, a few turns of which resemble one whirl by chance; for
+    // a motion that repeats itself without revolving, whose parts do so too; and where the short window would take a
+    // large slow line for the drift of a small fast one.
     let is_part = |short: &View| gates.goes_round(long) && !gates.goes_round(short);
     let long_leads = gates.out_of_chaos || long.repetition >= gates.repetition || short.is_some_and(is_part);
     let view = match short {
@@ -238,8 +238,8 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
                 ..whirl(long.round_rate(), long.round.directness())
             };
         }
-        // A pipe that rocks up both sides of the hole, or repeats the same throw at every turn, has no direction either, but
-        // its motion is not chaotic.
+        // A pipe that rocks up both sides of the hole, or repeats the same throw at every turn, has no direction
+        // either, but its motion is not chaotic.
         return if view.repetition >= gates.repetition {
             verdict(WhirlKind::None, 0.0, view.repetition)
         } else {

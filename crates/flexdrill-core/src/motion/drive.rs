@@ -26,8 +26,8 @@ pub enum DriveState {
     Standing = 0,
     /// From standstill until the speed has not risen by a tenth for two turns, half a minute at most.
     RunningUp = 1,
-    /// The drive turns, or has been below the gate speed for less than the standstill time: in stick-slip a bit stands for
-    /// seconds, which is not a new start.
+    /// The drive turns, or has been below the gate speed for less than the standstill time: in stick-slip a bit stands
+    /// for seconds, which is not a new start.
     Turning = 2,
 }
 
@@ -44,8 +44,8 @@ pub(super) struct DriveWatch {
 }
 
 impl DriveWatch {
-    /// Takes the speed of the drive (rad/s) over `elapsed` (s). The drive stands after `standstill_time` (s) below `gate`
-    /// (rad/s).
+    /// Takes the speed of the drive (rad/s) over `elapsed` (s). The drive stands after `standstill_time` (s) below
+    /// `gate` (rad/s).
     pub(super) fn update(&mut self, elapsed: f64, rotary_speed: f64, gate: f64, standstill_time: f64) {
         let speed = rotary_speed.abs();
         let standing = self.state == DriveState::Standing;

@@ -87,8 +87,8 @@ pub struct Hazard {
     pub ended: Option<f64>,
 }
 
-/// Time (s) after which the condition of a level counts as ended: a turn of the tool at 40 r/min, so that a bouncing pipe
-/// does not end and begin with every turn. Assumption.
+/// Time (s) after which the condition of a level counts as ended: a turn of the tool at 40 r/min, so that a bouncing
+/// pipe does not end and begin with every turn. Assumption.
 pub const ENDED_AFTER: f64 = 1.5;
 
 /// When the condition of a level ended: `met` is when it was met last, `now` the present (both model time, s).

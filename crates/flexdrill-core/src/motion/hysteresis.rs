@@ -28,8 +28,8 @@ pub(super) enum Transition {
 }
 
 impl Hysteresis {
-    /// Updates the level at model time `time` (s), `elapsed` (s) after the last update: the conditions met now raise it to
-    /// `raised` and hold it at `held`. After `hold_off` (s) without the conditions it falls to `held`.
+    /// Updates the level at model time `time` (s), `elapsed` (s) after the last update: the conditions met now raise it
+    /// to `raised` and hold it at `held`. After `hold_off` (s) without the conditions it falls to `held`.
     pub(super) fn update(
         &mut self,
         time: f64,
@@ -93,7 +93,8 @@ pub struct Alarm {
 }
 
 impl Alarm {
-    /// Takes a value that stood for `elapsed` (s) until model time `time` (s); says whether the level rose or stands above OK for this value.
+    /// Takes a value that stood for `elapsed` (s) until model time `time` (s); says whether the level rose or stands
+    /// above OK for this value.
     pub fn update(&mut self, time: f64, elapsed: f64, value: f64, thresholds: &AlarmThresholds) -> bool {
         let reached = |factor: f64| {
             Severity::RAISED

@@ -1,7 +1,7 @@
 //! Load of the joints' stops relative to the joints' rating.
 //!
-//! The judged moment is the mean over a short interval. The peak of a striking stop depends on its stiffness, which is a
-//! penalty; the mean, like an impulse, does not.
+//! The judged moment is the mean over a short interval. The peak of a striking stop depends on its stiffness, which is
+//! a penalty; the mean, like an impulse, does not.
 
 use serde::{Deserialize, Serialize};
 
@@ -49,8 +49,8 @@ pub struct JointLoadLevel {
     pub since: f64,
     /// Model time of that moment (s).
     pub seen: f64,
-    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](super::ENDED_AFTER) ago. None while it is held, and
-    /// while all is well.
+    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](super::ENDED_AFTER) ago. None
+    /// while it is held, and while all is well.
     pub ended: Option<f64>,
 }
 

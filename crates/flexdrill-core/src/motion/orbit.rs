@@ -16,9 +16,9 @@ pub(super) struct Orbit {
     pub(super) rate: f64,
 }
 
-/// Subtracts the centre (and, with `detrend`, its linear drift) from the points and measures the orbit. Unless the orbit
-/// is smaller than `min_radius` or flatter than `min_axis_ratio`, it then scales the points along both axes, so that the
-/// orbit becomes a unit circle, and measures the rate.
+/// Subtracts the centre (and, with `detrend`, its linear drift) from the points and measures the orbit. Unless the
+/// orbit is smaller than `min_radius` or flatter than `min_axis_ratio`, it then scales the points along both axes, so
+/// that the orbit becomes a unit circle, and measures the rate.
 ///
 /// The rate is dA/dt / sqrt(det C), with A the swept area and C the covariance: for any ellipse that is exactly its
 /// angular rate, since stretching an ellipse to a circle changes area and sqrt(det C) alike. White noise adds no area

@@ -18,8 +18,8 @@ pub(super) const SHORT_POINTS: usize = 64;
 /// Length of a block (s): 31 per turn of a tool at 120 r/min.
 const BLOCK: f64 = 0.016;
 
-/// Impulse above the resting one from which a block counts as an impact (N s): a link of 2.8 kg that rebounds at 0.18 m/s,
-/// the speed after a free fall through a fifth of the default clearance.
+/// Impulse above the resting one from which a block counts as an impact (N s): a link of 2.8 kg that rebounds at 0.18
+/// m/s, the speed after a free fall through a fifth of the default clearance.
 const IMPACT: f64 = 1.0;
 
 /// Smaller swings (rad) do not count as a change of direction: they are noise and rattling at the wall.
@@ -28,8 +28,8 @@ const SWING: f64 = 0.125 * TAU;
 /// Lanes of the reductions over blocks. The number is fixed, so that the sums are the same on every machine.
 const LANES: usize = 8;
 
-/// Samples and blocks of one station. Single precision resolves a ten-millionth of a clearance and halves the memory that
-/// each evaluation reads.
+/// Samples and blocks of one station. Single precision resolves a ten-millionth of a clearance and halves the memory
+/// that each evaluation reads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct OrbitWindow {
     samples_per_block: usize,

@@ -1,12 +1,13 @@
-//! Rainflow counting of a running signal: each closed cycle of a load once, by the four-point rule. ASTM E 1049 yields the
-//! same cycles for a whole record.
+//! Rainflow counting of a running signal: each closed cycle of a load once, by the four-point rule. ASTM E 1049 yields
+//! the same cycles for a whole record.
 //!
-//! A range between two larger ones is a closed hysteresis loop; it is counted and removed. The ranges of the residue grow
-//! and then shrink, so that it stays short.
+//! A range between two larger ones is a closed hysteresis loop; it is counted and removed. The ranges of the residue
+//! grow and then shrink, so that it stays short.
 
 use serde::{Deserialize, Serialize};
 
-/// Capacity for turning points of open cycles. When it is exhausted, the smallest range of the residue counts as closed.
+/// Capacity for turning points of open cycles. When it is exhausted, the smallest range of the residue counts as
+/// closed.
 const WAITING: usize = 48;
 
 /// One load channel.
@@ -29,7 +30,8 @@ impl Rainflow {
         }
     }
 
-    /// Takes the next value; calls `closed` with the range of every cycle that it closes. Changes below `least` are noise.
+    /// Takes the next value; calls `closed` with the range of every cycle that it closes. Changes below `least` are
+    /// noise.
     pub(super) fn push(&mut self, value: f64, least: f64, mut closed: impl FnMut(f64)) {
         let moved = value - self.extreme;
         if self.heading == 0.0 {

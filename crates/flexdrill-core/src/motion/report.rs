@@ -20,8 +20,8 @@ pub enum WhirlKind {
     Backward = 2,
     /// Large motion without a steady direction.
     Chaotic = 3,
-    /// A small orbit at twice the tool's speed that does not enclose the gap's centre: the joint's cross drives it. D-WIS
-    /// has no term for it.
+    /// A small orbit at twice the tool's speed that does not enclose the gap's centre: the joint's cross drives it.
+    /// D-WIS has no term for it.
     JointVibration = 4,
 }
 
@@ -170,14 +170,14 @@ pub struct ShockLevel {
     pub layer: usize,
     /// Station index from the top.
     pub station: usize,
-    /// Impulse above the resting force (N s): the largest since the level was reached; that of the last interval while the
-    /// level is OK.
+    /// Impulse above the resting force (N s): the largest since the level was reached; that of the last interval while
+    /// the level is OK.
     pub impulse: f64,
     /// Model time at which the level was reached (s).
     pub since: f64,
     /// Model time of that impulse (s).
     pub seen: f64,
-    /// Model time of the last impulse that held the level (s), once the time since then exceeds the mean interval of the
-    /// holding impulses. None before, and while the level is OK.
+    /// Model time of the last impulse that held the level (s), once the time since then exceeds the mean interval of
+    /// the holding impulses. None before, and while the level is OK.
     pub ended: Option<f64>,
 }

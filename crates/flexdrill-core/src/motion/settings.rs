@@ -8,8 +8,8 @@ use crate::units::rpm_to_rad_per_s;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct WhirlSettings {
-    /// Length of the long window in turns of the tool. Four turns contain one turn of a whirl at a quarter of the tool's
-    /// speed, the slowest that can be distinguished from a drift.
+    /// Length of the long window in turns of the tool. Four turns contain one turn of a whirl at a quarter of the
+    /// tool's speed, the slowest that can be distinguished from a drift.
     pub window_turns: f64,
     /// Shortest long window (s), for fast tools.
     pub min_window: f64,
@@ -24,20 +24,21 @@ pub struct WhirlSettings {
     pub evaluation_interval: f64,
     /// Evaluations in a row that must agree before the kind changes.
     pub confirmations: u32,
-    /// Turns of a new whirl for which they must agree. A broad-band motion resembles one whirl by chance, but not for long.
+    /// Turns of a new whirl for which they must agree. A broad-band motion resembles one whirl by chance, but not for
+    /// long.
     pub confirmation_turns: f64,
     /// Below this rotary speed (rad/s) the tool counts as standing: ratios are 0 and the window is `max_window`. 5
     /// r/min is an eighth of the paper's speed.
     pub min_rotary_speed: f64,
-    /// Time for which the drive must have been below `min_rotary_speed` to count as standing (s); a run-up follows. Half
-    /// a period of the slowest oscillation that is judged as stick-slip (10 s): a bit sticks no longer than that, and a
-    /// connection takes minutes.
+    /// Time for which the drive must have been below `min_rotary_speed` to count as standing (s); a run-up follows.
+    /// Half a period of the slowest oscillation that is judged as stick-slip (10 s): a bit sticks no longer than that,
+    /// and a connection takes minutes.
     pub standstill_time: f64,
     /// RMS orbit radius over clearance from which a motion counts as an orbit. Below a tenth of the clearance the
     /// motion is that of a pipe at rest on the wall with a fluctuating contact.
     pub min_orbit_ratio: f64,
-    /// RMS radius about its own mean over clearance from which a motion counts as whirl although it does not enclose the
-    /// gap's centre. Below half the clearance an off-centre body stays on its side of the gap.
+    /// RMS radius about its own mean over clearance from which a motion counts as whirl although it does not enclose
+    /// the gap's centre. Below half the clearance an off-centre body stays on its side of the gap.
     pub large_orbit_ratio: f64,
     /// Minor over major axis below which the motion is a line, not an orbit. A pipe that rocks along the low side by
     /// 50 degrees to each side draws an arc of 0.23.
@@ -62,11 +63,11 @@ pub struct WhirlSettings {
     /// counts as rolling.
     pub rolling_tolerance: f64,
     /// Backward whirl: bending cycles per turn of the tool from which to watch, warn and call critical. A link that
-    /// revolves at `ratio` times the rotary speed bends |1 - ratio| times per turn; in a curved hole without whirl, once.
-    /// Rolling is critical at any clearance.
+    /// revolves at `ratio` times the rotary speed bends |1 - ratio| times per turn; in a curved hole without whirl,
+    /// once. Rolling is critical at any clearance.
     pub backward_cycles: [f64; 3],
-    /// Forward whirl: work of the friction per second and metre (W/m) from which to watch and to warn. It bends the pipe
-    /// little and breaks nothing by itself, so it is never critical, but the same side of the pipe wears.
+    /// Forward whirl: work of the friction per second and metre (W/m) from which to watch and to warn. It bends the
+    /// pipe little and breaks nothing by itself, so it is never critical, but the same side of the pipe wears.
     pub forward_power: [f64; 2],
     /// Turns of the tool for which the whirl must last before a level is reached: WATCH, WARNING and CRITICAL.
     pub lasting_turns: [f64; 3],
@@ -75,16 +76,16 @@ pub struct WhirlSettings {
     pub hold_off: f64,
 }
 
-/// Factors on the confidence, 0 to 1, by the state of an input; fresh inputs have 1. The twin continues with the last good
-/// value; the older the value, the less certain it is that the real tool is driven by it.
+/// Factors on the confidence, 0 to 1, by the state of an input; fresh inputs have 1. The twin continues with the last
+/// good value; the older the value, the less certain it is that the real tool is driven by it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct InputTrust {
     /// The input is late by a sample or two, which hardly matters.
     pub slow: f64,
     /// The newest sample was refused; the held one is recent.
     pub rejected: f64,
-    /// The value has been held for seconds, or is on its ramp to the safe value: with 0.6, only motion with a confidence
-    /// of 0.84 raises a level.
+    /// The value has been held for seconds, or is on its ramp to the safe value: with 0.6, only motion with a
+    /// confidence of 0.84 raises a level.
     pub stale: f64,
     /// The configured start values act.
     pub not_received: f64,
@@ -123,8 +124,8 @@ impl Default for WhirlSettings {
             input_trust: InputTrust::default(),
             min_confidence: 0.5,
             rolling_tolerance: 0.15,
-            // Bending by the hole's curvature alone; one revolution against each turn of the tool; two, with three times the
-            // load cycles.
+            // Bending by the hole's curvature alone; one revolution against each turn of the tool; two, with three
+            // times the load cycles.
             backward_cycles: [1.0, 2.0, 3.0],
             // With a casing wear factor of 4e-10 per psi of side load and a friction of 0.2 steel loses 2.9e-13 m3 per
             // J of friction: 100 W/m take 1 mm off a side 10 mm wide in four days, 300 W/m in 32 h.

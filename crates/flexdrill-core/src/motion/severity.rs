@@ -64,16 +64,17 @@ pub(super) struct Elapsed {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct StationSeverity {
     hysteresis: Hysteresis,
-    /// Turns of the tool for which the conditions of WATCH, WARNING and CRITICAL have been met, minus those for which they
-    /// have not: the motion of a bouncing pipe is not classified alike at every evaluation.
+    /// Turns of the tool for which the conditions of WATCH, WARNING and CRITICAL have been met, minus those for which
+    /// they have not: the motion of a bouncing pipe is not classified alike at every evaluation.
     met_for: [f64; 3],
     /// The worst evaluation that met the conditions of the level, since it was reached.
     worst: Evaluation,
 }
 
 impl StationSeverity {
-    /// Takes the newest evaluation. `trust`, 0 to 1, is how far the inputs and the model behind the motion can be trusted.
-    /// Doubtful inputs never raise or clear a level on their own. It is 0 while the drive does not turn steadily.
+    /// Takes the newest evaluation. `trust`, 0 to 1, is how far the inputs and the model behind the motion can be
+    /// trusted. Doubtful inputs never raise or clear a level on their own. It is 0 while the drive does not turn
+    /// steadily.
     pub(super) fn update(
         &mut self,
         kind: WhirlKind,

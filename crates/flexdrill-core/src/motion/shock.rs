@@ -1,8 +1,8 @@
 //! Lateral shock: the impulse of collisions above the resting load.
 //!
 //! The measure is the impulse of the normal force within a short interval, minus the impulse of the mean force over the
-//! last tenth of a second: a pipe that rests on the wall, however heavy, has no shock. Divided by the mass involved it is
-//! the jump of the lateral speed. Unlike the peak force, it does not depend on the stiffness of the contact.
+//! last tenth of a second: a pipe that rests on the wall, however heavy, has no shock. Divided by the mass involved it
+//! is the jump of the lateral speed. Unlike the peak force, it does not depend on the stiffness of the contact.
 //!
 //! A level requires a number of such impulses within a span of time: a single impulse is over before a driller could
 //! react.
@@ -259,8 +259,8 @@ impl ShockWatch {
         (self.settings.span / f64::from(repeats.saturating_add(1))).max(ENDED_AFTER)
     }
 
-    /// Takes the largest impulse of an interval, which counts only if `judged`; returns the levels that the newest impulses
-    /// reach and hold.
+    /// Takes the largest impulse of an interval, which counts only if `judged`; returns the levels that the newest
+    /// impulses reach and hold.
     fn count(&mut self, worst: &Collision, judged: bool) -> (Severity, Severity) {
         let time = worst.time;
         let impulse = if judged { worst.impulse } else { 0.0 };
@@ -323,7 +323,8 @@ impl ShockWatch {
 mod tests {
     use super::*;
 
-    /// Half sines of `peak` (N) and 2 ms every `period` steps of 0.1 ms on top of `rest` (N), from model time `from` (s).
+    /// Half sines of `peak` (N) and 2 ms every `period` steps of 0.1 ms on top of `rest` (N), from model time `from`
+    /// (s).
     fn run(watch: &mut ShockWatch, from: f64, rest: f64, peak: f64, period: u32, seconds: f64) {
         let dt = 1e-4;
         for step in 0..(seconds / dt) as u32 {

@@ -1,8 +1,9 @@
 //! Stick-slip index of the bit: (max - min) / (2 mean) of the bit's speed over a window, and its level.
 //!
-//! The drive may oscillate too: a speed measured downhole includes the torsional oscillation of the string above. Such an
-//! oscillation counts, whereas a change of the set speed does not. The two differ in repetition: an oscillation rises and
-//! falls again and again, a change of the set speed happens once. After a change only the speeds since then count.
+//! The drive may oscillate too: a speed measured downhole includes the torsional oscillation of the string above. Such
+//! an oscillation counts, whereas a change of the set speed does not. The two differ in repetition: an oscillation
+//! rises and falls again and again, a change of the set speed happens once. After a change only the speeds since then
+//! count.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,18 +21,19 @@ const KEPT: usize = 2 * BLOCKS;
 /// ripple.
 const FEWEST: usize = 15;
 
-/// Blocks for which the bit must stand to count as stuck: 1 s of a window of 10 s, longer than its rest between two ripples
-/// of the joints.
+/// Blocks for which the bit must stand to count as stuck: 1 s of a window of 10 s, longer than its rest between two
+/// ripples of the joints.
 const STUCK_BLOCKS: usize = 10;
 
 /// Part of the drive's speed below which the bit's mean speed counts as stuck.
 const STUCK: f64 = 0.1;
 
-/// Swings from which the drive oscillates: up, down, up and down. A driller who slows down and speeds up again makes two.
+/// Swings from which the drive oscillates: up, down, up and down. A driller who slows down and speeds up again makes
+/// two.
 const SWINGS: u32 = 4;
 
-/// Size of such swings relative to the range of the drive's speed. Below, most of the range is a change of the set speed
-/// with superposed noise.
+/// Size of such swings relative to the range of the drive's speed. Below, most of the range is a change of the set
+/// speed with superposed noise.
 const SWINGING: f64 = 0.4;
 
 /// Relative difference to the present speed of the drive within which an earlier speed has the same set point.
@@ -47,8 +49,8 @@ pub struct StickSlipSettings {
     /// Length of the window (s). A string that is held at its top swings at c / 4 L with c = 3177 m/s: at 0.8 Hz with
     /// 1000 m, at 0.2 Hz with 4000 m, of which the window holds two periods. Swings of up to its own length are judged.
     pub window: f64,
-    /// Mean speed of the drive below which the index is 0 (rad/s): near standstill the quotient means nothing. At 10 r/min
-    /// and 10 kN the joints alone make the bit's speed swing by 0.64 of its mean.
+    /// Mean speed of the drive below which the index is 0 (rad/s): near standstill the quotient means nothing. At 10
+    /// r/min and 10 kN the joints alone make the bit's speed swing by 0.64 of its mean.
     pub gate_speed: f64,
     /// Index of the levels: 1 is a bit that just stops once per period, half of it and four fifths are on the way
     /// there.
@@ -145,7 +147,8 @@ impl StickSlip {
     }
 
     /// Takes the speeds of bit and drive (rad/s) over a step of `dt` (s) until model time `time` (s). While the drive
-    /// stands or is run up (`judged` is false), the bit lags and springs forward without stick-slip: the window restarts.
+    /// stands or is run up (`judged` is false), the bit lags and springs forward without stick-slip: the window
+    /// restarts.
     pub fn push(&mut self, time: f64, dt: f64, bit: f64, drive: f64, judged: bool) {
         if !judged {
             self.alarm.update(time, dt, 0.0, &self.settings.thresholds);
@@ -323,8 +326,8 @@ mod tests {
         watched(|_| mean, |time| mean + amplitude * (TAU * 1.3 * time).sin(), seconds)
     }
 
-    /// The drive follows `points` (s, rad/s) in straight lines; the bit follows it with a ripple of 5 %. The highest level
-    /// and the largest index.
+    /// The drive follows `points` (s, rad/s) in straight lines; the bit follows it with a ripple of 5 %. The highest
+    /// level and the largest index.
     fn driven(points: &[(f64, f64)], seconds: f64) -> (Severity, f64) {
         let drive = |time: f64| {
             let after = points.iter().position(|point| point.0 > time).unwrap_or(points.len());
@@ -400,7 +403,8 @@ mod tests {
     #[test]
     fn a_change_of_the_set_speed_is_no_stick_slip() {
         let rpm = rpm_to_rad_per_s;
-        // 20 r/min per s each: slower, faster, stopped, a pause and back, and a driller who takes the speed back for a moment.
+        // 20 r/min per s each: slower, faster, stopped, a pause and back, and a driller who takes the speed back for a
+        // moment.
         let cases: [&[(f64, f64)]; 5] = [
             &[(12.0, rpm(60.0)), (14.5, rpm(10.0))],
             &[(12.0, rpm(20.0)), (17.0, rpm(120.0))],
@@ -423,7 +427,8 @@ mod tests {
 
     #[test]
     fn a_change_of_the_set_speed_ends_no_stick_slip() {
-        // The bit stops twice a second at 40 r/min and at 55 r/min; the drive goes from one to the other at 20 r/min per s.
+        // The bit stops twice a second at 40 r/min and at 55 r/min; the drive goes from one to the other at 20 r/min
+        // per s.
         let drive = |time: f64| rpm_to_rad_per_s((40.0 + 20.0 * (time - 20.0).max(0.0)).min(55.0));
         let mut watch = StickSlip::new(StickSlipSettings::default());
         for step in 0..(30.0 / DT) as usize {

@@ -116,8 +116,8 @@ fn whirl_of(kind: HazardKind) -> WhirlKind {
 }
 
 impl WhirlWarningLevel {
-    /// The worse of the two directions leads, backward before forward. While a level stands the figures are those of its
-    /// worst evaluation.
+    /// The worse of the two directions leads, backward before forward. While a level stands the figures are those of
+    /// its worst evaluation.
     pub(super) fn update(&mut self, backward: &Lead, forward: &Lead, watches: &[StationWatch], input_trust: f64) {
         let (lead, kind) = if forward.severity > backward.severity {
             (forward, WhirlKind::Forward)

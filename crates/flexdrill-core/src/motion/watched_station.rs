@@ -190,7 +190,8 @@ impl StationWatch {
             }
         };
         let needed = ((confirmed_for / interval).ceil() as u32).max(settings.confirmations);
-        // Chaotic motion resembles another kind now and then by chance, so its time is accumulated, not counted in a row.
+        // Chaotic motion resembles another kind now and then by chance, so its time is accumulated, not counted in a
+        // row.
         self.chaotic_for = if verdict.kind == WhirlKind::Chaotic {
             (self.chaotic_for + interval).min(circumstances.chaos_time)
         } else {

@@ -269,8 +269,8 @@ impl WhirlAnalysis {
         self.last_time.unwrap_or_default()
     }
 
-    /// Resets everything except the settings and the trust in the inputs. The sequence of the warnings continues, so that
-    /// subscribers notice the change.
+    /// Resets everything except the settings and the trust in the inputs. The sequence of the warnings continues, so
+    /// that subscribers notice the change.
     pub fn reset(&mut self) {
         let sequence = self.level.sequence;
         self.restart_windows();

@@ -108,8 +108,8 @@ pub(crate) trait Kernel {
     /// Result of the computation.
     type Output;
 
-    /// Computes the result. Implementations and everything that they call with `V` are `#[inline(always)]`: the code must
-    /// end up inside the function that carries the target feature.
+    /// Computes the result. Implementations and everything that they call with `V` are `#[inline(always)]`: the code
+    /// must end up inside the function that carries the target feature.
     fn run<V: Vector>(self) -> Self::Output;
 }
 

@@ -150,8 +150,8 @@ impl<V: Vector> Number for Eight<V> {
     /// Sine and cosine, to two units in the last place of 1 for arguments up to 1e6.
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        // Range reduction: x = n pi/2 + r with |r| <= pi/4. The first two parts of pi/2 have 33 bits each, so that their
-        // products with n are exact (Cody and Waite).
+        // Range reduction: x = n pi/2 + r with |r| <= pi/4. The first two parts of pi/2 have 33 bits each, so that
+        // their products with n are exact (Cody and Waite).
         const PARTS: [f64; 3] = [
             1.570_796_326_734_125_6,
             6.077_100_506_303_966e-11,
@@ -174,8 +174,8 @@ impl<V: Vector> Number for Eight<V> {
             cosine = Self::of(COSINE[k]).plus_product(cosine, s);
         }
         sine = sine * r;
-        // The quadrant n mod 4 as two bits: `odd` exchanges sine and cosine, `upper` changes both signs. Products with 0 and
-        // 1 replace branches, which lanes cannot take separately.
+        // The quadrant n mod 4 as two bits: `odd` exchanges sine and cosine, `upper` changes both signs. Products with
+        // 0 and 1 replace branches, which lanes cannot take separately.
         let floor = |x: Self| whole(x - Self::of(0.25));
         let pairs = floor(n * Self::of(0.5));
         let odd = n - pairs * Self::of(2.0);

@@ -1,8 +1,8 @@
 //! Eight numbers at once: the same kernels with AVX-512, with AVX2 and without either.
 //!
 //! Kernels are written once over [`Vector`] and marked `#[inline(always)]`; the functions that call them for one kind
-//! of vector carry the `target_feature` that it needs. Automatic vectorisation of such code is several times slower: the
-//! compiler splits the lanes.
+//! of vector carry the `target_feature` that it needs. Automatic vectorisation of such code is several times slower:
+//! the compiler splits the lanes.
 
 use super::instructions::{Kernel, with_portable};
 use super::single::{PortableSingle, Single};
@@ -11,8 +11,8 @@ use super::single::{PortableSingle, Single};
 pub(crate) trait Vector: Copy {
     /// Sixteen lanes of single precision of the same machine.
     type Single: Single;
-    /// Whether [`Vector::plus_product`] rounds once. Scalar code next to these vectors then rounds once as well, so that
-    /// results do not depend on which of the two computes an entry.
+    /// Whether [`Vector::plus_product`] rounds once. Scalar code next to these vectors then rounds once as well, so
+    /// that results do not depend on which of the two computes an entry.
     const FUSED: bool;
 
     /// Runs `kernel` with these vectors in a function of its own, which is not inlined into the caller: a large kernel

@@ -26,9 +26,9 @@ pub(super) struct Avx2Single(__m256, __m256);
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Avx512Single(__m512);
 
-// SAFETY of all blocks in all four: these types are private to this room, which hands them to kernels in functions with the
-// target features `avx2,fma` and `avx512f,avx512vl` only; those are entered through `Instructions::run`, whose `self`
-// proves that the processor has them. Memory is read and written through references to arrays of eight or
+// SAFETY of all blocks in all four: these types are private to this room, which hands them to kernels in functions with
+// the target features `avx2,fma` and `avx512f,avx512vl` only; those are entered through `Instructions::run`, whose
+// `self` proves that the processor has them. Memory is read and written through references to arrays of eight or
 // sixteen, unaligned.
 impl Vector for Avx2 {
     type Single = Avx2Single;

@@ -1,7 +1,7 @@
 //! Plain numbers in SI that describe the tool, its well, its supports and its loads.
 //!
-//! The model is built from a [`ToolDescription`], which is checked then. While the model runs only the [`LiveParameters`]
-//! can change.
+//! The model is built from a [`ToolDescription`], which is checked then. While the model runs only the
+//! [`LiveParameters`] can change.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -197,8 +197,8 @@ pub struct GapDescription {
 }
 
 impl GapDescription {
-    /// A layer of penalty stiffness `stiffness` (N/m) with the same Coulomb coefficient `friction` in both directions and
-    /// the damping of the paper's case. A stiffness of 0 switches the layer off.
+    /// A layer of penalty stiffness `stiffness` (N/m) with the same Coulomb coefficient `friction` in both directions
+    /// and the damping of the paper's case. A stiffness of 0 switches the layer off.
     #[must_use]
     pub const fn new(stiffness: f64, friction: f64) -> Self {
         Self {
@@ -315,7 +315,8 @@ pub struct Support {
 pub enum WobPath {
     /// Upward on the guide's last node.
     Guide,
-    /// The ends of both pipes are tied axially. A jointed pipe deflects across the hole and carries hardly any of the load.
+    /// The ends of both pipes are tied axially. A jointed pipe deflects across the hole and carries hardly any of the
+    /// load.
     Shared,
 }
 

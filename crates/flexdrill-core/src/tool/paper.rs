@@ -2,7 +2,8 @@
 //! ultrashort-radius radial horizontal wells", Scientific Reports 2024.
 //!
 //! The paper prints the well (R = 3.2 m, 0 to 90 degrees), five elements per link, eta = 0.235 and the bit's 118 mm.
-//! All other values are assumed. `config/default.yaml` has the same numbers with their reasons; a test compares the two.
+//! All other values are assumed. `config/default.yaml` has the same numbers with their reasons; a test compares the
+//! two.
 
 use super::{
     BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, Location, Material, Rayleigh,
@@ -14,8 +15,8 @@ use crate::units::deg_to_rad;
 const GRAVITY_IN_MUD: f64 = 9.81 * 0.86;
 
 impl ToolDescription {
-    /// The paper's tool in the paper's well, with plausible values where the paper has none; equal to the description in
-    /// `config/default.yaml`. A similar tool differs from it in some fields:
+    /// The paper's tool in the paper's well, with plausible values where the paper has none; equal to the description
+    /// in `config/default.yaml`. A similar tool differs from it in some fields:
     ///
     /// ```
     /// use flexdrill_core::tool::ToolDescription;

@@ -401,8 +401,8 @@ fn watched_station(model: &Model, station: usize, body: Body) -> WatchedStation 
     }
 }
 
-/// Bending moment (N m) in the middle of the link below a joint, from its curvature, about two transverse axes that turn
-/// with the pipe: the load history of a material point.
+/// Bending moment (N m) in the middle of the link below a joint, from its curvature, about two transverse axes that
+/// turn with the pipe: the load history of a material point.
 fn bending_below(model: &Model, state: &State, joint: usize) -> [f64; 2] {
     let per_link = model.description.elements_per_link;
     let upper = model.joint_stations[joint] + (per_link - 1) / 2;

@@ -1,9 +1,9 @@
 //! Quality of the computed motion, judged from the energy audit over the last seconds.
 //!
-//! The error of a step in a collision, or where axial forces change within it, appears as work that no law accounts for.
-//! This work is compared with the energy that contacts, Rayleigh and numerical damping dissipate in the same time. The
-//! drive's work is no measure: most of it goes into the rock, whereas errors feed vibration and damping removes it. The
-//! bounds come from comparisons with an eighth of the step (`docs/measurements.md`).
+//! The error of a step in a collision, or where axial forces change within it, appears as work that no law accounts
+//! for. This work is compared with the energy that contacts, Rayleigh and numerical damping dissipate in the same time.
+//! The drive's work is no measure: most of it goes into the rock, whereas errors feed vibration and damping removes it.
+//! The bounds come from comparisons with an eighth of the step (`docs/measurements.md`).
 
 use std::fmt;
 
@@ -27,8 +27,8 @@ pub const ENERGY_ERROR_BOUNDS: [f64; 2] = [0.50, 0.62];
 /// Ratio of numerical damping to the energy dissipated, from which the motion is degraded and poor, provided that it
 /// reaches [`NUMERICAL_COUNTS_FROM`] of the energy error too.
 pub const NUMERICAL_DAMPING_BOUNDS: [f64; 2] = [0.22, 0.285];
-/// Part of the energy error from which numerical damping counts: less of it only removes the energy that errors feed in,
-/// more of it damps the motion itself.
+/// Part of the energy error from which numerical damping counts: less of it only removes the energy that errors feed
+/// in, more of it damps the motion itself.
 pub const NUMERICAL_COUNTS_FROM: f64 = 0.7;
 
 /// Dissipated power below which the tool does not vibrate (W).
@@ -102,8 +102,8 @@ pub struct ModelQuality {
     pub value: f64,
     /// The bound of this share, which it reached, or below which it has not stayed long enough.
     pub bound: f64,
-    /// Over the window: sum of the magnitudes of the steps' work against the laws, over the energy that contact, Rayleigh
-    /// and numerical damping dissipated.
+    /// Over the window: sum of the magnitudes of the steps' work against the laws, over the energy that contact,
+    /// Rayleigh and numerical damping dissipated.
     pub energy_error_share: f64,
     /// Over the window: part of the dissipated energy that is numerical damping's.
     pub numerical_share: f64,

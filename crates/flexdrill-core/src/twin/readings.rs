@@ -102,7 +102,8 @@ impl Simulation {
         Some(self.touch(station, body)?.is_some())
     }
 
-    /// Power that friction takes now (W, >= 0): of the pipe on the guide, or of the guide on the wall; 0 without contact.
+    /// Power that friction takes now (W, >= 0): of the pipe on the guide, or of the guide on the wall; 0 without
+    /// contact.
     pub fn friction_power(&self, station: usize, body: Body) -> Option<f64> {
         Some(self.touch(station, body)?.map_or(0.0, |touch| touch.friction_power))
     }

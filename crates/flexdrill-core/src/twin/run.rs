@@ -92,8 +92,8 @@ impl Run {
         }
     }
 
-    /// Lets `applied` act from the next step on; its `step` is ignored. The values come from a checked configuration and
-    /// are not checked again; a coefficient that is NaN makes the next step fail.
+    /// Lets `applied` act from the next step on; its `step` is ignored. The values come from a checked configuration
+    /// and are not checked again; a coefficient that is NaN makes the next step fail.
     pub fn apply(&mut self, applied: &RunInputs) {
         if applied.reset {
             self.before_reset += self.simulation.step();
@@ -140,8 +140,8 @@ impl Run {
         self.applied.schedule.due(self.simulation.step())
     }
 
-    /// Fills a frame with the present state, without allocating. The caller captures one frame whenever an output is due,
-    /// since a frame can end the interval of the statistics.
+    /// Fills a frame with the present state, without allocating. The caller captures one frame whenever an output is
+    /// due, since a frame can end the interval of the statistics.
     pub fn capture(&mut self, frame: &mut Frame) {
         let step = self.simulation.step();
         frame.ends_interval = self.applied.schedule.ends_interval(step);

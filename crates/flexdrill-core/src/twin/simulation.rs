@@ -219,8 +219,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Divides every step into 2^`refinement` equal parts from the next one on, at most four. The motion changes as with
-    /// another step; inputs, samples and outputs keep the model step.
+    /// Divides every step into 2^`refinement` equal parts from the next one on, at most four. The motion changes as
+    /// with another step; inputs, samples and outputs keep the model step.
     pub fn set_refinement(&mut self, refinement: u32) {
         self.stepper.set_refinement(refinement);
         self.observer.set_refinement(self.stepper.refinement());
@@ -267,7 +267,8 @@ impl Simulation {
     /// Resets the motion to the state after the start; live parameters and slew limits stay.
     pub fn reset(&mut self) {
         let inputs = self.settings.initial_inputs;
-        // A tool that starts from rest is run up from standstill; one that starts in motion is driven at its speed at once.
+        // A tool that starts from rest is run up from standstill; one that starts in motion is driven at its speed at
+        // once.
         let rotary_speed = if self.stepper.model().description.static_start {
             0.0
         } else {

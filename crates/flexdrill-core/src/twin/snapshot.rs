@@ -156,8 +156,9 @@ pub struct Bit {
     pub stick_slip: Severity,
 }
 
-/// The forces on the tool from outside, in the world frame (X horizontal in the build's direction, Y horizontal, Z down).
-/// The sums of forces and [`Reactions::inertia`] and [`Reactions::damping`] balance but for [`Reactions::unbalance`].
+/// The forces on the tool from outside, in the world frame (X horizontal in the build's direction, Y horizontal, Z
+/// down). The sums of forces and [`Reactions::inertia`] and [`Reactions::damping`] balance but for
+/// [`Reactions::unbalance`].
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Reactions {

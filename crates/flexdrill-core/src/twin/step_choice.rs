@@ -1,9 +1,9 @@
 //! Choice of the step's refinement, from the energy error of the steps.
 //!
 //! The model step stays constant, and with it every grid of inputs, samples and outputs; it is divided into 2^n equal
-//! parts. The refinement that the motion needs is a function of the motion alone. The refinement in force is an input of
-//! the run ([`RunInputs::refinement`](super::RunInputs)), so that a recording replays to the bit: live, the machine may
-//! be too slow for the one that is needed.
+//! parts. The refinement that the motion needs is a function of the motion alone. The refinement in force is an input
+//! of the run ([`RunInputs::refinement`](super::RunInputs)), so that a recording replays to the bit: live, the machine
+//! may be too slow for the one that is needed.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,8 +18,9 @@ pub enum StepRule {
     Auto,
 }
 
-/// Refinement at the start, to which a run returns: half steps. Its pipe-guide forces are 1 to 4 % off those of an eighth, a
-/// whole step's 3 to 6 % (`docs/measurements.md`), and the machine usually has time for the more accurate ones.
+/// Refinement at the start, to which a run returns: half steps. Its pipe-guide forces are 1 to 4 % off those of an
+/// eighth, a whole step's 3 to 6 % (`docs/measurements.md`), and the machine usually has time for the more accurate
+/// ones.
 const USUAL: u32 = 1;
 
 /// Share of the energy error from which the next finer step is needed: half above the 0.18 to 0.21 of half steps in the

@@ -572,8 +572,8 @@ pub fn circle(radius: f64, rate: f64, random: &mut Random) -> Ellipse {
     }
 }
 
-/// Flights of 50 to 150 degrees that go round at `rate` (rad/s) in the mean, each as long as its share of it, and contacts
-/// in between that take 2 to 30 % of the time and roll on at the same rate.
+/// Flights of 50 to 150 degrees that go round at `rate` (rad/s) in the mean, each as long as its share of it, and
+/// contacts in between that take 2 to 30 % of the time and roll on at the same rate.
 fn bouncing(rate: f64, duration: f64, random: &mut Random) -> Motion {
     let duty = random.within(0.02, 0.3);
     let (mut time, mut angle) = (0.0, random.within(0.0, TAU));

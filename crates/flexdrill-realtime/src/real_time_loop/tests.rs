@@ -393,8 +393,8 @@ fn what_is_set_before_the_first_tick_acts_on_the_first_step() {
     assert_eq!(first.1, 2 * room as u64);
 }
 
-/// A simulated clock that is set to another year and back: the model goes on from where it is, nothing counts as missed,
-/// and stamps are those of the clock again.
+/// A simulated clock that is set to another year and back: the model goes on from where it is, nothing counts as
+/// missed, and stamps are those of the clock again.
 #[test]
 fn a_clock_that_is_set_leaves_the_model_and_takes_the_stamps_along() {
     const FORGED: u64 = 2_147_400_000_000 * MS;

@@ -1,4 +1,5 @@
-//! All contacts of a layer. The gap law runs over eight closed gaps at a time: stations queue until eight lanes are full.
+//! All contacts of a layer. The gap law runs over eight closed gaps at a time: stations queue until eight lanes are
+//! full.
 
 use std::ops::Range;
 
@@ -79,8 +80,8 @@ impl LayerContacts {
         }
     }
 
-    /// Queues the closed gap of a station with its motion, the velocity in six lanes, see [`GapLaw::touch`]. Contacts are
-    /// complete after [`LayerContacts::finish`].
+    /// Queues the closed gap of a station with its motion, the velocity in six lanes, see [`GapLaw::touch`]. Contacts
+    /// are complete after [`LayerContacts::finish`].
     #[inline(always)]
     pub(crate) fn push<V: Vector>(
         &mut self,

@@ -93,8 +93,8 @@ mod tests {
         layer.begin();
         assert_eq!(slide(&mut layer, 0.1), exact(0.1));
         let [friction, slope] = slide(&mut layer, -0.1);
-        // A correction from 0.1 to -0.1 m/s changes the friction by twice the full one; the exact slope, at ten widths on
-        // either side, knows of a hundredth of it.
+        // A correction from 0.1 to -0.1 m/s changes the friction by twice the full one; the exact slope, at ten widths
+        // on either side, knows of a hundredth of it.
         assert_eq!(friction, exact(-0.1)[0]);
         let chord = (exact(-0.1)[0] - exact(0.1)[0]).abs() / 0.2;
         assert!(slope > chord && slope < 2.0 * chord, "{slope} against {chord}");

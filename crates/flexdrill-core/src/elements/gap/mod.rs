@@ -63,11 +63,11 @@ pub struct Touch<N = f64> {
     slip: [Slip<N>; 2],
 }
 
-/// The derivative of a gap's force as four dyads: the force changes by minus the sum of `on` times (`by` . motion). Kept
-/// in this form, a tangent costs four products with the nodes' directions instead of a 6 x 6 matrix.
+/// The derivative of a gap's force as four dyads: the force changes by minus the sum of `on` times (`by` . motion).
+/// Kept in this form, a tangent costs four products with the nodes' directions instead of a 6 x 6 matrix.
 ///
-/// Local directions with n and t of [`Touch`]: `normal` (0, n, 0, 0, 0), `tangent` (0, t, 0, 0, 0), `around` (0, t, 1, 0,
-/// 0), `along` (1, 0, 0, 0, n_z, -n_y), `tilt` (0, 0, 0, 0, n_y, n_z).
+/// Local directions with n and t of [`Touch`]: `normal` (0, n, 0, 0, 0), `tangent` (0, t, 0, 0, 0), `around` (0, t, 1,
+/// 0, 0), `along` (1, 0, 0, 0, n_z, -n_y), `tilt` (0, 0, 0, 0, n_y, n_z).
 #[derive(Debug, Clone, Copy)]
 pub struct GapTangent {
     /// The normal n.

@@ -142,8 +142,8 @@ impl<M> JointLaw<M> {
     }
 
     /// a_y(a) . a_z(b) - a_z(a) . a_y(b) = 0, a constant-velocity joint: the turn from one end to the other is about an
-    /// axis normal to the bisector of the two shafts, so that the spins are equal at any bend and in any frame. Its moment
-    /// lies along that bisector.
+    /// axis normal to the bisector of the two shafts, so that the spins are equal at any bend and in any frame. Its
+    /// moment lies along that bisector.
     #[inline(always)]
     fn equal_spin_row<T: Number<Memory = M>>(&self, q: &[T; 6], row: &mut RotationFunction<M>) {
         let axes = |psi: T, y: T, z: T| {

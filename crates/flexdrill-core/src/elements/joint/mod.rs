@@ -96,8 +96,8 @@ mod tests {
     use super::*;
     use crate::tool::{frame_along, tangent};
 
-    /// With the angle as built, the undeflected joint satisfies its row at any bend. After half a turn the bend points to
-    /// the other side, and the row is off by twice its cosine.
+    /// With the angle as built, the undeflected joint satisfies its row at any bend. After half a turn the bend points
+    /// to the other side, and the row is off by twice its cosine.
     #[test]
     fn a_hinge_as_built_fits_once_per_turn() {
         let bend = 0.05_f64;

@@ -38,8 +38,8 @@ pub struct Stop<M> {
 }
 
 impl<M> JointLaw<M> {
-    /// Bend angle minus the limit (rad), from the sine and cosine of the bend angle. Only the sign of a negative result is
-    /// valid: an open stop needs no more.
+    /// Bend angle minus the limit (rad), from the sine and cosine of the bend angle. Only the sign of a negative result
+    /// is valid: an open stop needs no more.
     #[inline(always)]
     fn angle_past_limit<T: Number<Memory = M>>(&self, sine: T, cosine: T) -> T {
         let (limit_sine, limit_cosine) = (T::load(&self.limit_sine), T::load(&self.limit_cosine));
@@ -58,9 +58,9 @@ impl<M> JointLaw<M> {
         sum * of_sine
     }
 
-    /// Evaluates the stop at rotations `q` and rates `rate`: M = k (angle - limit)(1 + c angle') >= 0, continuous at onset
-    /// (third row of Eq. 13 as an inequality). Returns whether the stop of some joint in `T` is shut. If none is, which is
-    /// the usual case, `stop` stays unchanged.
+    /// Evaluates the stop at rotations `q` and rates `rate`: M = k (angle - limit)(1 + c angle') >= 0, continuous at
+    /// onset (third row of Eq. 13 as an inequality). Returns whether the stop of some joint in `T` is shut. If none is,
+    /// which is the usual case, `stop` stays unchanged.
     #[inline(always)]
     pub fn stop<T: Number<Memory = M>>(&self, q: &[T; 6], rate: &[T; 6], stop: &mut Stop<M>) -> bool {
         let relative = self.relative::<T>();
