@@ -1,4 +1,4 @@
-//! Holds values against their bounds and collects what is wrong, with the place in the file.
+//! Checks values against their bounds and collects the problems, with their lines in the file.
 
 use schemars::Schema;
 use schemars::transform::Transform;
@@ -31,8 +31,6 @@ impl Transform for InSchema {
             }
         };
         if let Some(low) = number(self.0.low) {
-            // An unsigned type brings a minimum of 0 with it.
-            schema.remove("minimum");
             let name = if self.0.low_is_in {
                 "minimum"
             } else {
@@ -101,7 +99,7 @@ impl Bound {
     }
 }
 
-/// A numeric key of the configuration with its limits, for those who describe it to others (ROS parameters).
+/// A numeric key of the configuration with its limits, for descriptions of it (ROS parameters).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NumberKey {
     /// Dotted path.
@@ -116,7 +114,7 @@ pub struct NumberKey {
     pub low_is_in: bool,
     /// Empty if dimensionless.
     pub unit: &'static str,
-    /// Why these limits.
+    /// Reason of the limits.
     pub reason: &'static str,
 }
 
@@ -131,7 +129,7 @@ pub struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Nothing found yet in `file`, whose keys stand on `lines`.
+    /// A checker without problems, for `file`, whose keys are on `lines`.
     pub fn new(file: &'a str, lines: &'a Lines) -> Self {
         Self {
             file,
@@ -156,14 +154,14 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Everything checked in `inside` is below `key`.
+    /// Runs `inside` with paths below `key`.
     pub fn below(&mut self, key: impl ToString, inside: impl FnOnce(&mut Self)) {
         self.path.push(key.to_string());
         inside(self);
         self.path.pop();
     }
 
-    /// A number against its limits. NaN and infinities never hold.
+    /// Checks a number against its limits. NaN and infinities never hold.
     pub fn number(&mut self, key: &str, value: f64, bound: Bound, unit: &'static str, reason: &'static str) {
         if !bound.holds(value) {
             self.wrong(key, number(value), unit, bound.words(unit), reason);
@@ -179,7 +177,7 @@ impl<'a> Checker<'a> {
         });
     }
 
-    /// A count against its limits.
+    /// Checks a count against its limits.
     pub fn count(&mut self, key: &str, value: usize, bound: Bound, reason: &str) {
         if !bound.holds(value as f64) {
             self.wrong(key, value, "", bound.words(""), reason);
@@ -201,7 +199,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a value.
+    /// Reports a wrong value.
     pub fn wrong(&mut self, key: &str, value: impl ToString, unit: &'static str, bound: impl ToString, reason: &str) {
         let key = self.path_of(key);
         let (line, exact) = self.lines.find(&key);
@@ -229,7 +227,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// A number as a person would write it: plain near one, with an exponent far from it.
+/// A number in readable form: plain near one, with an exponent far from it.
 pub fn number(value: f64) -> String {
     let size = value.abs();
     if value != 0.0 && value.is_finite() && !(1e-4..1e7).contains(&size) {

@@ -1,4 +1,4 @@
-//! Numbers that follow from a configuration.
+//! Quantities derived from a configuration.
 
 use super::Config;
 use std::f64::consts::PI;
@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use flexdrill_core::tool::{JointKind, SectionProperties};
 use flexdrill_core::units::rad_to_deg;
 
-/// How large the system is, held directions included.
+/// Size of the system, held directions included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unknowns {
     /// Nodes of the flexible pipe: two at a joint.
@@ -60,8 +60,8 @@ impl Config {
         (self.tool.guide.inner_diameter - contact.into_iter().fold(0.0, f64::max)) / 2.0
     }
 
-    /// How long the lightest node of the pipe that strikes the guide by itself stays in contact (s): half a period of
-    /// its mass on the contact's spring.
+    /// Duration of the contact (s) when the lightest single node of the pipe strikes the guide: half a period of its
+    /// mass on the contact's spring.
     pub fn contact_duration(&self) -> f64 {
         let elements = self.tool.elements_per_link;
         let length = self.link_length() / elements as f64;

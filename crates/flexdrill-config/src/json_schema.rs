@@ -27,7 +27,7 @@ fn without_noise(value: &mut Value) {
     match value {
         Value::Object(map) => {
             if map.get("format").is_some_and(|format| format == "double") {
-                map.remove("format");
+                map.shift_remove("format");
             }
             if let Some(Value::String(text)) = map.get_mut("description") {
                 *text = joined(text);

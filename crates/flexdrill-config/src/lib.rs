@@ -5,8 +5,8 @@
 //! given; every other key has the default that its field documents. What is out of bounds is reported with file, line,
 //! key, value, bound and unit, all problems at once.
 //!
-//! The plain structs here are the schema; [`Config`] is a checked whole of them and cannot be changed but by
-//! [`Config::with_value`], which checks again.
+//! The plain structs here are the schema. A [`Config`] is a checked [`Schema`]; only [`Config::with_value`] changes it,
+//! and checks it again.
 
 mod alarms;
 mod boundary;
@@ -230,13 +230,13 @@ impl Config {
         let mut schema = self.schema.clone();
         for (key, value) in values {
             let (key, value) = (key.as_ref(), value.into());
-            let place = tree
+            let node = tree
                 .pointer_mut(&pointer(key))
                 .ok_or_else(|| ConfigError::UnknownKey { key: key.to_string() })?;
-            let wanted = kind(place);
+            let wanted = kind(node);
             let mistyped = wanted != kind(&value);
-            *place = value.clone();
-            // One by one, so that the error names the key: the types do not tell by themselves.
+            *node = value.clone();
+            // One value at a time, so that the error names the key; an error of the types has no key.
             schema = Schema::deserialize(&tree).map_err(|error| ConfigError::WrongType {
                 key: key.to_string(),
                 value: value.to_string(),
@@ -257,7 +257,7 @@ impl Config {
 
     /// All values by their keys.
     pub fn to_tree(&self) -> Value {
-        // Plain numbers, text and lists: this does not fail, and an empty tree would only mean that no key is known.
+        // Serializing plain numbers, text and lists cannot fail; with an empty tree no key would be known.
         serde_json::to_value(&self.schema).unwrap_or(Value::Null)
     }
 
@@ -345,7 +345,7 @@ impl Config {
     /// The complete configuration, defaults included; reads back to an equal one.
     ///
     /// # Errors
-    /// When the serializer fails, which a checked configuration gives no cause for.
+    /// When the serializer fails, which it does not for a checked configuration.
     pub fn to_yaml(&self) -> Result<String, serde_saphyr::SerializeError> {
         serde_saphyr::to_string(&self.schema)
     }
@@ -354,7 +354,7 @@ impl Config {
     /// written-out defaults.
     pub fn hash(&self) -> String {
         let mut hasher = Sha256::new();
-        // JSON of plain numbers, strings and lists: it cannot fail, and if it did the hash would only be less telling.
+        // Serializing plain numbers, strings and lists cannot fail; if it did, hashes would coincide.
         hasher.update(serde_json::to_vec(&self.schema).unwrap_or_default());
         hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }
@@ -428,7 +428,7 @@ fn pointer(key: &str) -> String {
     format!("/{}", key.replace('.', "/"))
 }
 
-/// What a value is, as an error says it.
+/// The kind of a value, for error messages.
 fn kind(value: &Value) -> &'static str {
     match value {
         Value::Null => "left out",

@@ -1,4 +1,4 @@
-//! Places along the tool, as `supports`, `loads` and `masses` name them.
+//! Locations along the tool in `supports`, `loads` and `masses`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

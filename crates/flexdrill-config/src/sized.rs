@@ -1,18 +1,18 @@
-//! The same tool with another number of links, to see how its cost grows.
+//! The same tool with another number of links, to measure how its cost grows.
 
 use super::{Config, ConfigError, Section};
 use flexdrill_core::units::rad_to_deg;
 
-/// Shortest piece of the path worth a section (m); less is rounding.
+/// Shortest section of the path (m); shorter rests are rounding.
 const SHORTEST: f64 = 1e-9;
 
 impl Config {
-    /// A copy with `links` links of the same length. The path keeps its beginning: a shorter tool ends earlier in it, a
-    /// longer one goes on straight below it, as a lateral does behind the curve. So every size has links of the same
-    /// length, mesh and joints, and as much of the curve as it can fill.
+    /// A copy with `links` links of the same length. The path keeps its start: a shorter tool ends earlier in it, a
+    /// longer one continues straight after it, like a lateral after the curve. Every size therefore has links of the
+    /// same length, mesh and joints, and as much of the curve as it can fill.
     ///
     /// # Errors
-    /// When the result does not make sense: no links, or loads and supports at places that are no more.
+    /// When the result is invalid: no links, or loads and supports at locations that do not exist any longer.
     pub fn with_links(&self, links: usize) -> Result<Self, ConfigError> {
         let mut schema = self.schema.clone();
         let whole = schema.well.length();
@@ -31,7 +31,7 @@ impl Config {
     }
 }
 
-/// As much of a section as fits into what is `left` (m), which becomes less.
+/// The start of a section that fits into the length `left` (m), which is reduced by it.
 fn begin_of(section: &Section, left: &mut f64) -> Option<Section> {
     if *left <= SHORTEST {
         return None;

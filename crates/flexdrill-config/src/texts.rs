@@ -1,4 +1,4 @@
-//! What every key means, by its dotted name: the texts of the JSON Schema, for those who describe keys to others.
+//! The meaning of every key, by its dotted name: the texts of the JSON Schema, for parameter descriptions.
 
 use std::collections::BTreeMap;
 
@@ -11,12 +11,12 @@ use super::json_schema::json_schema;
 pub fn key_texts() -> BTreeMap<String, String> {
     let schema = json_schema();
     let mut keys = Vec::new();
-    walk(&schema, &schema, &Place::default(), &mut Vec::new(), &mut keys);
+    walk(&schema, &schema, &Position::default(), &mut Vec::new(), &mut keys);
     let mut count: BTreeMap<&str, usize> = BTreeMap::new();
     for key in &keys {
         *count.entry(&key.text).or_default() += 1;
     }
-    // Sections that several others share: the section says which one is meant.
+    // Keys of shared sections have equal texts; the text of the section distinguishes them.
     let texts = keys.iter().map(|key| match count.get(key.text.as_str()) {
         Some(2..) => (key.name.clone(), format!("{} {}", key.section, key.text)),
         _ => (key.name.clone(), key.text.clone()),
@@ -31,22 +31,22 @@ struct Key {
     section: String,
 }
 
-/// Where the walk is: the dotted name and the text of the section.
+/// Position of the walk: the dotted name and the text of the section.
 #[derive(Default)]
-struct Place {
+struct Position {
     path: String,
     text: String,
 }
 
-fn walk(root: &Value, schema: &Value, place: &Place, above: &mut Vec<*const Value>, keys: &mut Vec<Key>) {
-    // Definitions that hold themselves would have no end.
+fn walk(root: &Value, schema: &Value, at: &Position, above: &mut Vec<*const Value>, keys: &mut Vec<Key>) {
+    // A definition that contains itself would never end.
     if above.contains(&std::ptr::from_ref(schema)) {
         return;
     }
     above.push(std::ptr::from_ref(schema));
     for (key, value) in properties(schema).into_iter().flatten() {
         let target = resolved(root, value);
-        let name = match place.path.as_str() {
+        let name = match at.path.as_str() {
             "" => key.clone(),
             path => format!("{path}.{key}"),
         };
@@ -55,19 +55,19 @@ fn walk(root: &Value, schema: &Value, place: &Place, above: &mut Vec<*const Valu
             // The only key of a form is described by the form.
             text = described(root, schema, schema);
         }
-        let below = Place {
+        let below = Position {
             path: name.clone(),
             text: text.clone(),
         };
         keys.push(Key {
             name,
             text,
-            section: place.text.clone(),
+            section: at.text.clone(),
         });
         walk(root, target, &below, above, keys);
     }
     for form in forms(schema) {
-        walk(root, resolved(root, form), place, above, keys);
+        walk(root, resolved(root, form), at, above, keys);
     }
     above.pop();
 }

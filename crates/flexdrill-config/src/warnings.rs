@@ -1,15 +1,15 @@
-//! What is allowed but probably not meant.
+//! Warnings about values that are allowed but probably unintended.
 
 use super::{Config, HardBounds};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
-/// Steps that a collision of pipe and guide must last at least: the default tool's lasts 1.5 and is right, at 0.99 its
-/// motion is not, nor that of a stiffer contact at 0.85 (`docs/measurements.md`, model quality). The guide lies on the
-/// wall rather than striking it: contacts of 0.3 steps there did no harm.
+/// Smallest duration of a collision of pipe and guide, in steps. The default tool's lasts 1.5 steps and is accurate; at
+/// 0.99 its motion is not, nor that of a stiffer contact at 0.85 (`docs/measurements.md`, model quality). The guide
+/// rests on the wall and does not strike it: contacts of 0.3 steps there did no harm.
 const FEWEST_STEPS: f64 = 1.1;
 
 impl Config {
-    /// Sentences for a person, most important first; empty when there is nothing to say.
+    /// Warnings as sentences, most important first.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         self.warn_of_joint_limit(&mut warnings);
@@ -65,7 +65,7 @@ impl Config {
                 "tool.joint.limit_deg {limit} deg is not above the {needed:.2} deg that each joint must take in the arc: all stops carry load from the start; take more links or a larger limit"
             ));
         }
-        // A link that leans from one side of the gap to the other bends both its joints.
+        // A link that lies diagonally in the gap bends both its joints.
         let lean = rad_to_deg((2.0 * self.inner_clearance() / self.link_length()).atan());
         if limit > needed + 2.0 * lean && limit < 45.0 {
             warnings.push(format!(

@@ -77,3 +77,59 @@ fn a_speed_that_is_measured_downhole_is_followed_faster() {
     let error = config.with_value("inputs.rotary_speed.measured", "bit").unwrap_err();
     assert!(error.to_string().contains("inputs.rotary_speed.measured"), "{error}");
 }
+
+/// Every number of the sections that describe tool and simulation reaches the mechanics: no field is forgotten where
+/// the schema is translated, which the compiler does not check for structures that may grow.
+#[test]
+fn every_number_reaches_the_mechanics() {
+    fn numbers(value: &serde_json::Value, path: String, into: &mut Vec<(String, f64)>) {
+        match value {
+            serde_json::Value::Object(map) => {
+                for (key, value) in map {
+                    numbers(value, format!("{path}.{key}"), into);
+                }
+            }
+            serde_json::Value::Number(number) => into.push((path, number.as_f64().unwrap())),
+            _ => {}
+        }
+    }
+    let config = Config::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config/default.yaml")).unwrap();
+    let described = |config: &Config| (config.tool(), config.simulation(), config.unknowns());
+    let before = described(&config);
+    let tree = config.to_tree();
+    let (mut changed, mut refused) = (0, Vec::new());
+    for section in [
+        "well",
+        "tool",
+        "contact",
+        "environment",
+        "solver",
+        "whirl",
+        "stick_slip",
+        "shock",
+        "joint_load",
+        "chaotic_whirl",
+    ] {
+        let mut keys = Vec::new();
+        numbers(&tree[section], section.to_owned(), &mut keys);
+        for (key, value) in keys {
+            let is_count = !tree.pointer(&format!("/{}", key.replace('.', "/"))).unwrap().is_f64();
+            // Small changes, up or down, that the bounds of most keys allow.
+            let candidates = [1.01 * value + 1e-4, 0.99 * value - 1e-4].map(serde_json::Value::from);
+            let counts = [value as i64 + 1, value as i64 - 1].map(serde_json::Value::from);
+            let candidates = if is_count { counts } else { candidates };
+            let Some(other) = candidates
+                .into_iter()
+                .find_map(|value| config.with_value(&key, value).ok())
+            else {
+                refused.push(key);
+                continue;
+            };
+            assert_ne!(described(&other), before, "{key} has no effect on tool or simulation");
+            changed += 1;
+        }
+    }
+    assert!(changed > 60, "{changed}");
+    // Only with `scheme: newmark`.
+    assert_eq!(refused, ["solver.gamma"]);
+}

@@ -8,7 +8,7 @@ use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::Simulation;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
-/// What is run: a configuration at constant inputs, from rest.
+/// A configuration at constant inputs, from rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
     /// Tool, well, solver.
@@ -17,19 +17,20 @@ pub struct Case {
     pub rotary_speed_rpm: f64,
     /// Weight on bit (kN), on from the start.
     pub weight_on_bit_kn: f64,
-    /// Turns of the drive at full speed before recording: what the run-up has stirred has died down.
+    /// Turns of the drive at full speed before recording, in which the vibration of the run-up decays.
     pub settling_turns: f64,
     /// Turns recorded.
     pub turns: f64,
     /// Samples per second; rounded to whole steps.
     pub sample_rate: f64,
-    /// Gives up when steps take too many iterations; for the search, which must not spend its time on one tool.
+    /// Whether the run ends early when steps take too many iterations, so that a search does not spend its time on one
+    /// tool.
     pub impatient: bool,
 }
 
 /// Rotary speed of the paper (r/min), for configurations that begin at rest.
 const PAPER_RPM: f64 = 40.0;
-/// Weight on bit (kN) where the configuration gives none.
+/// Weight on bit (kN) where the configuration has none.
 const USUAL_KN: f64 = 10.0;
 /// Steps before [`Case::impatient`] judges.
 const PATIENCE: u64 = 400;
@@ -58,7 +59,7 @@ impl Case {
     }
 }
 
-/// Runs a case; `progress` gets the model time (s) now and then.
+/// Runs a case; `progress` receives the model time (s) at intervals.
 ///
 /// # Errors
 /// When the configuration is refused, a step fails, or the energy audit does.

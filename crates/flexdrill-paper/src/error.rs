@@ -1,4 +1,4 @@
-//! Why the paper's case could not be run or shown.
+//! Errors of the paper's case.
 
 use std::path::PathBuf;
 
@@ -15,10 +15,10 @@ pub const ENERGY_LIMIT: f64 = 0.01;
 /// Newton iterations per step from which a run of the search is given up: healthy ones take two to four.
 pub const ITERATION_LIMIT: u64 = 8;
 
-/// Why the paper's case could not be run or shown.
+/// Why the paper's case could not be run or drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperError {
-    /// The configuration, or a value put into it, is refused.
+    /// The configuration, or a changed value in it, is refused.
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// The tool cannot be built or started.
@@ -50,7 +50,7 @@ pub enum PaperError {
         /// Steps so far.
         steps: u64,
     },
-    /// The energy audit failed: the motion may be the integration's, not the tool's.
+    /// The energy audit failed: errors of the integration may dominate the motion.
     #[error(
         "paper: energy audit failed: error {error:.3e} J is {:.2} % of the drive's work of {drive:.3e} J, limit {} %. \
          No figure is drawn from such a run; use a smaller solver.time_step",

@@ -1,4 +1,4 @@
-//! Writing what a run gives into a folder.
+//! Writing the results of a run into a folder.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), PaperError> {
     })
 }
 
-/// Draws figures and writes each as SVG, PNG and CSV; gives them back with their drawings.
+/// Draws figures and writes each as SVG, PNG and CSV; returns them with their drawings.
 ///
 /// # Errors
 /// When a figure cannot be drawn or a file cannot be written.

@@ -1,4 +1,4 @@
-//! Lateral motion of one pipe: how far it moves where, which way it turns, how broken its shape is.
+//! Lateral motion of one pipe: its amplitude along the tool, its direction of whirl, and the kinks of its shape.
 
 use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
 use flexdrill_core::tool::Body;
@@ -6,10 +6,10 @@ use flexdrill_core::tool::Body;
 use super::record::{Axis, Record};
 use super::series::{spread, two_peaks};
 
-/// Least distance between the two places of largest displacement (rad): ten degrees, three or four links.
+/// Smallest distance between the two stations of largest displacement (rad): ten degrees, three or four links.
 const APART: f64 = 0.1745;
 
-/// Whirl at one place over the record.
+/// Whirl at one station over the record.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Whirl {
     /// Part of the judgements that said forward, 0 to 1.
@@ -124,7 +124,7 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
     let mut report = WhirlReport::default();
     let mut found = vec![Whirl::default(); n];
     let every = ((settings.evaluation_interval / record.interval).round() as usize).max(1);
-    // Nothing is said before half of the window is filled.
+    // The analysis has no result before half of the window is filled.
     let first = record
         .time
         .len()
@@ -174,7 +174,7 @@ fn kinks(record: &Record, axis: &Axis, body: Body) -> (f64, f64) {
         Body::Guide => 0.0,
     };
     let (mut at_joints, mut all, mut count) = (0.0, 0.0, 0.0);
-    // Ten shapes per turn are as good as all.
+    // Ten shapes per turn suffice.
     let every = ((0.1 * record.turn() / record.interval) as usize).max(1);
     for sample in (0..record.time.len()).step_by(every) {
         for s in 1..n.saturating_sub(1) {

@@ -1,4 +1,4 @@
-//! What the figures need of a run: sampled series at every station, and sums over every step.
+//! The record of a run for the figures: sampled series at every station, and sums over every step.
 
 use flexdrill_core::dynamics::EnergyAudit;
 use flexdrill_core::tool::{Body, Direction};
@@ -42,20 +42,20 @@ impl Series {
     }
 }
 
-/// Where things are; constant.
+/// Constant geometry of the stations.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Stations {
     /// Measured depth (m).
     pub depth: Vec<f64>,
     /// Inclination (rad).
     pub inclination: Vec<f64>,
-    /// Whether a joint is here.
+    /// Whether the station has a joint.
     pub joint: Vec<bool>,
     /// Point on the bore's axis: horizontal, down (m).
     pub position: Vec<[f64; 2]>,
     /// Towards the low side: horizontal, down.
     pub low_side: Vec<[f64; 2]>,
-    /// Where the undeflected pipe lies: y, z (m).
+    /// Lateral position of the undeflected pipe: y, z (m).
     pub offset: Vec<[f64; 2]>,
     /// Clearance between pipe and guide (m).
     pub inner_clearance: Vec<f64>,
@@ -121,7 +121,7 @@ pub struct Axis {
     pub z: Series,
     /// Spin rate (rad/s).
     pub spin: Series,
-    /// Acceleration along x, y, z (m/s2): the value of largest size since the sample before.
+    /// Acceleration along x, y, z (m/s2): the value of largest magnitude since the last sample.
     pub acceleration: [Series; 3],
     /// Mean square of the acceleration over all steps (m2/s4), per direction and station.
     pub acceleration_square: [Vec<f64>; 3],
@@ -130,9 +130,9 @@ pub struct Axis {
 /// Normal contact force of one layer of gaps.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Layer {
-    /// Mean since the sample before (N).
+    /// Mean since the last sample (N).
     pub mean: Series,
-    /// Largest since the sample before (N).
+    /// Largest since the last sample (N).
     pub peak: Series,
     /// Mean square over all steps (N2), per station.
     pub square: Vec<f64>,
@@ -143,7 +143,7 @@ pub struct Layer {
 /// A recorded run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Record {
-    /// Places.
+    /// Geometry of the stations.
     pub stations: Stations,
     /// Time between samples (s).
     pub interval: f64,
@@ -163,7 +163,7 @@ pub struct Record {
     pub drive_torque: Vec<f64>,
     /// Energy from the start of the run to its end.
     pub energy: EnergyAudit,
-    /// What the solver did.
+    /// Counters of the solver.
     pub solver: SolverCounters,
     /// Steps of the whole run.
     pub steps: u64,
@@ -297,7 +297,7 @@ impl Recorder {
         self.outer.sample(&mut record.outer, self.per_sample);
     }
 
-    /// The record, with the account of the whole run.
+    /// The record, with energy and counters of the whole run.
     pub fn finish(mut self, simulation: &Simulation) -> Record {
         let share = 1.0 / self.steps.max(1) as f64;
         let scale = |values: &mut Vec<f64>| values.iter_mut().for_each(|value| *value *= share);

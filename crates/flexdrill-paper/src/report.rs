@@ -1,4 +1,4 @@
-//! The report: findings, settings and what makes the numbers trustworthy, as Markdown and as one self-contained page.
+//! The report: findings, settings and quality figures, as Markdown and as one self-contained page.
 
 use std::fmt::Write;
 
@@ -8,9 +8,9 @@ use super::findings::{Finding, Verdict, score};
 use super::hinge::Hinge;
 use super::{Case, Record};
 
-/// What is reported.
+/// Contents of the report.
 pub struct Report<'a> {
-    /// What was run.
+    /// The case.
     pub case: &'a Case,
     /// Its record.
     pub record: &'a Record,
@@ -31,7 +31,7 @@ struct Table {
 }
 
 impl Report<'_> {
-    /// As Markdown; figures are linked as PNG beside it.
+    /// The report as Markdown, with links to PNG figures in the same folder.
     pub fn markdown(&self) -> String {
         let mut out = format!("# {}\n\n{}\n", self.heading(), self.summary());
         for (title, text, table) in self.sections() {

@@ -20,12 +20,12 @@ pub(super) fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     })
 }
 
-/// What repeats in a series.
+/// Period of a series.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Period {
-    /// s; 0 where nothing repeats.
+    /// Period (s); 0 if the series does not repeat.
     pub period: f64,
-    /// Autocorrelation at that lag: 1 repeats exactly, 0 not at all.
+    /// Autocorrelation at that lag: 1 for an exact repetition, 0 for none.
     pub strength: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Drawing a figure as SVG.
 //!
-//! plotters places everything on whole units; so the drawing is [`SCALE`] times as large as it says, which leaves
-//! curves smooth.
+//! plotters rounds coordinates to whole units. The drawing is therefore [`SCALE`] times as large as its stated size,
+//! which keeps curves smooth.
 
 use std::sync::OnceLock;
 
@@ -16,7 +16,7 @@ use super::panel::{Figure, Legend, Line, Mark, Panel};
 pub(crate) const SCALE: u32 = 4;
 /// Width of a drawing.
 pub(crate) const WIDTH: u32 = 1080 * SCALE;
-/// The font's file; so a figure is laid out alike everywhere. `font/README.md` says where it is from.
+/// The font, so that figures have the same layout on every machine. `font/README.md` has its source.
 pub(crate) const FONT: &[u8] = include_bytes!("font/Roboto-Regular.ttf");
 /// Its name.
 pub(crate) const FONT_FAMILY: &str = "Roboto";
@@ -51,7 +51,7 @@ pub struct DrawError {
 /// The figure as SVG, 1080 units wide.
 ///
 /// # Errors
-/// When the drawing library fails, which finite data gives no cause for.
+/// When the drawing library fails, which it does not for finite data.
 pub fn svg(figure: &Figure) -> Result<String, DrawError> {
     static FONT_IS_KNOWN: OnceLock<bool> = OnceLock::new();
     let failed = |reason: String| DrawError {
@@ -141,7 +141,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .y_label_area_size(LEFT * SCALE)
         .build_cartesian_2d(x[0]..x[1], y_from..y_to)?;
     let grey = RGBColor(110, 110, 110);
-    // Names stand at whole numbers; between them there is nothing to say.
+    // Names are at whole numbers only.
     let at_x = |x: &f64| {
         if panel.names.is_empty() {
             return tick(x);

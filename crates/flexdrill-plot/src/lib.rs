@@ -1,5 +1,5 @@
 //! Figures as plain data ([`Figure`]); [`svg`] draws one, `png` (feature `png`) renders the drawing, and [`csv()`]
-//! writes what is in it.
+//! writes its data.
 
 mod draw;
 mod panel;

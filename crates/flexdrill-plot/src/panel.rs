@@ -35,7 +35,7 @@ pub enum Mark {
     Bars,
 }
 
-/// Where the legend stands.
+/// Position of the legend.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Legend {
     /// One row above the plot.
@@ -62,13 +62,13 @@ pub struct Panel {
     pub down: bool,
     /// Range of x, if not that of the data.
     pub x_range: Option<[f64; 2]>,
-    /// What stands at x = 0, 1, ... instead of numbers.
+    /// Names at x = 0, 1, ... instead of numbers.
     pub names: Vec<String>,
     /// y begins at zero.
     pub from_zero: bool,
-    /// Where the legend stands.
+    /// Position of the legend.
     pub legend: Legend,
-    /// Columns of the figure that it takes.
+    /// Number of columns of the figure.
     pub span: usize,
 }
 
@@ -84,7 +84,7 @@ impl Panel {
         }
     }
 
-    /// With a curve more.
+    /// The panel with a further curve.
     #[must_use]
     pub fn line(mut self, line: Line) -> Self {
         self.lines.push(line);
@@ -127,7 +127,7 @@ impl Panel {
         self
     }
 
-    /// With a place for the legend.
+    /// With a position of the legend.
     #[must_use]
     pub fn legend(mut self, legend: Legend) -> Self {
         self.legend = legend;

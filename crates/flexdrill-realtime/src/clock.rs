@@ -6,37 +6,37 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crate::monotonic;
 
-/// Longest step of a simulated clock that is time which passed (ns), for a clock that comes once a second at many times
-/// real time. A longer one, either way, means that the clock was set.
+/// Longest step of a simulated clock that counts as elapsed time (ns), for a clock that is published once a second at
+/// many times real time. A longer step, in either direction, means that the clock was set.
 pub const LEAP: u64 = 60_000_000_000;
 
 /// A clock in nanoseconds with absolute deadlines.
 pub trait Clock: Send {
-    /// Nanoseconds; the zero is the clock's own.
+    /// The present time (ns) from the clock's own zero.
     fn now(&self) -> u64;
-    /// Waits for a deadline, at most for some milliseconds when it is not known when that will be. Returns early or
-    /// late; the caller looks at [`Clock::now`].
+    /// Waits for a deadline, for some milliseconds at most if its instant is unknown. The wait may end early or late;
+    /// the caller reads [`Clock::now`].
     fn wait_until(&self, deadline: u64);
     /// The present instant on the rig's clock (ns since 1970), for stamps.
     fn rig_time(&self) -> u64;
-    /// Lateness that is caught up rather than skipped (s).
+    /// Lateness up to which steps are caught up, not skipped (s).
     fn tolerance(&self) -> f64;
-    /// The machine's time (ns), whatever the clock of the model is: by it is judged what computing costs.
+    /// The machine's monotonic time (ns), the measure of computing time for every clock.
     fn machine_time(&self) -> u64 {
         monotonic::now()
     }
-    /// Lateness from which on the clock was set rather than the solver late (ns).
+    /// Lateness above which the clock was set, and the solver is not late (ns).
     fn leap(&self) -> u64 {
         u64::MAX
     }
-    /// How far the clock may jump at once (ns): no more lateness than that tells of a slow machine.
+    /// Largest regular jump of the clock (ns): lateness up to it does not indicate a slow machine.
     fn jump(&self) -> u64 {
         0
     }
 }
 
-/// The present instant for stamps (ns since 1970): the system's clock as it was when this was first called, carried on
-/// by the monotonic one. All stamps of a process are on this one clock, whatever the system's is set to meanwhile.
+/// The present instant for stamps (ns since 1970): the system's clock at the first call plus the monotonic time since
+/// then. All stamps of a process are on this one clock, also when the system's clock is set meanwhile.
 pub fn rig_clock() -> u64 {
     static OFFSET: OnceLock<u64> = OnceLock::new();
     let offset = OFFSET.get_or_init(|| {
@@ -66,18 +66,18 @@ impl Clock for WallClock {
     }
 
     fn tolerance(&self) -> f64 {
-        // Longer than the hiccups of a machine that is not made for real time, shorter than a person notices.
+        // Longer than the scheduling delays of a general-purpose system, shorter than a person notices.
         0.1
     }
 }
 
-/// The clock of `/clock`: stands still between messages. 0 until the first one.
+/// The clock of `/clock`, constant between messages. 0 until the first one.
 pub struct SimulatedClock {
     newest: Arc<AtomicU64>,
 }
 
 impl SimulatedClock {
-    /// Follows the cell into which the subscription writes (ns).
+    /// A clock that reads the cell which the subscription writes (ns).
     pub fn new(newest: Arc<AtomicU64>) -> Self {
         Self { newest }
     }

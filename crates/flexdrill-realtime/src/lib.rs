@@ -1,5 +1,5 @@
-//! Pacing by absolute deadlines. What to do is decided by pure functions of the time handed in ([`Pacer`],
-//! [`RealTimeFactor`]); only [`monotonic`] looks at a clock. Nothing allocates after construction.
+//! Pacing by absolute deadlines. The decisions are pure functions of the time that the caller passes ([`Pacer`],
+//! [`RealTimeFactor`]); only [`monotonic`] and [`clock`] read a clock. Nothing allocates after construction.
 //!
 //! ```no_run
 //! use flexdrill_realtime::{Pacer, monotonic};
@@ -9,7 +9,7 @@
 //!     // advance the model by one step
 //!     let paced = pacer.step_done(monotonic::now());
 //!     if paced.skipped > 0 {
-//!         // report it: the model stands still for so many periods
+//!         // report the number of periods for which the model stands still
 //!     }
 //! }
 //! ```
@@ -23,7 +23,7 @@ mod real_time_factor;
 mod real_time_loop;
 mod step_pace;
 
-/// Length of a period of the solver (s): inputs take effect this fast, live and in replays of foreign inputs.
+/// Length of a period of the solver (s): the delay of an input at most, live and in replays of foreign inputs.
 pub const INPUT_PERIOD: f64 = 5e-3;
 
 pub use pace_watch::{FAR_BEHIND, KEEPS_UP, Pace, PaceReading, PaceWatch};

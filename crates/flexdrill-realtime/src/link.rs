@@ -1,4 +1,4 @@
-//! What passes between the solver's thread and the rest of the node: wait-free rings and atomics, no locks.
+//! Data exchange between the solver's thread and the rest of the node: wait-free rings and atomics, no locks.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU8, AtomicU64, Ordering};
@@ -15,14 +15,14 @@ use flexdrill_core::twin::{CheckpointError, Frame, RunInputs, Schedule};
 
 /// Frames in circulation: at 100 frames per second, two thirds of a second of a stalled publisher.
 pub const FRAMES: usize = 64;
-/// Room for events beside frames.
+/// Capacity for events, in addition to frames.
 const EVENTS: usize = 4096;
-/// Room for commands.
+/// Capacity for commands.
 const COMMANDS: usize = 256;
-/// Room for step times.
+/// Capacity for step times.
 const STEP_TIMES: usize = 1 << 16;
 
-/// What parameters change in a run.
+/// The parameters that can change in a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Coefficients.
@@ -35,28 +35,28 @@ pub struct Settings {
     pub schedule: Schedule,
 }
 
-/// What the loop does between periods.
+/// Requests that the loop executes between periods.
 #[derive(Debug)]
 #[expect(clippy::large_enum_variant, reason = "a box would be freed on the solver's thread")]
 pub enum Command {
-    /// All that parameters can change: a set of them acts as a whole or not at all.
+    /// New parameters: a set of them takes effect as a whole or not at all.
     Settings(Settings),
-    /// Stand still, or go on.
+    /// Pause (`true`) or resume.
     Pause(bool),
-    /// Back to the state after the start.
+    /// Reset the model to the state after the start.
     Reset,
     /// Send the whole state. The one command that allocates on the solver's thread.
     Checkpoint(SyncSender<Result<Vec<u8>, CheckpointError>>),
 }
 
-/// What happened in the loop, in order.
+/// Events of the loop, in order.
 #[derive(Debug)]
 #[expect(
     clippy::large_enum_variant,
     reason = "a box would be allocated on the solver's thread"
 )]
 pub enum LoopEvent {
-    /// A snapshot; the frame must be given back.
+    /// A snapshot; the receiver returns the frame.
     Frame(Box<Frame>),
     /// New values act from the next step on.
     Applied {
@@ -67,13 +67,13 @@ pub enum LoopEvent {
         /// Commands carried out so far.
         commands: u64,
     },
-    /// A step failed after so many ticks; the model stands still.
+    /// A step failed after this number of ticks; the model stands still.
     Failed(StepFailure, u64),
     /// The model moves again after a failure.
     Recovered,
 }
 
-/// How the solver is doing.
+/// State of the solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum RunState {
@@ -105,7 +105,7 @@ pub struct Gauges {
     pub deadline_misses: AtomicU64,
     /// How late the last period began (ns).
     pub lateness: AtomicU64,
-    /// As [`Gauges::start`] says; 0 before.
+    /// See [`Gauges::start`]; 0 before the start.
     start: AtomicI64,
     /// Frames that were due when none was free.
     pub frames_dropped: AtomicU64,
@@ -118,7 +118,7 @@ pub struct Gauges {
 }
 
 impl Gauges {
-    /// How the solver is doing.
+    /// State of the solver.
     pub fn run_state(&self) -> RunState {
         match self.run_state.load(Ordering::Acquire) {
             1 => RunState::Running,
@@ -128,7 +128,7 @@ impl Gauges {
         }
     }
 
-    /// Time per phase of the steps taken so far. Each is a cell of its own, so that they may be a period apart.
+    /// Computing time per phase of the steps so far. The phases are separate cells and may differ by a period.
     pub fn phase_times(&self) -> PhaseTimes {
         PhaseTimes::from_nanoseconds(|phase| self.phase_times[phase as usize].load(Ordering::Relaxed))
     }
@@ -147,7 +147,7 @@ impl Gauges {
     }
 
     pub(crate) fn set_start(&self, start: i64) {
-        // Zero means that there is none; a nanosecond more is still the same instant.
+        // Zero means that there is no start yet; a nanosecond does not matter.
         self.start.store(if start == 0 { 1 } else { start }, Ordering::Release);
     }
 
@@ -156,7 +156,7 @@ impl Gauges {
     }
 }
 
-/// The newest targets. Each value is a cell of its own: what the loop took is published as [`LoopEvent::Applied`].
+/// The newest targets, in separate cells. The values that the loop read are published as [`LoopEvent::Applied`].
 #[derive(Debug, Default)]
 pub struct Targets {
     rotary_speed: AtomicU64,
@@ -202,15 +202,15 @@ pub struct LoopEnd {
 
 /// The publisher's end.
 pub struct PublisherEnd {
-    /// What happened.
+    /// Events of the loop.
     pub events: Consumer<LoopEvent>,
-    /// Where frames go back.
+    /// Returned frames.
     pub empty: Producer<Box<Frame>>,
     /// Computing time of each step (ns).
     pub step_times: Consumer<u32>,
 }
 
-/// Makes both ends, and the end that sends commands.
+/// Creates both ends, and the sender of commands.
 pub fn link(targets: Arc<Targets>, gauges: Arc<Gauges>) -> (LoopEnd, PublisherEnd, Producer<Command>) {
     let (command_sender, commands) = RingBuffer::new(COMMANDS);
     let (events, event_receiver) = RingBuffer::new(FRAMES + EVENTS);

@@ -1,20 +1,19 @@
-//! Whether the model keeps up with the clock, judged over seconds: one judgement for status, diagnostics, alarm and
-//! log.
+//! Judgement, over seconds, of whether the model keeps up with the clock. Status, diagnostics, alarm and log share it.
 
 use crate::RealTimeFactor;
 
-/// From this factor on the model keeps up with the clock: what is missing is the jitter of the measurement.
+/// Real-time factor from which the model keeps up with the clock; the difference to 1 is jitter of the measurement.
 pub const KEEPS_UP: f64 = 0.98;
-/// Below this factor it is far behind: every tenth second or more is skipped.
+/// Factor below which the model is far behind: it skips a tenth of the time or more.
 pub const FAR_BEHIND: f64 = 0.9;
 
-/// Time that the judged factor spans (s): a machine that falls behind for single steps is not too slow.
+/// Window of the judged factor (s): a machine that is late for single steps is not too slow.
 const WINDOW: f64 = 10.0;
-/// Time that the factor must stay below a limit before the level rises (ns). Longer than the window, which shows a
-/// stall for its own length and that of the window: one of up to two seconds changes nothing.
+/// Time that the factor must stay below a limit before the level rises (ns). Longer than the window, in which
+/// a stall appears for its own duration plus the window: a stall of up to two seconds has no effect.
 const RISE: u64 = 12_000_000_000;
-/// Time that the factor must stay above a limit and its deadband before the level falls (ns): load on a computer comes
-/// and goes within half a minute.
+/// Time that the factor must stay above a limit and its deadband before the level falls (ns): load on a
+/// computer varies within half a minute.
 const FALL: u64 = 30_000_000_000;
 /// Part of the factor between the limit that raises a level and the one that lets it fall.
 const DEADBAND: f64 = 0.01;
@@ -26,15 +25,15 @@ pub enum Pace {
     /// The model has not run for long enough.
     #[default]
     NotJudged = 0,
-    /// It keeps up.
+    /// The model keeps up.
     Kept = 1,
-    /// It gains less than [`KEEPS_UP`].
+    /// The factor is below [`KEEPS_UP`].
     Late = 2,
-    /// It gains less than [`FAR_BEHIND`].
+    /// The factor is below [`FAR_BEHIND`].
     FarBehind = 3,
 }
 
-/// A judgement with what it was judged by.
+/// A judgement with its factor.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct PaceReading {
     /// The level.
@@ -43,7 +42,7 @@ pub struct PaceReading {
     pub factor: Option<f64>,
 }
 
-/// How long the factor has been on one side of a limit.
+/// Times since when the factor has been on either side of a limit.
 #[derive(Debug, Clone, Copy, Default)]
 struct Limit {
     below_since: Option<u64>,
@@ -69,7 +68,7 @@ impl Limit {
 pub struct PaceWatch {
     factor: RealTimeFactor,
     reading: PaceReading,
-    /// Of [`Pace::Late`] and [`Pace::FarBehind`].
+    /// Limits of [`Pace::Late`] and [`Pace::FarBehind`].
     limits: [Limit; 2],
 }
 
@@ -84,8 +83,8 @@ impl Default for PaceWatch {
 }
 
 impl PaceWatch {
-    /// Notes that at `now` (ns, time to keep up with) the model is at `model_time` (s). To be called several times per
-    /// second while the model runs.
+    /// Notes that at `now` (ns, on the clock to keep up with) the model is at `model_time` (s). The caller notes
+    /// several times per second while the model runs.
     pub fn note(&mut self, now: u64, model_time: f64) {
         self.factor.note(now, model_time);
         let Some(factor) = self.factor.factor(now, model_time) else {
@@ -115,7 +114,7 @@ impl PaceWatch {
         self.reading
     }
 
-    /// Forgets everything. To be called while the model stands still.
+    /// Resets the judgement. The caller does so while the model stands still.
     pub fn restart(&mut self) {
         self.factor.restart();
         self.reading = PaceReading::default();

@@ -1,4 +1,4 @@
-//! How fast model time runs against wall time.
+//! Real-time factor: model time gained per wall time.
 
 /// Marks kept. Two more than a window has, so that the oldest of a full ring is always at least a window old; the
 /// factor then spans window x (1 + 1/MARKS) at most.
@@ -13,7 +13,7 @@ pub struct RealTimeFactor {
     marks: [(u64, f64); MARKS],
     /// Number of valid marks.
     filled: usize,
-    /// Where the next mark goes.
+    /// Index of the next mark.
     next: usize,
 }
 
@@ -28,7 +28,7 @@ impl RealTimeFactor {
         }
     }
 
-    /// Notes that at `now` (wall, ns) the model is at `model_time` (s). As often as one likes; cheap.
+    /// Notes that at `now` (wall, ns) the model is at `model_time` (s). The call is cheap and may be frequent.
     pub fn note(&mut self, now: u64, model_time: f64) {
         let spacing = self.window / (MARKS as u64 - 2);
         if self.filled > 0 {
@@ -77,11 +77,11 @@ mod tests {
         let mut factor = RealTimeFactor::new(1.0);
         assert_eq!(factor.factor(0, 0.0), None);
         let model = run(&mut factor, 0, 3000, 0.0, 1.0);
-        let told = factor.factor(2_999_000_000, model).unwrap();
-        assert!((told - 1.0).abs() < 1e-9, "{told}");
+        let measured = factor.factor(2_999_000_000, model).unwrap();
+        assert!((measured - 1.0).abs() < 1e-9, "{measured}");
         let model = run(&mut factor, 3000, 5000, model, 0.5);
-        let told = factor.factor(4_999_000_000, model).unwrap();
-        assert!((told - 0.5).abs() < 1e-9, "{told}");
+        let measured = factor.factor(4_999_000_000, model).unwrap();
+        assert!((measured - 0.5).abs() < 1e-9, "{measured}");
     }
 
     /// The model may hang in one step: the factor sinks although nothing is noted.
@@ -89,8 +89,8 @@ mod tests {
     fn sinks_while_nothing_is_noted() {
         let mut factor = RealTimeFactor::new(1.0);
         let model = run(&mut factor, 0, 1000, 0.0, 1.0);
-        let told = factor.factor(10_000_000_000, model).unwrap();
-        assert!(told < 0.01, "{told}");
+        let measured = factor.factor(10_000_000_000, model).unwrap();
+        assert!(measured < 0.01, "{measured}");
     }
 
     #[test]

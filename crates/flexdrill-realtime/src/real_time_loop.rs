@@ -1,9 +1,9 @@
-//! The solver's thread: steps the run in periods with absolute deadlines, takes inputs and commands between periods,
-//! and hands out frames. It does not lock, log, allocate or know of ROS (a checkpoint, when asked for, allocates).
+//! The solver's thread. It advances the run in periods with absolute deadlines, reads inputs and commands between
+//! periods, and emits frames. It does not lock, log, allocate or touch ROS; only a requested checkpoint allocates.
 //!
-//! A period is a whole number of model steps. A little lateness is caught up; when the solver is late by more, whole
-//! periods are skipped and counted: model and clock stay together. How fine a step is taken is what the motion asks
-//! for, as far as the pace allows it ([`StepPace`]); it acts like an input, and is handed out as one.
+//! A period is a whole number of model steps. The loop catches up small lateness. Beyond the tolerance it skips and
+//! counts whole periods, so that model and clock stay together. The refinement of the steps is the one that the motion
+//! needs, as far as the machine has time for it ([`StepPace`]). It is an input of the run, and is published as one.
 
 use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
@@ -17,7 +17,7 @@ use rtrb::PushError;
 use crate::clock::Clock;
 use crate::link::{Command, FRAMES, LoopEnd, LoopEvent, RunState};
 
-/// A clock that is found this long before the deadline (ns) has been set back.
+/// A clock that is this far before the deadline (ns) was set back.
 const SET_BACK: u64 = 2_000_000_000;
 
 /// Drives a run against a clock.
@@ -27,7 +27,7 @@ pub struct RealTimeLoop<C: Clock> {
     end: LoopEnd,
     /// Frames that have not been used yet.
     stash: VecDeque<Box<Frame>>,
-    /// Stands in when no frame is free, so that the statistics end where they should.
+    /// Used when no frame is free, so that the statistics' intervals end at the right steps.
     spare: Box<Frame>,
     pacer: Pacer,
     /// Period (ns).
@@ -41,18 +41,18 @@ pub struct RealTimeLoop<C: Clock> {
     changed: bool,
     reset_asked: bool,
     wanted: RunInputs,
-    /// What was published last; `step` and `reset` do not count.
+    /// The inputs published last, without regard to `step` and `reset`.
     published: Option<RunInputs>,
     /// The state at the start or after a reset has not been published yet.
     first: bool,
-    /// How fine a step there is time for.
+    /// The refinement that the machine has time for.
     pace: StepPace,
     /// Periods were skipped since the last one that was computed.
     late: bool,
 }
 
 impl<C: Clock> RealTimeLoop<C> {
-    /// A loop that takes `steps_per_period` steps per deadline. Allocates all it needs.
+    /// A loop of `steps_per_period` steps per deadline. All allocations happen here.
     pub fn new(run: Run, clock: C, end: LoopEnd, steps_per_period: u64) -> Self {
         let steps_per_period = steps_per_period.max(1);
         let time_step = run.simulation().settings().time_step;
@@ -85,8 +85,7 @@ impl<C: Clock> RealTimeLoop<C> {
     /// Runs until [`Gauges::stop`](crate::link::Gauges::stop) is set.
     pub fn run(mut self) {
         while self.clock.now() == 0 && !self.stopped() {
-            // A simulated clock has not ticked yet. What is asked for meanwhile must not fill the ring: the newest
-            // acts.
+            // A simulated clock has not ticked yet. Commands are executed meanwhile, so that they do not fill the ring.
             self.handle_commands();
             self.clock.wait_until(1);
         }
@@ -107,24 +106,24 @@ impl<C: Clock> RealTimeLoop<C> {
         self.follow_set_clock(self.clock.now());
     }
 
-    /// Whether the clock was set, rather than time passed.
+    /// Whether the clock was set; otherwise the difference is elapsed time.
     fn was_set(&self, now: u64, deadline: u64) -> bool {
         deadline.saturating_sub(now) > SET_BACK || now.saturating_sub(deadline) > self.clock.leap()
     }
 
-    /// The next period is due at `now`, and stamps follow the clock from here: what was set is no time that the model
-    /// has missed.
+    /// Makes the next period due at `now` and lets stamps follow the clock from here: the time by which the clock was
+    /// set does not count as missed.
     fn follow_set_clock(&mut self, now: u64) {
         self.pacer.restart(now);
-        // The steps of a period are taken at its begin. Their stamps are within the period before, so that none is
-        // ahead of the clock when it is published.
+        // The steps of a period are computed at its start. Their stamps lie within the previous period, so that no
+        // message is ahead of the clock when it is published.
         let time_step = self.run.simulation().settings().time_step;
         let gone = (self.run.ticks() as f64 * time_step * 1e9).round() as i64;
         let first = i64::try_from(self.clock.rig_time().saturating_sub(self.period)).unwrap_or(i64::MAX);
         self.end.gauges.set_start(first.saturating_sub(gone));
     }
 
-    /// One period and what follows from how long it took.
+    /// Runs one period, then skips periods if it took too long.
     fn run_period(&mut self) {
         self.handle_commands();
         self.one_period();
@@ -159,7 +158,7 @@ impl<C: Clock> RealTimeLoop<C> {
                 Command::Pause(paused) => self.paused = paused,
                 Command::Reset => self.reset_asked = true,
                 Command::Checkpoint(reply) => {
-                    // The one who asked may have gone.
+                    // The requester may have given up waiting.
                     let _ = reply.try_send(self.run.simulation().checkpoint());
                 }
             }
@@ -225,7 +224,7 @@ impl<C: Clock> RealTimeLoop<C> {
             .note((start, self.clock.machine_time()), late, self.run.applied().refinement);
     }
 
-    /// Hands the newest inputs and settings to the run; publishes them when anything has changed.
+    /// Applies the newest inputs and settings to the run, and publishes them if one of them has changed.
     fn apply(&mut self, current: &RunInputs) {
         let next = RunInputs {
             step: current.step,

@@ -1,33 +1,32 @@
-//! How fine a step the pace allows: what refinement of the model's steps leaves time to spare.
+//! The refinement of the model's steps that the machine has time for.
 
-/// What is judged at once (ns).
+/// Window of one judgement (ns).
 const WINDOW: u64 = 1_000_000_000;
-/// Part of the time that computing may take before a coarser step is taken. The rest is for whatever else the machine
-/// does.
+/// Share of the time for computing above which the step becomes coarser. The rest is for other work of the machine.
 const MOST: f64 = 0.75;
-/// What the next finer step may be expected to take at most. Half a step costs twice as much; iterations get fewer.
+/// Largest expected share of the next finer step. Halving the step doubles the work at most; it needs fewer iterations.
 const ENOUGH: f64 = 0.6;
-/// Windows in a row that must leave enough before a finer step is tried.
+/// Consecutive windows with enough time before a finer step is tried.
 const CALM: u32 = 3;
-/// Windows after a coarser step in which none is: a machine that has been too slow once will be again.
+/// Windows after a coarser step before a finer one is tried again: a machine that was too slow once will be again.
 const WARY: u32 = 60;
 
-/// Watches what part of the time computing takes.
+/// Watches the share of the time that computing takes.
 #[derive(Debug, Clone)]
 pub struct StepPace {
     most: u32,
     allowed: u32,
-    /// Begin of the window (ns).
+    /// Start of the window (ns).
     began: Option<u64>,
-    /// Spent computing in it (ns).
+    /// Computing time in the window (ns).
     busy: u64,
     late: bool,
-    /// Windows still to wait for a finer step.
+    /// Remaining windows before a finer step.
     wait: u32,
 }
 
 impl StepPace {
-    /// At the start no refinement is allowed, then up to `most`.
+    /// A watch that allows no refinement at the start, and up to `most` later.
     pub fn new(most: u32) -> Self {
         Self {
             most,
@@ -39,13 +38,13 @@ impl StepPace {
         }
     }
 
-    /// The refinement that there is time for.
+    /// The refinement that the machine has time for.
     pub fn allowed(&self) -> u32 {
         self.allowed
     }
 
-    /// A period was computed between two instants (ns) with a refinement `in_force`; `late` where others had to be
-    /// skipped for it.
+    /// A period was computed between two instants (ns) with a refinement `in_force`; `late` if
+    /// periods were skipped.
     pub fn note(&mut self, (from, to): (u64, u64), late: bool, in_force: u32) {
         let began = *self.began.get_or_insert(from);
         self.busy += to.saturating_sub(from);
@@ -63,14 +62,14 @@ impl StepPace {
         } else if self.wait > 1 {
             self.wait -= 1;
         } else if self.allowed <= in_force {
-            // One level at a time: what the next one costs is seen by this one.
+            // One level at a time: the load of each level predicts that of the next.
             self.allowed = (in_force + 1).min(self.most);
             self.wait = CALM;
         }
         self.forget();
     }
 
-    /// The model stood still: what was seen so far is no measure.
+    /// Restarts the window after the model stood still, which says nothing about the load.
     pub fn forget(&mut self) {
         self.began = None;
         self.busy = 0;

@@ -4,14 +4,15 @@ use super::bench::Bench;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction};
 
-/// The chain is linear but for the squares of its tilts, 1e-5 where the search ends, and its last extrapolation reaches
-/// over some thousandths of the torque.
+/// Relative error. The chain is linear up to the squares of its tilts, 1e-5 at the end of the search, and the last
+/// extrapolation spans some thousandths of the torque.
 const LIMIT: f64 = 1e-4;
-/// The search ends when this part of the squared torque is left.
+/// The search ends when the extrapolation is within this part of the squared torque.
 const LEFT: f64 = 2e-3;
-/// Part of the way to the extrapolated squared torque that a step goes, and the part by which the square grows at most.
-/// The extrapolation lies beyond at first, for it sees higher modes too: of eight links at three times the square. With
-/// both parts no step goes beyond, which the same search over the equations in `docs/mechanics.md` shows.
+/// Fraction of the distance to the extrapolated squared torque that a step covers, and the largest relative growth of
+/// the square. The extrapolation overestimates at first, because higher modes contribute: for eight links by a factor
+/// of three. With both limits no step exceeds the buckling torque, as the same search over the equations in
+/// `docs/mechanics.md` shows.
 const PART: f64 = 0.25;
 const GROWTH: f64 = 0.1;
 /// Pull in the chains (N), as in their configurations.

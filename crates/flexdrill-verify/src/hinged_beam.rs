@@ -25,8 +25,8 @@ impl HingedBeam {
         96.0 * self.bending * (self.gap - 5.0 * self.limit * self.length / 16.0) / (7.0 * self.length.powi(3))
     }
 
-    /// Eq. 45 corrected: deflection of the joint under `load` (m, towards the load). What statics gives: the free joint
-    /// swings, then it is locked, then the beam lies on the tube.
+    /// Eq. 45 corrected: deflection of the joint under `load` (m, towards the load), by statics. The joint is free at
+    /// first, then at its limit, and then the beam rests on the tube.
     pub fn corrected(&self, load: f64) -> f64 {
         if load <= self.limit_load() {
             load * self.length.powi(3) / (3.0 * self.bending)

@@ -31,7 +31,7 @@ pub struct Row {
     pub expected: f64,
     /// Computed.
     pub got: f64,
-    /// What an error is relative to.
+    /// Reference of the error.
     pub scale: f64,
     /// Largest error allowed.
     pub limit: f64,
@@ -119,7 +119,7 @@ pub enum VerifyError {
         /// Why and where.
         failure: StepFailure,
     },
-    /// Something that must happen in the case did not, so that there is nothing to compare.
+    /// A necessary event of the case did not happen, so that nothing can be compared.
     #[error("verification case {case}: {what} did not happen")]
     Missing {
         /// Name of the verification case.

@@ -8,7 +8,7 @@ use flexdrill_plot::{Figure, Line, Panel};
 /// The paper's exaggeration of displacements.
 const EXAGGERATION: f64 = 50.0;
 
-/// Shape of a pipe with its displacements exaggerated, and motion at the two places where it moves most.
+/// Shape of a pipe with its displacements exaggerated, and motion at the two stations of largest motion.
 pub(super) fn shapes(record: &Record, motion: &Motion, body: Body) -> Figure {
     let (name, number, what, letter, axis) = match body {
         Body::Pipe => ("fig10_pipe_displacement", 10, "flexible pipe", "r", &record.pipe),

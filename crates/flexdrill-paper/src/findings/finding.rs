@@ -1,6 +1,6 @@
-//! One finding of the paper against ours: number, place, ratio or period.
+//! Comparison of one finding of the paper with ours: number, location, ratio or period.
 
-/// Whether a finding of the paper is one of ours too.
+/// Whether our result agrees with a finding of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -13,7 +13,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// As the report says it.
+    /// The word in the report.
     pub fn word(self) -> &'static str {
         match self {
             Self::Agrees => "agrees",
@@ -42,7 +42,7 @@ pub struct Finding {
     pub verdict: Verdict,
     /// Why (not).
     pub why: String,
-    /// 0 to 1: 1 agrees, less the further away. For the search.
+    /// Closeness for the search, 0 to 1: 1 agrees.
     pub closeness: f64,
 }
 
@@ -50,18 +50,18 @@ pub struct Finding {
 const AGREES: f64 = 1.2;
 /// Within this factor it agrees partly.
 const PARTLY: f64 = 2.0;
-/// From this factor on it is not close at all.
+/// From this factor on its closeness is 0.
 const FAR: f64 = 100.0;
-/// A place agrees within (deg): two links.
+/// A location agrees within (deg): two links.
 const PLACE_AGREES: f64 = 5.0;
 /// And partly within (deg).
 const PLACE_PARTLY: f64 = 15.0;
 /// Autocorrelation from which a history counts as periodic.
 const PERIODIC: f64 = 0.3;
-/// Most closeness that a finding which does not agree can have.
+/// Largest closeness of a finding that does not agree.
 const NEAR_MISS: f64 = 0.9;
 
-/// What the paper says, for [`number`] and its like.
+/// The paper's statement, for [`number`] and similar functions.
 pub(super) struct Paper {
     pub(super) key: &'static str,
     pub(super) figure: &'static str,
@@ -100,7 +100,7 @@ pub(super) fn number(paper: Paper, unit: &str, digits: usize, value: f64, expect
     )
 }
 
-/// A place (deg) against the paper's.
+/// A location (deg) against the paper's.
 pub(super) fn place(paper: Paper, value: f64, expected: f64) -> Finding {
     let off = (value - expected).abs();
     let verdict = if off <= PLACE_AGREES {

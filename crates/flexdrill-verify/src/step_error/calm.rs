@@ -2,19 +2,19 @@
 
 use super::{Record, range};
 
-/// Largest differences of two runs that ought to be the same.
+/// Largest differences of two runs of the same motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calm {
     /// Of the bit speed, over its range.
     pub bit_speed: f64,
     /// Of a joint's coordinate, over that coordinate's own range.
     pub positions: f64,
-    /// Joint where that is, from 0 at the top.
+    /// Joint of that difference, from 0 at the top.
     pub worst_joint: usize,
     /// Range of that coordinate (m).
     pub position_range: f64,
-    /// Of the contact forces averaged over an interval, over the layer's range: pipe-guide, guide-wall. A station that
-    /// hardly touches has no range of its own.
+    /// Of the contact forces averaged over an interval, over the layer's range: pipe-guide, guide-wall. Forces
+    /// of a station with little contact have hardly any range.
     pub forces: [f64; 2],
     /// Those ranges (N).
     pub force_ranges: [f64; 2],
@@ -59,7 +59,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |m, (x, y)| m.max((x - y).abs()))
 }
 
-/// `difference / range`; nothing over nothing is nothing.
+/// `difference / range`, and 0 for 0 / 0.
 fn over(difference: f64, range: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / range }
 }

@@ -1,9 +1,9 @@
 //! Error of the time step: the same run at an eighth of it, compared point by point where the motion is stable
 //! ([`Calm`]) and by its statistics where it is chaotic ([`Statistics`]).
 //!
-//! Without bit torque small differences die out. With it they grow e-fold every 15 to 30 ms, so that after a second two
-//! runs of one step that began a hair apart have nothing in common but their statistics. How far those scatter by
-//! themselves is seen from runs with perturbed starts.
+//! Without bit torque small differences decay. With it they grow by a factor e every 15 to 30 ms, so that after a
+//! second two runs with nearly equal starts share their statistics only. The scatter of these statistics is measured by
+//! runs with perturbed starts.
 
 mod calm;
 mod record;
@@ -17,13 +17,13 @@ use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::twin::BuildError;
 
-/// The step is compared with itself over this.
+/// The finer step is the step over this number.
 pub const REFINEMENT: f64 = 8.0;
 
 /// Weight by which the starts of the runs differ (N), on for the first interval.
 pub const NUDGES: [f64; 3] = [0.0, 1.0, -1.0];
 
-/// Why a run gave nothing to compare.
+/// Why a run failed.
 #[derive(Debug, thiserror::Error)]
 pub enum StepErrorFailure {
     /// A value that the comparison sets is refused.

@@ -10,10 +10,11 @@ use flexdrill_core::units::n_to_kn;
 
 /// Contact forces are averaged over about this (s).
 const INTERVAL: f64 = 0.02;
-/// Model time between two readings of the whirl ratios (s): a whirl's window is longer, so more often tells no more.
+/// Model time between two readings of the whirl ratios (s). The window of the analysis is longer, so that more frequent
+/// readings add nothing.
 const WHIRL_EVERY: f64 = 0.5;
 
-/// What is run.
+/// Inputs and duration of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     /// Constant inputs; the weight is on before the start, so that the run begins at rest under it.
@@ -49,7 +50,7 @@ pub struct Record {
     pub forces: Vec<Vec<f64>>,
     /// Root mean square of the normal forces after the run-up, the first quarter (N).
     pub rms: Vec<f64>,
-    /// Mean whirl ratio over time and places, after the run-up.
+    /// Mean whirl ratio over time and stations, after the run-up.
     pub whirl_ratio: f64,
     /// Energy that the integration has gained or lost (J).
     pub energy_error: f64,

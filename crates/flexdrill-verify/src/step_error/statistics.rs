@@ -1,4 +1,4 @@
-//! Runs with bit torque: what chaos leaves alone.
+//! Runs with bit torque: the statistics, which chaos does not change.
 
 use super::{NUDGES, Record};
 
@@ -42,8 +42,8 @@ pub struct Profile {
     pub fine: [f64; 2],
     /// Between a run and a finer one.
     pub between: [f64; 2],
-    /// What of the latter the scatter of the runs does not explain: mean square between the two kinds less the mean
-    /// square within them, and of that the root; 0 when negative.
+    /// The part of the latter that the scatter of the runs does not explain: the root of the mean square between the
+    /// two groups minus the mean square within them; 0 if that is negative.
     pub systematic: f64,
     /// Size of the runs' mean profile over that of the finer ones, less 1.
     pub excess: f64,
@@ -65,7 +65,7 @@ impl Profile {
         let between: Vec<f64> = runs.iter().flat_map(|a| fine.iter().map(|b| distance(a, b))).collect();
         let square = |x: &[f64]| x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64;
         let unexplained = square(&between) - 0.5 * (square(&in_runs) + square(&in_fine));
-        // A station that no run touched agrees by nothing that the step does.
+        // Stations without contact in all runs agree independently of the step, and do not count.
         let touched: Vec<Figure> = (0..whole.len())
             .map(|k| Figure {
                 runs: runs.map(|run| run[k]),
@@ -103,7 +103,7 @@ fn ends(values: &[f64]) -> [f64; 2] {
         .fold([f64::MAX, f64::MIN], |[low, high], &x| [low.min(x), high.max(x)])
 }
 
-/// Three runs with the step in question beside three with a finer one, their starts perturbed by [`NUDGES`].
+/// Comparison of three runs with the step and three with a finer one, with starts perturbed by [`NUDGES`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Statistics {
     /// Of both layers together.
@@ -112,7 +112,7 @@ pub struct Statistics {
     pub layers: [Profile; 2],
     /// Of the bit speed (rad/s).
     pub ripple: Figure,
-    /// Mean over time and places.
+    /// Mean over time and stations.
     pub whirl_ratio: Figure,
 }
 
