@@ -5,7 +5,6 @@ use super::residual::Evaluation;
 use super::{Chain, NODE, SINGLE_CORRECTIONS};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Stride};
 use crate::dynamics::phases::{Phase, Stopwatch};
@@ -68,37 +67,24 @@ impl ChainEquations<'_> {
     ///
     /// # Errors
     /// When a block cannot be factorised, or no operator was prepared for the factors.
-    pub(super) fn solve_in_double(
-        &mut self,
-        state: &State,
-        conditions: &Conditions,
-        factors: TangentFactors,
-    ) -> Result<(), Singular> {
+    pub(super) fn solve_in_double(&mut self, state: &State, at: &Iteration<'_>) -> Result<(), Singular> {
         let Self {
             model,
             chain,
             interactions,
             stopwatch,
         } = self;
-        let Some(operator) = chain.operator(factors, conditions) else {
+        let Some(operator) = chain.operator(at.factors, at.conditions) else {
             return Err(Singular { station: 0, pivot: 0.0 });
         };
         chain.active.set_whole();
         let contacts_and_masses = &mut chain.additions;
-        contacts_and_masses.linearise(
-            &chain.model,
-            &chain.active,
-            interactions,
-            model,
-            state,
-            conditions,
-            factors,
-        );
+        contacts_and_masses.linearise(&chain.model, &chain.active, interactions, model, state, at);
         chain.set_spins(model.moment_scale);
         let (blocks, of_joints) = (&mut chain.sweep.joints, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
         interactions.joints.tangents(
-            factors,
+            at.factors,
             lambda,
             |_| true,
             |joint, tangent| {
@@ -115,33 +101,25 @@ impl ChainEquations<'_> {
 
     /// Solves for the correction in single precision, of the active part of the tool; `false` where the pivots are too
     /// small for it.
-    pub(super) fn solve_in_single(&mut self, state: &State, conditions: &Conditions, factors: TangentFactors) -> bool {
+    pub(super) fn solve_in_single(&mut self, state: &State, at: &Iteration<'_>) -> bool {
         let Self {
             model,
             chain,
             interactions,
             stopwatch,
         } = self;
-        let Some(operator) = chain.operator(factors, conditions) else {
+        let Some(operator) = chain.operator(at.factors, at.conditions) else {
             return false;
         };
         let contacts_and_masses = &mut chain.single_additions;
-        contacts_and_masses.linearise(
-            &chain.model,
-            &chain.active,
-            interactions,
-            model,
-            state,
-            conditions,
-            factors,
-        );
+        contacts_and_masses.linearise(&chain.model, &chain.active, interactions, model, state, at);
         chain.set_spins(model.moment_scale);
         let (sweep, of_joints) = (&mut chain.single_sweep, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
         let is_active = |joint: usize| chain.active.nodes[of_joints[joint]];
         interactions
             .joints
-            .tangents(factors, lambda, is_active, |joint, tangent| {
+            .tangents(at.factors, lambda, is_active, |joint, tangent| {
                 sweep.join(of_joints[joint], tangent);
             });
         stopwatch.lap(Phase::Assembly);
@@ -176,11 +154,11 @@ impl Equations for ChainEquations<'_> {
             chain.active.set_windows(&chain.residual, weights);
         }
         // Single precision does as long as corrections bring the residual down fast; what is left is for double.
-        let is_solved = at.corrections < SINGLE_CORRECTIONS && self.solve_in_single(to, at.conditions, at.factors);
+        let is_solved = at.corrections < SINGLE_CORRECTIONS && self.solve_in_single(to, at);
         let solved = if is_solved {
             Ok(())
         } else {
-            self.solve_in_double(to, at.conditions, at.factors)
+            self.solve_in_double(to, at)
         };
         self.stopwatch.lap(Phase::Solve);
         solved

@@ -5,7 +5,7 @@ use super::equations::ChainEquations;
 use super::{NODE, TIE};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{correct, worst};
+use crate::dynamics::newton::{Iteration, correct, worst};
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
 use crate::linear::Singular;
@@ -32,6 +32,7 @@ impl ChainEquations<'_> {
             ..still
         };
         self.chain.prepare(self.model, conditions, factors);
+        let at = Iteration::first(conditions, factors);
         self.interactions.begin();
         self.evaluate(state, conditions, false);
         let mut best = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
@@ -40,7 +41,7 @@ impl ChainEquations<'_> {
                 return;
             }
             scratch.copy_from(state);
-            if self.solve_in_double(scratch, conditions, factors).is_err() {
+            if self.solve_in_double(scratch, &at).is_err() {
                 return;
             }
             correct(self, scratch, still);
@@ -77,7 +78,7 @@ impl ChainEquations<'_> {
         for residual in self.chain.residual.chunks_exact_mut(NODE) {
             (residual[FIRST_ROW], residual[SECOND_ROW]) = (0.0, 0.0);
         }
-        self.solve_in_double(state, conditions, factors)?;
+        self.solve_in_double(state, &Iteration::first(conditions, factors))?;
         for (i, &x) in self.chain.correction.iter().enumerate() {
             if i % NODE == TIE {
                 state.q[i] += x;

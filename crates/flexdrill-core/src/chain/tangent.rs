@@ -7,9 +7,9 @@
 use super::active::Active;
 use super::precision::{Lanes, Precision};
 use super::{BOTTOM, ChainModel, GUIDE, NODE, TIE, TOP};
-use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
+use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::{State, motion};
 use crate::elements::gap::GapTangent;
 use crate::linear::Touching;
@@ -95,9 +95,11 @@ impl<S: Precision> Additions<S> {
         interactions: &Interactions,
         model: &Model,
         state: &State,
-        conditions: &Conditions,
-        factors: TangentFactors,
+        at: &Iteration<'_>,
     ) {
+        let Iteration {
+            conditions, factors, ..
+        } = *at;
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
         chain.instructions.run(ContactTangents {

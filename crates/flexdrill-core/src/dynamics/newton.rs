@@ -40,6 +40,17 @@ pub(crate) struct Iteration<'a> {
     pub corrections: u32,
 }
 
+impl<'a> Iteration<'a> {
+    /// Before the first correction.
+    pub(crate) fn first(conditions: &'a Conditions, factors: TangentFactors) -> Self {
+        Self {
+            conditions,
+            factors,
+            corrections: 0,
+        }
+    }
+}
+
 /// The equations of a step in some numbering of the unknowns, with the room that Newton's iteration needs.
 pub(crate) trait Equations {
     /// Begins a step from `from`: foresees its axial forces, scales the limits by its size, and forgets what the
@@ -139,11 +150,7 @@ impl<E: Equations> Kernel for Step<'_, E> {
             (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
         }
 
-        let mut at = Iteration {
-            conditions,
-            factors: scheme.factors(h),
-            corrections: 0,
-        };
+        let mut at = Iteration::first(conditions, scheme.factors(h));
         loop {
             equations.residual(to, &at);
             let (residuals, weights) = (equations.residuals(), equations.weights(accuracy));

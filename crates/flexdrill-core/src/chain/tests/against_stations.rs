@@ -120,11 +120,12 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         chain.prepare(&model, &conditions, factors);
         for (single, within) in [(false, 1e-9), (true, 1e-3)] {
             if single {
-                let solved = equations(&model, &mut chain, &mut room).solve_in_single(&state, &conditions, factors);
+                let solved = equations(&model, &mut chain, &mut room)
+                    .solve_in_single(&state, &Iteration::first(&conditions, factors));
                 assert!(solved, "single precision was refused");
             } else {
                 equations(&model, &mut chain, &mut room)
-                    .solve_in_double(&state, &conditions, factors)
+                    .solve_in_double(&state, &Iteration::first(&conditions, factors))
                     .unwrap();
             }
             let got = DVector::from_column_slice(&chain.correction);

@@ -23,19 +23,23 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
         clean(&chain, &mut state);
         chain.prepare(&model, &conditions, factors);
         equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, false);
-        assert!(equations(&model, &mut chain, &mut room).solve_in_single(&state, &conditions, factors));
+        assert!(
+            equations(&model, &mut chain, &mut room).solve_in_single(&state, &Iteration::first(&conditions, factors))
+        );
 
         // All below a node is out of balance: the elimination above is that of before, the solution that of the whole.
         let residual = chain.residual.clone();
         let (first, bottom) = (25, chain.spans());
         chain.residual[..NODE * first].fill(0.0);
         equations(&model, &mut chain, &mut room)
-            .solve_in_double(&state, &conditions, factors)
+            .solve_in_double(&state, &Iteration::first(&conditions, factors))
             .unwrap();
         let expected = chain.correction.clone();
         let weights = chain.limits.weights(Accuracy::Rest).to_vec();
         chain.active.set_windows(&chain.residual, &weights);
-        assert!(equations(&model, &mut chain, &mut room).solve_in_single(&state, &conditions, factors));
+        assert!(
+            equations(&model, &mut chain, &mut room).solve_in_single(&state, &Iteration::first(&conditions, factors))
+        );
         let [window] = chain.active.windows[..] else {
             panic!("{:?}", chain.active.windows)
         };
@@ -58,7 +62,9 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
             weights[NODE * node..NODE * (node + 1)].fill(1.0);
         }
         chain.active.set_windows(&residual, &weights);
-        assert!(equations(&model, &mut chain, &mut room).solve_in_single(&state, &conditions, factors));
+        assert!(
+            equations(&model, &mut chain, &mut room).solve_in_single(&state, &Iteration::first(&conditions, factors))
+        );
         assert_eq!(chain.active.windows.len(), 2);
         let moved: Vec<bool> = chain
             .correction

@@ -171,11 +171,7 @@ impl StationEquations<'_> {
             damping: 0.0,
             mass: 0.0,
         };
-        let mut at = Iteration {
-            conditions,
-            factors,
-            corrections: 0,
-        };
+        let mut at = Iteration::first(conditions, factors);
         self.interactions.begin();
         self.evaluate(state, conditions);
         let mut best = worst(self.residuals(), self.weights(Accuracy::Rest));
