@@ -110,6 +110,7 @@ impl EnergyPoint {
     }
 
     /// Whether it is for the same model as `other`.
+    #[cfg(feature = "checkpoints")]
     pub fn fits(&self, other: &Self) -> bool {
         self.friction.len() == other.friction.len()
             && self.geometric.len() == other.geometric.len()
