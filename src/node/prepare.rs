@@ -1,6 +1,6 @@
 //! The first stages of a run: a node is prepared, then started.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, channel};
@@ -68,7 +68,7 @@ impl PreparedNode {
     /// # Errors
     /// When a name is not allowed or the checkpoint cannot be read.
     pub(super) fn new(setup: NodeSetup) -> Result<Self, NodeError> {
-        let checkpoint = setup.checkpoint.as_ref().map(read_checkpoint).transpose()?;
+        let checkpoint = setup.checkpoint.as_deref().map(read_checkpoint).transpose()?;
         let config = Arc::new(setup.config.clone());
         let node_name = setup.identity.full_name();
         let mut port = PortBuilder::new(&setup.network, &setup.identity.namespace, &setup.identity.name);
@@ -255,9 +255,9 @@ fn topic_name(setup: &NodeSetup, topic: &TopicInfo) -> String {
     setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned())
 }
 
-fn read_checkpoint(path: &PathBuf) -> Result<Vec<u8>, NodeError> {
+fn read_checkpoint(path: &Path) -> Result<Vec<u8>, NodeError> {
     std::fs::read(path).map_err(|source| NodeError::Checkpoint {
-        path: path.clone(),
+        path: path.to_owned(),
         why: source.to_string(),
     })
 }
