@@ -3,8 +3,8 @@
 
 use nalgebra::Vector2;
 
-use super::residual::{load, plus_column, product, store};
-use super::{Chain, EndColumn, EndForces, Ends, at_ends};
+use super::Chain;
+use super::columns::{EndColumn, EndForces, Ends, at_ends, load, plus_column, product, store};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;

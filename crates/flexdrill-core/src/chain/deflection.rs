@@ -6,9 +6,10 @@
 //! by 1 %. A step counts with the deflection that the forces at its start make. That is as good as solving for it, since
 //! a span inside is so much stiffer than a contact: what the lag leaves out is their ratio times the change of the force.
 
+use super::Chain;
+use super::columns::{EndColumn, at_ends, load, store};
 use super::contacts::{at_radius, plus_rows};
-use super::residual::{load, store};
-use super::{Chain, EndColumn, at_ends};
+
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{Deflection, State, translation};
 use crate::model::Model;

@@ -2,7 +2,7 @@
 //! [`crate::linear`].
 
 use super::NODE as SIZE;
-use super::residual::load;
+use super::columns::load;
 use crate::linear::{PIVOT_RATIO, exchange};
 use crate::simd::vector::Vector;
 

@@ -1,16 +1,16 @@
 //! The energy audit's point over the chain: elements and friction; the rest is shared with the whole tool.
 
+use super::Chain;
+use super::columns::{EndColumn, TENSION, around, at_ends, ends, load, product, store};
 use super::contacts::{OnSpan, at_radius, plus_rows};
-use super::residual::{around, load, product, store};
-use super::slaving::TENSION;
-use super::{Chain, EndColumn, at_ends, ends};
+
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::{EnergyPoint, SpanForces};
+use crate::dynamics::energy::{EnergyPoint, SpanForces, SpanWorks};
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
 use crate::model::{HeldNode, Model};
+use crate::simd::Kernel;
 use crate::simd::vector::Vector;
-use crate::simd::{Instructions, Kernel};
 
 impl Chain {
     /// Evaluates `point` at `state`, at which the residual was evaluated last.
@@ -189,28 +189,25 @@ impl Kernel for SpanEnergies<'_> {
     }
 }
 
-/// Work (J) of the spans' damping, inertia and geometric stiffness by the trapezoid rule over a step of displacements
-/// `moved`.
-pub(crate) fn span_works(
-    instructions: Instructions,
-    moved: &[f64],
-    before: &[SpanForces],
-    after: &[SpanForces],
-) -> [f64; 3] {
-    instructions.run(SpanWorks { moved, before, after })
+impl Chain {
+    /// Work of the spans over a step of displacements `moved`, from `before` to `after`.
+    pub(crate) fn span_works(&self, moved: &[f64], before: &[SpanForces], after: &[SpanForces]) -> SpanWorks {
+        self.model.instructions.run(MeanSpanWorks { moved, before, after })
+    }
 }
 
-struct SpanWorks<'a> {
+/// Work of all spans by the trapezoid rule.
+struct MeanSpanWorks<'a> {
     moved: &'a [f64],
     before: &'a [SpanForces],
     after: &'a [SpanForces],
 }
 
-impl Kernel for SpanWorks<'_> {
-    type Output = [f64; 3];
+impl Kernel for MeanSpanWorks<'_> {
+    type Output = SpanWorks;
 
     #[inline(always)]
-    fn run<V: Vector>(self) -> [f64; 3] {
+    fn run<V: Vector>(self) -> SpanWorks {
         let zero = [V::splat(0.0); 2];
         let mut works = [zero; 3];
         for (l, (before, after)) in self.before.iter().zip(self.after).enumerate() {
@@ -229,7 +226,11 @@ impl Kernel for SpanWorks<'_> {
                 }
             }
         }
-        [0.5 * sum(works[0]), 0.5 * sum(works[1]), 0.5 * sum(works[2])]
+        SpanWorks {
+            damping: 0.5 * sum(works[0]),
+            inertia: 0.5 * sum(works[1]),
+            geometric: 0.5 * sum(works[2]),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::ends;
+use super::columns::ends;
 use super::nodes::Nodes;
 use super::slaving::{LinkMatrices, local_lateral};
 use crate::dynamics::state::Deflection;

@@ -18,6 +18,7 @@
 //! holds where inner stations vibrate faster than a step can follow; [`nodes`] places the nodes so that it does.
 
 mod active;
+mod columns;
 mod contacts;
 mod deflection;
 mod dependents;
@@ -48,6 +49,7 @@ use crate::simd::Instructions;
 use crate::simd::aligned::Aligned;
 
 use active::Active;
+use columns::EndForces;
 use dependents::{Dependents, FIRST_ROW, SECOND_ROW, Spins};
 use links::Link;
 use nodes::Nodes;
@@ -57,7 +59,6 @@ use slaving::LinkMatrices;
 use solve::Sweep;
 use tangent::Additions;
 
-pub(crate) use energy::span_works;
 pub(crate) use equations::ChainEquations;
 use numbering::Numbering;
 
@@ -71,11 +72,6 @@ const GUIDE: usize = 9;
 const TIE: usize = 15;
 /// Stations per span, its lower end included, that one vector of eight holds.
 const MOST_STATIONS: usize = 8;
-
-/// A column over both ends of a span: six of the top end, two that do not count, six of the bottom end, two more.
-type EndColumn = [f64; 16];
-/// Forces on both ends of a span, pipe and guide.
-type EndForces = [EndColumn; 2];
 
 /// Least product of a span's slowest inner frequency, its ends clamped (rad/s), and the step (s). What a step resolves
 /// is slower than 1 / h; inner stations answer it quasi-statically to 1 / 8^2.
@@ -286,36 +282,5 @@ impl Chain {
         self.operators
             .iter()
             .position(|operator| operator.is_for(factors, conditions))
-    }
-}
-
-/// First unknowns of a span's ends, [top, bottom], of the pipe (0) or the guide (1).
-#[inline(always)]
-fn ends(span: usize, body: usize) -> [usize; 2] {
-    let (top, bottom) = (NODE * span, NODE * (span + 1));
-    if body == 0 {
-        [top + U, bottom]
-    } else {
-        [top + GUIDE, bottom + GUIDE]
-    }
-}
-
-/// What a span's ends are to a body: the unknowns of its top end and of its bottom end.
-type Ends = [[f64; 6]; 2];
-
-/// The unknowns of the ends of the span below node `l`, of the pipe (0) or the guide (1).
-#[inline(always)]
-fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
-    let (above, below) = (&nodes[l], &nodes[l + 1]);
-    if body == 0 {
-        [
-            [above[3], above[4], above[5], above[6], above[7], above[8]],
-            [below[0], below[1], below[2], below[3], below[4], below[5]],
-        ]
-    } else {
-        [
-            [above[9], above[10], above[11], above[12], above[13], above[14]],
-            [below[9], below[10], below[11], below[12], below[13], below[14]],
-        ]
     }
 }

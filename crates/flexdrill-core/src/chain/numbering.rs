@@ -2,8 +2,9 @@
 
 use nalgebra::Vector3;
 
+use super::columns::{EndForces, ends};
 use super::nodes::Nodes;
-use super::{Chain, EndForces, GUIDE, NODE, TIE, U, ends};
+use super::{Chain, GUIDE, NODE, TIE, U};
 use crate::dynamics::energy::JointForces;
 use crate::dynamics::state::State;
 use crate::model::Model;

@@ -19,9 +19,9 @@
 //!
 //! [`dependents`]: super::dependents
 
-use super::single::SingleOperator;
+use super::columns::EndColumn;
 use super::slaving::row;
-use super::{BOTTOM, Chain, EndColumn, NODE, TIE, TOP, U};
+use super::{BOTTOM, Chain, NODE, TIE, TOP, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::model::Model;
@@ -146,5 +146,39 @@ impl Operator {
 
     pub(super) fn is_for(&self, factors: TangentFactors, conditions: &Conditions) -> bool {
         self.factors == factors && self.damping == [conditions.rayleigh.alpha, conditions.rayleigh.beta]
+    }
+}
+
+/// The step-constant part in single precision.
+#[derive(Default)]
+pub(super) struct SingleOperator {
+    pub blocks: Vec<Aligned<[[f32; NODE]; NODE]>>,
+    /// Per kind of span: rows of the node above by columns of the bottom end; rows of the node below by columns of the
+    /// top end, pipe and guide in one column as they do not share rows, and apart.
+    pub upper: Vec<Aligned<[[f32; NODE]; 12]>>,
+    pub lower: Vec<Aligned<[[f32; NODE]; 12]>>,
+    pub lower_joined: Vec<Aligned<[[f32; NODE]; 6]>>,
+}
+
+fn rounded<const N: usize>(columns: &[[f64; NODE]; N]) -> Aligned<[[f32; NODE]; N]> {
+    Aligned(columns.map(|column| column.map(|x| x as f32)))
+}
+
+impl SingleOperator {
+    fn of(operator: &Operator) -> Self {
+        let lower: Vec<Aligned<[[f32; NODE]; 12]>> = operator.couplings.iter().map(|c| rounded(&c.lower)).collect();
+        Self {
+            blocks: operator.blocks.iter().map(rounded).collect(),
+            upper: operator.couplings.iter().map(|c| rounded(&c.upper)).collect(),
+            lower_joined: lower
+                .iter()
+                .map(|lower| {
+                    Aligned(std::array::from_fn(|c| {
+                        std::array::from_fn(|i| lower[c][i] + lower[6 + c][i])
+                    }))
+                })
+                .collect(),
+            lower,
+        }
     }
 }

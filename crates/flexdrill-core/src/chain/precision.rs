@@ -2,9 +2,7 @@
 
 use std::ops::AddAssign;
 
-use super::residual::{load, store};
-use super::single::ONLY;
-use super::slaving::LinkMatrices;
+use super::columns::{ONLY, load, store};
 use super::{GUIDE, NODE, U};
 use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
@@ -22,7 +20,7 @@ pub(super) trait Precision: Copy + AddAssign + 'static {
     /// One in place `k`, zero elsewhere.
     fn only(k: usize) -> &'static [Self; NODE];
     /// Forces on the nodes of a span by local forces at its stations.
-    fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>];
+    fn on_nodes(stations: &OnNodesInBoth) -> &[OnNodes<Self>];
 }
 
 /// Sixteen numbers: a column of a node's block.
@@ -52,9 +50,26 @@ pub(super) struct OnNodes<S> {
     pub outer_joined: [[S; NODE]; 6],
 }
 
+/// [`OnNodes`] of the stations of a span, in both precisions.
+#[derive(Debug, Clone)]
+pub(super) struct OnNodesInBoth {
+    double: Vec<OnNodes<f64>>,
+    single: Vec<OnNodes<f32>>,
+}
+
+impl OnNodesInBoth {
+    /// From the rows of each station over the ends of its span, and the radii of the guide (m).
+    pub(super) fn of<'a>(rows: impl Iterator<Item = &'a [[[f64; 16]; 6]; 2]> + Clone, radii: [f64; 2]) -> Self {
+        Self {
+            double: rows.clone().map(|rows| OnNodes::of(rows, radii)).collect(),
+            single: rows.map(|rows| OnNodes::of(rows, radii)).collect(),
+        }
+    }
+}
+
 impl<S: Precision> OnNodes<S> {
     /// From the rows of a station over the ends of its span, [pipe, guide], and the radii of the guide, [inner, outer] (m).
-    pub(super) fn of(rows: &[[[f64; 16]; 6]; 2], radii: [f64; 2]) -> Self {
+    fn of(rows: &[[[f64; 16]; 6]; 2], radii: [f64; 2]) -> Self {
         // The guide gets the opposite of what the pipe gets.
         let layer = |on_pipe: f64, on_guide: f64, radius: f64| {
             std::array::from_fn(|end| {
@@ -113,8 +128,8 @@ impl Precision for f64 {
     }
 
     #[inline(always)]
-    fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>] {
-        &kind.on_nodes
+    fn on_nodes(stations: &OnNodesInBoth) -> &[OnNodes<Self>] {
+        &stations.double
     }
 }
 
@@ -146,8 +161,8 @@ impl Precision for f32 {
     }
 
     #[inline(always)]
-    fn on_nodes(kind: &LinkMatrices) -> &[OnNodes<Self>] {
-        &kind.on_nodes_single
+    fn on_nodes(stations: &OnNodesInBoth) -> &[OnNodes<Self>] {
+        &stations.single
     }
 }
 

@@ -4,8 +4,8 @@
 //! the step-constant tangent times the correction, and what geometric stiffness multiplies its axial force by likewise;
 //! contacts, stops and joint rows are evaluated again.
 
-use super::slaving::TENSION;
-use super::{Chain, EndColumn, Ends, GUIDE, NODE, U, at_ends, ends};
+use super::columns::{EndColumn, Ends, TENSION, around, at_ends, ends, load, plus_column, product, store};
+use super::{Chain, GUIDE, NODE, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
 use crate::elements::bit::BitTorque;
@@ -13,27 +13,6 @@ use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
-
-/// Two vectors of eight: a span's top and bottom end, or a node.
-#[inline(always)]
-pub(super) fn load<V: Vector>(column: &[f64; 16]) -> [V; 2] {
-    let (halves, _) = column.as_chunks::<8>();
-    [V::load(&halves[0]), V::load(&halves[1])]
-}
-
-#[inline(always)]
-pub(super) fn store<V: Vector>(values: [V; 2], column: &mut [f64; 16]) {
-    let (halves, _) = column.as_chunks_mut::<8>();
-    values[0].store(&mut halves[0]);
-    values[1].store(&mut halves[1]);
-}
-
-/// sum + column x.
-#[inline(always)]
-pub(super) fn plus_column<V: Vector>(sum: [V; 2], column: &[f64; 16], x: V) -> [V; 2] {
-    let column = load::<V>(column);
-    [sum[0].plus_product(column[0], x), sum[1].plus_product(column[1], x)]
-}
 
 impl Chain {
     /// Sets the axial forces that are foreseen from `from` for `h` (s) on, of which `part` counts.
@@ -114,24 +93,6 @@ impl Kernel for Foresee<'_> {
             }
         }
     }
-}
-
-/// Eight values from each end on. Two of each belong to other unknowns, and are to be multiplied by zero.
-#[inline(always)]
-pub(super) fn around<V: Vector>(values: &[f64], ends: [usize; 2]) -> [V; 2] {
-    let mut out = [V::splat(0.0); 2];
-    for (out, first) in out.iter_mut().zip(ends) {
-        *out = match values[first..].first_chunk() {
-            Some(eight) => V::load(eight),
-            None => {
-                // The guide's end at the bottom is the last but one of all.
-                let mut last = [0.0; 8];
-                last[..6].copy_from_slice(&values[first..first + 6]);
-                V::load(&last)
-            }
-        };
-    }
-    out
 }
 
 /// The residual of gravity, spans and contacts.
@@ -344,16 +305,4 @@ fn products<V: Vector>(
         [above[0].plus(below[0]), above[1].plus(below[1])],
         [other_above[0].plus(other_below[0]), other_above[1].plus(other_below[1])],
     )
-}
-
-/// A matrix over both ends times what the ends are.
-#[inline(always)]
-pub(super) fn product<V: Vector>(columns: &[EndColumn; 12], [top, bottom]: &Ends) -> [V; 2] {
-    let zero = [V::splat(0.0); 2];
-    let (mut above, mut below) = (zero, zero);
-    for j in 0..6 {
-        above = plus_column(above, &columns[j], V::splat(top[j]));
-        below = plus_column(below, &columns[6 + j], V::splat(bottom[j]));
-    }
-    [above[0].plus(below[0]), above[1].plus(below[1])]
 }

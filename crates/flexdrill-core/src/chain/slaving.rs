@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, Matrix3};
 
-use super::EndColumn;
-use super::precision::OnNodes;
+use super::columns::{EndColumn, TENSION};
+use super::precision::OnNodesInBoth;
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
 
@@ -35,8 +35,7 @@ pub(super) struct LinkMatrices {
     /// The same by rows: forces on the ends by the components of a local force.
     pub force: Vec<Aligned<ForceRows>>,
     /// Forces on the unknowns of both nodes by those of a gap, in both precisions.
-    pub on_nodes: Vec<OnNodes<f64>>,
-    pub on_nodes_single: Vec<OnNodes<f32>>,
+    pub on_nodes: OnNodesInBoth,
     /// Displacements of the inner nodes in their own frames, columns of a node one after the other.
     pub inner: Vec<Aligned<MotionColumns>>,
     /// Lateral deflection of the inner stations, as `lateral`, by a local force at each of them, the ends held.
@@ -73,8 +72,7 @@ impl LinkMatrices {
             tension: Aligned(tension.map(|tension| end_column(|j| tension[j]))),
             lateral: lateral_columns(&maps),
             motion: maps.iter().map(motion_columns).collect(),
-            on_nodes: force.iter().map(|rows| OnNodes::of(rows, model.guide_radii)).collect(),
-            on_nodes_single: force.iter().map(|rows| OnNodes::of(rows, model.guide_radii)).collect(),
+            on_nodes: OnNodesInBoth::of(force.iter().map(|rows| &**rows), model.guide_radii),
             force,
             inner: span.inner_displacements(&slaved),
             deflection: span.deflections(&compliance),
@@ -302,9 +300,6 @@ fn local(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
 pub(super) fn local_lateral(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
     local(model, station, body).rows(1, 2).clone_owned()
 }
-
-/// Lane of the geometric stiffness, free of forces, that gives the axial force (N).
-pub(super) const TENSION: usize = 7;
 
 /// Geometric stiffness with the axial force in the lane [`TENSION`].
 fn with_tension(mut matrices: Aligned<[SpanMatrix; 2]>, tension: &[[f64; 12]; 2]) -> Aligned<[SpanMatrix; 2]> {

@@ -1,11 +1,11 @@
 //! The linear system over the chain, in double precision: blocks of 16 eliminated from the top down.
 
+use super::columns::{load, plus_column, store};
 use super::dependents::{Dependents, FIRST_ROW, MOMENTS, ROTATIONS, SECOND_ROW};
 use super::double::sixteen;
 use super::nodes::{Node, pass};
 use super::operator::{Block, Operator};
 use super::precision::Double;
-use super::residual::{load, plus_column, store};
 use super::single::SingleElimination;
 use super::tangent::Additions;
 use super::{BOTTOM, Chain, GUIDE, Link, NODE, TIE, TOP};

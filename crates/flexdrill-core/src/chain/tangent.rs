@@ -152,7 +152,7 @@ impl<S: Precision> Kernel for ContactTangents<'_, S> {
             let stations = &nodes.stations;
             for (station, touch) in layer.among(|station| spans[stations[station].0]) {
                 let (l, i) = stations[station];
-                let on_nodes = &S::on_nodes(&self.chain.kinds[self.chain.links[l].kind])[i];
+                let on_nodes = &S::on_nodes(&self.chain.kinds[self.chain.links[l].kind].on_nodes)[i];
                 let contact = InSpan {
                     l,
                     at: [i == 0, i == nodes.elements(l)],

@@ -7,7 +7,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::chain::span_works;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::Numbered;
@@ -345,9 +344,8 @@ fn mean_work(moved: &[f64], before: &[f64], after: &[f64]) -> f64 {
 
 /// Work of some kinds of forces by the trapezoid rule (J).
 struct MeanWorks<'a, const N: usize> {
-    /// Becomes the displacements of the step.
-    moved: &'a mut [f64],
-    displacements: [&'a [f64]; 2],
+    /// Displacements of the step.
+    moved: &'a [f64],
     forces: [[&'a [f64]; 2]; N],
 }
 
@@ -356,10 +354,6 @@ impl<const N: usize> Kernel for MeanWorks<'_, N> {
 
     #[inline(always)]
     fn run<V: Vector>(self) -> [f64; N] {
-        let [before, after] = self.displacements;
-        for (moved, (q1, q0)) in self.moved.iter_mut().zip(after.iter().zip(before)) {
-            *moved = q1 - q0;
-        }
         let mut out = [0.0; N];
         for (work, [f0, f1]) in out.iter_mut().zip(self.forces) {
             *work = mean_work(self.moved, f0, f1);
@@ -368,41 +362,53 @@ impl<const N: usize> Kernel for MeanWorks<'_, N> {
     }
 }
 
+/// Work of a chain's spans by the trapezoid rule over a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct SpanWorks {
+    /// Of the damping (J).
+    pub damping: f64,
+    /// Of the inertia (J).
+    pub inertia: f64,
+    /// Of the geometric stiffness (J).
+    pub geometric: f64,
+}
+
 /// Both ends of a step: its states with what was evaluated there.
 pub(crate) struct StepEnds<'a> {
     /// Step size (s).
     pub h: f64,
+    /// Displacements of the step, by unknown.
+    pub moved: &'a [f64],
+    /// Work of the spans; over all stations there are none.
+    pub spans: SpanWorks,
     pub before: (&'a State, &'a EnergyPoint),
     pub after: (&'a State, &'a EnergyPoint),
 }
 
 impl EnergyAudit {
-    /// Adds a step. `moved` becomes its displacements.
-    pub(crate) fn add_step(
-        &mut self,
-        numbered: &Numbered<'_>,
-        ends: &StepEnds<'_>,
-        instructions: Instructions,
-        moved: &mut [f64],
-    ) {
+    /// Adds a step.
+    pub(crate) fn add_step(&mut self, numbered: &Numbered<'_>, ends: &StepEnds<'_>, instructions: Instructions) {
         let Numbered { model, places, weight } = *numbered;
         let StepEnds {
             h,
+            moved,
+            spans,
             before: (s0, e0),
             after: (s1, e1),
         } = *ends;
-        let displacements = [&s0.q[..], &s1.q[..]];
         let [friction, gravity] = instructions.run(MeanWorks {
             moved,
-            displacements,
             forces: [[&e0.friction, &e1.friction], [weight, weight]],
         });
-        let [mut damping, mut inertia, mut geometric_work] = span_works(instructions, moved, &e0.spans, &e1.spans);
+        let SpanWorks {
+            mut damping,
+            mut inertia,
+            geometric: mut geometric_work,
+        } = spans;
         // Elements by stations, or point masses.
         if e0.spans.is_empty() || !model.masses.is_empty() {
             let nodal = instructions.run(MeanWorks {
                 moved,
-                displacements,
                 forces: [
                     [&e0.damping, &e1.damping],
                     [&e0.inertia, &e1.inertia],

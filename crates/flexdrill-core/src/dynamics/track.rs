@@ -12,7 +12,7 @@ pub(crate) struct Track {
     pub energy: EnergyPoint,
     pub trial_energy: EnergyPoint,
     energy_before_step: EnergyPoint,
-    /// Room for the displacements of a step.
+    /// Displacements of a step.
     pub moved: Vec<f64>,
 }
 
@@ -41,6 +41,14 @@ impl Track {
     pub fn retreat(&mut self) {
         self.state.copy_from(&self.before_step);
         self.energy.copy_from(&self.energy_before_step);
+    }
+
+    /// Makes [`Track::moved`] the displacements from the present state to the one that is tried.
+    pub fn measure_displacements(&mut self) {
+        let ends = self.trial.q.iter().zip(&self.state.q);
+        for (moved, (after, before)) in self.moved.iter_mut().zip(ends) {
+            *moved = after - before;
+        }
     }
 
     /// Takes the state that was tried as the present one.

@@ -4,6 +4,7 @@
 //! read and written half as often. Pairs are known at compile time, so that no row is exchanged.
 
 use super::{COLUMNS, Column, NODE};
+use crate::chain::columns::ONLY;
 use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 
@@ -30,17 +31,6 @@ static PARTNERS: Aligned<[i32; NODE]> = {
 static OTHER_ROWS: Aligned<[Column; LAST + 1]> = Aligned(table(false));
 /// Per pair, one in the rows whose pivots come later.
 static LATER_ROWS: Aligned<[Column; LAST + 1]> = Aligned(table(true));
-/// Per row, one in that row only.
-pub(in crate::chain) static ONLY: Aligned<[Column; NODE]> = {
-    let mut out = [[0.0; NODE]; NODE];
-    let mut k = 0;
-    while k < NODE {
-        out[k][k] = 1.0;
-        k += 1;
-    }
-    Aligned(out)
-};
-
 const fn table(later: bool) -> [Column; LAST + 1] {
     let mut out = [[0.0; NODE]; LAST + 1];
     let mut n = 0;

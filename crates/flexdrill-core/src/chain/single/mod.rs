@@ -17,6 +17,7 @@
 mod block;
 
 use super::active::Window;
+use super::columns::ONLY;
 use super::dependents::{Dependents, FIRST_ROW, MOMENTS, SECOND_ROW};
 use super::nodes::{Node, pass};
 use super::operator::Operator;
@@ -32,8 +33,6 @@ use crate::simd::vector::Vector;
 
 use block::{Inverse, eliminate, eliminate_early, eliminate_last};
 
-pub(in crate::chain) use block::ONLY;
-
 /// Columns per node: twelve of the coupling and the right-hand side.
 const COLUMNS: usize = 13;
 /// Largest part of the limit on a residual that a window may leave unbalanced above it.
@@ -43,40 +42,6 @@ const LARGEST_SQUARE: f32 = 1e6;
 
 /// A column of a block.
 type Column = [f32; NODE];
-
-/// The step-constant part, rounded.
-#[derive(Default)]
-pub(super) struct SingleOperator {
-    blocks: Vec<Aligned<[Column; NODE]>>,
-    /// Per kind of span: rows of the node above by columns of the bottom end; rows of the node below by columns of the
-    /// top end, pipe and guide in one column as they do not share rows, and apart.
-    upper: Vec<Aligned<[Column; 12]>>,
-    lower: Vec<Aligned<[Column; 12]>>,
-    lower_joined: Vec<Aligned<[Column; 6]>>,
-}
-
-fn rounded<const N: usize>(columns: &[[f64; NODE]; N]) -> Aligned<[Column; N]> {
-    Aligned(columns.map(|column| column.map(|x| x as f32)))
-}
-
-impl SingleOperator {
-    pub(super) fn of(operator: &Operator) -> Self {
-        let lower: Vec<Aligned<[Column; 12]>> = operator.couplings.iter().map(|c| rounded(&c.lower)).collect();
-        Self {
-            blocks: operator.blocks.iter().map(rounded).collect(),
-            upper: operator.couplings.iter().map(|c| rounded(&c.upper)).collect(),
-            lower_joined: lower
-                .iter()
-                .map(|lower| {
-                    Aligned(std::array::from_fn(|c| {
-                        std::array::from_fn(|i| lower[c][i] + lower[6 + c][i])
-                    }))
-                })
-                .collect(),
-            lower,
-        }
-    }
-}
 
 /// Room for an elimination.
 pub(super) struct SingleSweep {

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::{Chain, ChainEquations};
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::StepEnds;
+use crate::dynamics::energy::{SpanWorks, StepEnds};
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::{self, Rejected, Stride};
 use crate::dynamics::numbered::Numbered;
@@ -509,7 +509,7 @@ impl Stepper {
             ..
         } = self;
         let (from, to, energy) = (&track.state, &mut track.trial, &mut track.trial_energy);
-        let (iterations, numbered) = if let Some(chain) = chain {
+        let (iterations, numbered, spans) = if let Some(chain) = chain {
             // Spans are deflected by the forces at the start of the step.
             to.deflection.copy_from_slice(&track.energy.deflection);
             let mut equations = ChainEquations {
@@ -520,7 +520,9 @@ impl Stepper {
             };
             let made = newton::step(&mut equations, &stride, &conditions, from, to)?;
             equations.energy(energy, to, &conditions);
-            (made, chain.model.numbered(model))
+            track.measure_displacements();
+            let spans = chain.span_works(&track.moved, &track.energy.spans, &track.trial_energy.spans);
+            (made, chain.model.numbered(model), spans)
         } else {
             let mut equations = StationEquations {
                 model,
@@ -530,15 +532,17 @@ impl Stepper {
             };
             let made = newton::step(&mut equations, &stride, &conditions, from, to)?;
             energy.evaluate(model, to, &conditions, &stations.assembler, interactions);
-            (made, Numbered::of(model))
+            track.measure_displacements();
+            (made, Numbered::of(model), SpanWorks::default())
         };
         let ends = StepEnds {
             h: step,
+            moved: &track.moved,
+            spans,
             before: (&track.state, &track.energy),
             after: (&track.trial, &track.trial_energy),
         };
-        self.audit
-            .add_step(&numbered, &ends, self.instructions, &mut track.moved);
+        self.audit.add_step(&numbered, &ends, self.instructions);
         stopwatch.lap(Phase::Energy);
         track.take();
         Ok(iterations)
