@@ -39,7 +39,7 @@ def _definition(package, kind, name):
     if kind == "srv":
         name, half = name.rsplit("_", 1)
     own = ROOT / "msg" / f"{name}.{kind}"
-    foreign = ROOT / "src" / "messages" / "external" / package / kind / f"{name}.{kind}"
+    foreign = ROOT / "crates" / "flexdrill-messages" / "external" / package / kind / f"{name}.{kind}"
     text = (own if package == "flexdrill" else foreign).read_text()
     if half:
         parts = re.split(r"^---$", text, flags=re.M)
