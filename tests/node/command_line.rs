@@ -77,7 +77,7 @@ fn wrong_use_is_2_and_a_failure_is_1() {
         refused(
             &["rig", log, "--from", text],
             2,
-            &["--from", text, "not a place in a log"],
+            &["--from", text, "not a position in a log"],
         );
         refused(
             &["replay", log, "--duration", text, out[0], out[1]],
