@@ -41,7 +41,7 @@ fn two_publishers_at_once_are_an_alarm_that_names_them() {
     let publishers = both["input_publishers"][0].as_str().unwrap();
     assert_eq!(publishers.matches(" @ 127.0.0.1 (").count(), 2, "{publishers}");
     assert_eq!(both["input_publishers"][1], "");
-    twin.wait_for("alarm two_drivers (medium): rotary_speed is sent by");
+    twin.wait_for("alarm two_drivers (medium): Rotary speed is published by");
     twin.signal("TERM");
     assert_eq!(twin.end(), Some(0));
 }

@@ -141,7 +141,7 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
     let said = seen["no_input"].to_string();
     for part in [
         "/twin/status is no input of the twin",
-        "/rig/rotary_speed_rpm takes std_msgs/msg/Float64 as cdr, not std_msgs/msg/Float64 as json",
+        "/rig/rotary_speed_rpm has the type std_msgs/msg/Float64 in cdr, not std_msgs/msg/Float64 in json",
         "not little-endian CDR",
     ] {
         assert!(said.contains(part), "{part}: {said}");

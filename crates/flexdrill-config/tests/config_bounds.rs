@@ -1,5 +1,11 @@
 //! The bounds in the JSON Schema are those of the checks.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use std::collections::BTreeSet;
 
 use flexdrill_config::{Config, ConfigError, Schema, json_schema};
