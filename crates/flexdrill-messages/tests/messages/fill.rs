@@ -225,7 +225,11 @@ fn a_warning_names_its_place_and_when_it_began() {
     snapshot.hazards.drive = DriveState::RunningUp;
     fill::whirl_warning(&snapshot, &header(), WhirlWarning::INPUT_OK, &mut message);
     assert_eq!(message.severity, WhirlWarning::OK);
-    assert!(message.message.contains("standstill or starting"), "{}", message.message);
+    assert!(
+        message.message.contains("standstill or starting"),
+        "{}",
+        message.message
+    );
 
     snapshot.warning.entry = 9;
     fill::whirl_warning(&snapshot, &header(), 0, &mut message);
