@@ -21,6 +21,14 @@ enum Task {
         /// Which page.
         page: String,
     },
+    /// Runs the measurements of docs/measurements.md that take minutes to hours: --cases real-time, scaling, memory,
+    /// step-error, truth, quality or all.
+    #[command(disable_help_flag = true)]
+    Bench {
+        /// What the measurements accept; --help lists it.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
     /// Writes the synthetic rig log of the demonstration, the same bytes every time.
     DemoLog {
         /// Where to.
@@ -37,26 +45,25 @@ fn main() -> anyhow::Result<()> {
             }
         }
         Task::Reference { page } => {
-            let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-            let status = Command::new(cargo)
-                .args([
-                    "run",
-                    "--quiet",
-                    "--release",
-                    "--locked",
-                    "--package",
-                    "flexdrill-pages",
-                    "--",
-                    &page,
-                ])
-                .status()
-                .context("cargo cannot be started")?;
-            anyhow::ensure!(status.success(), "the page `{page}` was not written: {status}");
+            package("flexdrill-pages", &[page])?;
         }
+        Task::Bench { arguments } => package("flexdrill-measurements", &arguments)?,
         Task::DemoLog { file } => {
             std::fs::write(&file, xtask::demo_log::demo_log()).with_context(|| format!("{}", file.display()))?;
             println!("wrote {}", file.display());
         }
     }
+    Ok(())
+}
+
+/// Builds and runs another package of the workshop.
+fn package(name: &str, arguments: &[String]) -> anyhow::Result<()> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let status = Command::new(cargo)
+        .args(["run", "--quiet", "--release", "--locked", "--package", name, "--"])
+        .args(arguments)
+        .status()
+        .context("cargo cannot be started")?;
+    anyhow::ensure!(status.success(), "{name} ended with {status}");
     Ok(())
 }

@@ -1,9 +1,8 @@
 //! `--cases memory`: whether memory grows while the model runs.
 
-use super::document::Table;
-use super::machine::status_kb;
-use super::measure::{Load, run};
-use crate::cli::output::tell;
+use flexdrill_bench::machine::status_kb;
+use flexdrill_bench::measure::{Load, run};
+use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 
 /// Model time between two samples (s).
@@ -15,11 +14,11 @@ const SHOWN: [usize; 8] = [1, 2, 5, 10, 20, 30, 45, 60];
 ///
 /// # Errors
 /// When the tool cannot be built, a step fails, or the system does not show the memory.
-pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Result<String> {
+pub(crate) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Result<String> {
     // Allocated before the run, so that the samples themselves do not show.
     let mut samples: Vec<u64> = Vec::with_capacity((duration / EVERY) as usize + 1);
     let mut next = EVERY;
-    tell!("memory: {duration} s of model time");
+    eprintln!("memory: {duration} s of model time");
     let measured = run(config, load, duration, |time| {
         // Frames are exact to rounding; a sample may be a frame late.
         if time + 1e-9 >= next {

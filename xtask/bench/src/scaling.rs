@@ -1,8 +1,7 @@
 //! `--cases scaling`: how the cost grows with the number of links.
 
-use super::document::Table;
-use super::measure::{Load, Measured, percentiles, run};
-use crate::cli::output::tell;
+use flexdrill_bench::measure::{Load, Measured, percentiles, run};
+use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 
 /// Sizes of the tool: from a quarter of the paper's to four times it.
@@ -15,7 +14,7 @@ const ROUNDS: u32 = 5;
 ///
 /// # Errors
 /// When a tool cannot be built or a step fails.
-pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Result<String> {
+pub(crate) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Result<String> {
     let mut table = Table::new([
         "links",
         "unknowns",
@@ -30,7 +29,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
     let mut fastest: [Option<Measured>; LINKS.len()] = Default::default();
     for round in 1..=ROUNDS {
         for (links, fastest) in LINKS.into_iter().zip(&mut fastest) {
-            tell!("{links} links: {duration} s of model time, {round} of {ROUNDS}");
+            eprintln!("{links} links: {duration} s of model time, {round} of {ROUNDS}");
             let measured = run(&config.with_links(links)?, load, duration, |_| {})?;
             if let Some(failure) = measured.failure {
                 anyhow::bail!("{links} links: a step failed: {failure}");

@@ -1,8 +1,7 @@
 //! `--cases truth`: statistics of chaotic motion by step, each over several runs, with their scatter.
 
-use super::cases::CASES;
-use super::document::Table;
-use crate::cli::output::tell;
+use flexdrill_bench::cases::CASES;
+use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
@@ -54,7 +53,7 @@ const DECIMALS: [usize; 5] = [3, 1, 1, 3, 2];
 ///
 /// # Errors
 /// When a tool cannot be built or a step fails.
-pub(super) fn tables(config: &Config, rpm: f64, duration: f64, runs: u32) -> anyhow::Result<String> {
+pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, runs: u32) -> anyhow::Result<String> {
     let mut table = Table::new([
         "case",
         "step (ms)",
@@ -85,7 +84,7 @@ pub(super) fn tables(config: &Config, rpm: f64, duration: f64, runs: u32) -> any
                 .into_iter()
                 .chain(cells)
                 .collect();
-            tell!("{}", row.join(" | "));
+            eprintln!("{}", row.join(" | "));
             table.cells(&row);
             fine.get_or_insert(figures);
         }

@@ -1,27 +1,16 @@
 //! `flexdrill bench`: runs at constant inputs as fast as they go, with the figures that `docs/measurements.md` quotes.
 
-mod cases;
-mod document;
-mod figures;
-mod machine;
-mod measure;
-mod memory;
-mod quality;
-mod real_time;
-mod scaling;
-mod step_error;
-mod truth;
-
 use std::path::PathBuf;
 
-use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 
-use self::document::Table;
-use self::measure::{Load, Measured, percentiles};
 use super::built_in::BuiltIn;
+use super::progress::Progress;
 use super::{WrongUse, numbers};
 use crate::cli::output::{say, say_text, tell};
+use flexdrill_bench::measure::{Load, Measured, percentiles};
+use flexdrill_bench::table::Table;
+use flexdrill_bench::{ChangeError, machine, measure, real_time};
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
@@ -30,27 +19,20 @@ use flexdrill_core::twin::ModelQuality;
 /// Runs a configuration at constant inputs as fast as it goes and prints its speed and its figures, as Markdown.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// Configurations to run, one after another; with --cases the first one, of step-error the others too, as they are
-    /// [default: config/default.yaml, without --cases and of step-error also config/coarse.yaml, both built in].
+    /// Configurations to run, one after another; with --cases the first one [default: config/default.yaml, without
+    /// --cases also config/coarse.yaml, both built in].
     #[arg(long = "config", value_name = "FILE")]
     configs: Vec<PathBuf>,
     /// A set of runs instead of a single one.
     #[arg(long, value_enum)]
     cases: Option<Cases>,
-    /// Writes the tables of --cases into this document, between its markers.
-    #[arg(long, value_name = "DOCUMENT", requires = "cases")]
-    write: Option<PathBuf>,
-    /// Model time after the static start (s) [default: 20; 60 real-time, 10 scaling, 3600 memory,
-    /// 30 step-error and quality, 40 truth].
+    /// Model time after the static start (s) [default: 20; 60 with --cases].
     #[arg(long, value_parser = numbers::seconds)]
     duration: Option<f64>,
-    /// Runs per row of truth; their mean and its error are told.
-    #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    runs: u32,
     /// Rotary speed (r/min).
     #[arg(long, default_value_t = 40.0, value_parser = numbers::rpm)]
     rpm: f64,
-    /// Weight on bit (kN), on from the start; real-time, step-error and quality have their own.
+    /// Weight on bit (kN), on from the start; --cases have their own.
     #[arg(long, default_value_t = 10.0, value_parser = numbers::kilonewton)]
     wob: f64,
     /// Another model step than the configuration's (s).
@@ -89,74 +71,17 @@ impl Vectors {
     }
 }
 
-/// Sets of runs.
+/// Sets of runs. Those that take minutes to hours are `cargo xtask bench`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Cases {
-    /// The tool as it is and three harder ones, with speed, iterations, energy error and time per phase.
+    /// The tool as it is and harder ones, with speed, iterations, energy error and time per phase.
     RealTime,
-    /// 8 to 132 links.
-    Scaling,
-    /// Resident memory over an hour of model time.
-    Memory,
-    /// The step against an eighth of it, for the same tools: minutes each.
-    StepError,
-    /// Statistics of the same tools with an eighth, a quarter, half of the step and all of it, over several runs each: an hour.
-    Truth,
-    /// What `model_quality` says of the same tools, of others and of poor steps, against an eighth of the step: an hour.
-    Quality,
-    /// All of them.
-    All,
-}
-
-impl Cases {
-    fn each(self) -> &'static [Self] {
-        match self {
-            Self::All => &[
-                Self::RealTime,
-                Self::StepError,
-                Self::Truth,
-                Self::Quality,
-                Self::Scaling,
-                Self::Memory,
-            ],
-            Self::RealTime => &[Self::RealTime],
-            Self::Scaling => &[Self::Scaling],
-            Self::Memory => &[Self::Memory],
-            Self::StepError => &[Self::StepError],
-            Self::Truth => &[Self::Truth],
-            Self::Quality => &[Self::Quality],
-        }
-    }
-
-    /// As on the command line and in the markers.
-    fn name(self) -> &'static str {
-        match self {
-            Self::RealTime => "real-time",
-            Self::Scaling => "scaling",
-            Self::Memory => "memory",
-            Self::StepError => "step-error",
-            Self::Truth => "truth",
-            Self::Quality => "quality",
-            Self::All => "all",
-        }
-    }
-
-    /// s.
-    fn usual_duration(self) -> f64 {
-        match self {
-            Self::RealTime => 60.0,
-            Self::StepError | Self::Quality => 30.0,
-            Self::Truth => 40.0,
-            Self::Scaling => 10.0,
-            Self::Memory | Self::All => 3600.0,
-        }
-    }
 }
 
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When a configuration is refused, a step fails, or the document cannot be written.
+/// When a configuration is refused, or a step fails.
 pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
     if let Some(duration) = args.duration
         && !(duration > 0.0 && duration.is_finite())
@@ -164,7 +89,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
         return Err(WrongUse::new(format!("--duration {duration}: a time above 0 s")).into());
     }
     match args.cases {
-        Some(cases) => run_cases(args, cases),
+        Some(Cases::RealTime) => run_cases(args),
         None => run_plain(args),
     }
 }
@@ -179,47 +104,19 @@ fn instructions(args: &BenchArgs) -> anyhow::Result<Instructions> {
         .ok_or_else(|| WrongUse::new(format!("--instructions: this machine does not have {}", asked.name())).into())
 }
 
-fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
+fn run_cases(args: &BenchArgs) -> anyhow::Result<()> {
     let (name, config) = match args.configs.first() {
         Some(path) => (path.display().to_string(), load(BuiltIn::Default, Some(path), args)?),
         None => (BuiltIn::Default.file().to_owned(), load(BuiltIn::Default, None, args)?),
     };
-    if let Some(document) = &args.write {
-        for case in cases.each() {
-            document::check(document, case.name())?;
-        }
-    }
     let constant = Load {
         rpm: args.rpm,
         wob: args.wob,
         instructions: instructions(args)?,
     };
-    for case in cases.each() {
-        let duration = args.duration.unwrap_or_else(|| case.usual_duration());
-        let tables = match case {
-            Cases::RealTime => real_time::tables(&config, constant, duration)?,
-            Cases::StepError => step_error::tables(&named(args)?, args.rpm, duration)?,
-            Cases::Truth => truth::tables(&config, args.rpm, duration, args.runs)?,
-            Cases::Quality => quality::tables(&config, args.rpm, duration)?,
-            Cases::Scaling => scaling::tables(&config, constant, duration)?,
-            Cases::Memory | Cases::All => memory::tables(&config, constant, duration)?,
-        };
-        let runs = match case {
-            Cases::Truth => format!(" --runs {}", args.runs),
-            _ => String::new(),
-        };
-        let text = format!(
-            "Command: `flexdrill bench --cases {}{runs} --duration {duration}`, `{}`. {}\n\n{tables}",
-            case.name(),
-            name,
-            machine::describe()
-        );
-        say!("\n### {}\n\n{text}", case.name());
-        if let Some(document) = &args.write {
-            document::write(document, case.name(), &text)?;
-            tell!("written to {}", document.display());
-        }
-    }
+    let duration = args.duration.unwrap_or(60.0);
+    let tables = real_time::tables(&config, constant, duration, |line| tell!("{line}"))?;
+    say!("\n### real-time\n\n{}", real_time::section(&name, duration, &tables));
     Ok(())
 }
 
@@ -246,7 +143,9 @@ fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
             wob: args.wob,
             instructions: instructions(args)?,
         };
-        let measured = measure::run(&config, load, duration, |_| {})?;
+        let mut progress = Progress::new(duration);
+        let measured = measure::run(&config, load, duration, |time| progress.at(time))?;
+        progress.done();
         say_text!("{}", figures_of(&measured).text());
         if let Some(failure) = measured.failure {
             anyhow::bail!("a step failed at model time {:.4} s: {}", failure.time, failure);
@@ -257,21 +156,11 @@ fn run_plain(args: &BenchArgs) -> anyhow::Result<()> {
 
 /// The configuration with the changes that the command line asks for.
 fn load(usual: BuiltIn, path: Option<&std::path::Path>, args: &BenchArgs) -> anyhow::Result<Config> {
-    let mut config = usual.or_file(path)?;
-    if let Some(step) = args.time_step {
-        config = config.with_value("solver.time_step", step)?;
-    }
-    for change in &args.set {
-        let (key, value) = change
-            .split_once('=')
-            .ok_or_else(|| WrongUse::new(format!("--set {change}: expected KEY=VALUE")))?;
-        // What is no number, true or false is a word, such as `shared`.
-        let value = serde_json::from_str(value).unwrap_or_else(|_| serde_json::Value::from(value));
-        config = config
-            .with_value(key, value)
-            .with_context(|| format!("--set {change}"))?;
-    }
-    Ok(config)
+    let config = usual.or_file(path)?;
+    flexdrill_bench::changed(config, args.time_step, &args.set).map_err(|error| match error {
+        ChangeError::NoPair(_) => WrongUse::new(error.to_string()).into(),
+        _ => error.into(),
+    })
 }
 
 /// Word, share and cause.

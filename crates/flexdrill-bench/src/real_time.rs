@@ -1,17 +1,17 @@
 //! `--cases real-time`: the default tool and the hard cases, each with its speed.
 
 use super::cases::{CASES, WHIRLING};
-use super::document::Table;
+use super::machine;
 use super::measure::{Load, Measured, percentiles, run};
-use crate::cli::output::tell;
+use super::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::phases::Phase;
 
-/// Runs all cases; gives the tables.
+/// Runs all cases, each announced to `say`; gives the tables.
 ///
 /// # Errors
 /// When a tool cannot be built. A failed step is a line of the table.
-pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Result<String> {
+pub fn tables(config: &Config, load: Load, duration: f64, mut say: impl FnMut(&str)) -> anyhow::Result<String> {
     let mut speed = Table::new([
         "case",
         "real-time factor",
@@ -29,7 +29,7 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
     let mut phases = Table::with_head(&names);
     let mut failures = String::new();
     for case in CASES.iter().chain([&WHIRLING]) {
-        tell!("{}: {duration} s of model time", case.name);
+        say(&format!("{}: {duration} s of model time", case.name));
         let config = (case.changes)(config)?;
         let load = Load {
             wob: case.wob,
@@ -65,6 +65,14 @@ pub(super) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         speed.text(),
         phases.text()
     ))
+}
+
+/// The section of a document that [`tables`] of the configuration `name` make.
+pub fn section(name: &str, duration: f64, tables: &str) -> String {
+    format!(
+        "Command: `flexdrill bench --cases real-time --duration {duration}`, `{name}`. {}\n\n{tables}",
+        machine::describe()
+    )
 }
 
 fn speed_row(name: &str, measured: &Measured) -> [String; 8] {

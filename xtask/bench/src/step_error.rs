@@ -1,8 +1,7 @@
 //! `--cases step-error`: the configured step against an eighth of it, beside its speed.
 
-use super::cases::{CASES, Case};
-use super::document::Table;
-use crate::cli::output::tell;
+use flexdrill_bench::cases::{CASES, Case};
+use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
@@ -16,7 +15,7 @@ const CALM_SHORTER: f64 = 6.0;
 ///
 /// # Errors
 /// When a tool cannot be built. A failed step is a line below the tables.
-pub(super) fn tables(configs: &[(String, Config)], rpm: f64, duration: f64) -> anyhow::Result<String> {
+pub(crate) fn tables(configs: &[(String, Config)], rpm: f64, duration: f64) -> anyhow::Result<String> {
     let mut tables = Tables::new();
     for (index, (path, config)) in configs.iter().enumerate() {
         let cases = if index == 0 { CASES } else { &CASES[..1] };
@@ -127,7 +126,7 @@ impl Tables {
 }
 
 fn calm_row(name: &str, config: &Config, motion: &Motion) -> Result<[String; 5], StepErrorFailure> {
-    tell!("{name}: two runs of {} s without bit torque", motion.duration);
+    eprintln!("{name}: two runs of {} s without bit torque", motion.duration);
     let config = config.with_value("tool.bit.friction_factor", 0.0)?;
     let coarse = Record::run(&config, motion, 0.0)?;
     let fine = Record::run(&refined(&config)?, motion, 0.0)?;
@@ -156,7 +155,7 @@ fn calm_row(name: &str, config: &Config, motion: &Motion) -> Result<[String; 5],
 type ChaoticRows = ([String; 6], Vec<[String; 8]>);
 
 fn chaotic_rows(name: &str, config: &Config, motion: &Motion) -> Result<ChaoticRows, StepErrorFailure> {
-    tell!(
+    eprintln!(
         "{name}: three runs of {} s and three of an eighth of the step",
         motion.duration
     );
@@ -178,7 +177,7 @@ fn chaotic_rows(name: &str, config: &Config, motion: &Motion) -> Result<ChaoticR
         figure(&statistics.whirl_ratio),
         format!("{}; {}", energy(&runs), energy(&fine)),
     ];
-    tell!("{}", row.join(" | "));
+    eprintln!("{}", row.join(" | "));
     let [inner, outer] = statistics.layers;
     let layers = [("both", statistics.whole), ("pipe-guide", inner), ("guide-wall", outer)];
     let profiles: Vec<_> = layers
@@ -186,7 +185,7 @@ fn chaotic_rows(name: &str, config: &Config, motion: &Motion) -> Result<ChaoticR
         .map(|(layer, profile)| profile_row(name, layer, profile))
         .collect();
     for row in &profiles {
-        tell!("{}", row.join(" | "));
+        eprintln!("{}", row.join(" | "));
     }
     Ok((row, profiles))
 }

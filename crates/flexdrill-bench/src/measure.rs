@@ -2,7 +2,6 @@
 
 use hdrhistogram::Histogram;
 
-use super::super::progress::Progress;
 use super::figures::Figures;
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
@@ -21,7 +20,7 @@ const LONGEST: u64 = 60_000_000_000;
 
 /// What is run.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Load {
+pub struct Load {
     /// Rotary speed (r/min).
     pub rpm: f64,
     /// Weight on bit (kN), on from the static start.
@@ -31,25 +30,34 @@ pub(super) struct Load {
 }
 
 /// What a run came to.
-pub(super) struct Measured {
-    /// Of the static start (s).
+pub struct Measured {
+    /// Wall time of the static start (s).
     pub start: f64,
+    /// Degrees of freedom.
     pub unknowns: usize,
     /// Time step (s).
     pub time_step: f64,
-    /// Steps asked for and taken.
+    /// Steps taken.
     pub steps: u64,
-    /// Wall time and this thread's processor time of steps and frames (s).
+    /// Wall time of steps and frames (s).
     pub wall: f64,
+    /// This thread's processor time of steps and frames (s).
     pub processor: f64,
-    /// Times of single steps and of frames of 20 ms (ns).
+    /// Times of single steps (ns).
     pub step_times: Histogram<u64>,
+    /// Times of frames of 20 ms (ns).
     pub frame_times: Histogram<u64>,
+    /// Time per phase.
     pub phases: PhaseTimes,
+    /// The solver's counters.
     pub counters: SolverCounters,
+    /// Most corrections of a step.
     pub most_iterations: u32,
+    /// Energy since the start.
     pub energy: EnergyAudit,
+    /// Figures of the motion.
     pub figures: Figures,
+    /// The last snapshot.
     pub last: Snapshot,
     /// Where the run ended, if a step failed.
     pub failure: Option<StepFailure>,
@@ -57,39 +65,39 @@ pub(super) struct Measured {
 
 impl Measured {
     /// Model time per wall time.
-    pub(super) fn real_time_factor(&self) -> f64 {
+    pub fn real_time_factor(&self) -> f64 {
         self.steps as f64 * self.time_step / self.wall
     }
 
     /// Model time per processor time.
-    pub(super) fn processor_factor(&self) -> f64 {
+    pub fn processor_factor(&self) -> f64 {
         self.steps as f64 * self.time_step / self.processor
     }
 
     /// Newton iterations per step.
-    pub(super) fn iterations(&self) -> f64 {
+    pub fn iterations(&self) -> f64 {
         self.counters.newton_iterations as f64 / self.steps.max(1) as f64
     }
 
     /// Energy error over the drive's work (%).
-    pub(super) fn energy_error(&self) -> f64 {
+    pub fn energy_error(&self) -> f64 {
         100.0 * self.energy.error.abs() / self.energy.drive.abs().max(f64::MIN_POSITIVE)
     }
 
     /// Mean processor time of a step (us).
-    pub(super) fn step_time(&self) -> f64 {
+    pub fn step_time(&self) -> f64 {
         1e6 * self.processor / self.steps.max(1) as f64
     }
 
     /// Mean per step of one phase (us): its share of the wall time, of the processor time. So neighbours on the machine
     /// do not count.
-    pub(super) fn phase(&self, phase: Phase) -> f64 {
+    pub fn phase(&self, phase: Phase) -> f64 {
         self.step_time() * self.phases.of(phase) as f64 / self.phases.total().max(1) as f64
     }
 }
 
 /// Median, p99, p99.9 and longest (ms).
-pub(super) fn percentiles(times: &Histogram<u64>) -> [f64; 4] {
+pub fn percentiles(times: &Histogram<u64>) -> [f64; 4] {
     let at = |q: f64| times.value_at_quantile(q) as f64 * 1e-6;
     [at(0.5), at(0.99), at(0.999), times.max() as f64 * 1e-6]
 }
@@ -98,12 +106,7 @@ pub(super) fn percentiles(times: &Histogram<u64>) -> [f64; 4] {
 ///
 /// # Errors
 /// When the tool cannot be built. A step that fails ends the run and is part of the result.
-pub(super) fn run(
-    config: &Config,
-    load: Load,
-    duration: f64,
-    mut every_frame: impl FnMut(f64),
-) -> anyhow::Result<Measured> {
+pub fn run(config: &Config, load: Load, duration: f64, mut every_frame: impl FnMut(f64)) -> anyhow::Result<Measured> {
     let config = config.with_value("inputs.weight_on_bit.initial_kn", load.wob)?;
     let began = monotonic::now();
     let mut simulation = Simulation::with_solver(
@@ -128,7 +131,6 @@ pub(super) fn run(
     let (mut steps, mut busy, mut frame) = (0, 0, 0);
     let mut most_iterations = 0;
     let mut failure = None;
-    let mut progress = Progress::new(duration);
     let mut aside = 0;
     let processor = monotonic::processor_time();
     while steps < total {
@@ -158,16 +160,14 @@ pub(super) fn run(
             // What the bench itself does is not the model's.
             let before = monotonic::processor_time();
             if steps * 4 >= total {
-                figures.take(&last);
+                figures.add(&last);
             }
             let time = steps as f64 * time_step;
-            progress.at(time);
             every_frame(time);
             aside += monotonic::processor_time() - before;
         }
     }
     let processor = monotonic::processor_time() - processor - aside;
-    progress.done();
     Ok(Measured {
         start,
         unknowns: simulation.degrees_of_freedom(),

@@ -1,8 +1,7 @@
 //! `--cases quality`: what the model says of its own motion, beside how far that motion is off.
 
-use super::cases::{CASES, Case};
-use super::document::Table;
-use crate::cli::output::tell;
+use flexdrill_bench::cases::{CASES, Case};
+use flexdrill_bench::table::Table;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{ModelQuality, QualityLevel};
@@ -39,7 +38,7 @@ const RHO_INFINITY: [f64; 4] = [0.0, 0.2, 0.7, 0.8];
 ///
 /// # Errors
 /// When a tool cannot be built. A failed step is a row of the table.
-pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result<String> {
+pub(crate) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result<String> {
     let mut table = Table::new([
         "case",
         "step (ms)",
@@ -59,21 +58,21 @@ pub(super) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
         };
         let motion = Motion::of(&tool, inputs, duration);
         let run = |config: &Config| {
-            tell!("{}: {duration} s in steps of {} s", case.name, config.solver.time_step);
+            eprintln!("{}: {duration} s in steps of {} s", case.name, config.solver.time_step);
             // Intervals are whole numbers of each step.
             let motion = Motion::of(config, inputs, motion.duration);
             Record::run(config, &motion, 0.0)
         };
         let fine = run(&refined(&tool)?)?;
         let first = row(case.name, refined(&tool)?.solver.time_step, &fine, None);
-        tell!("{}", first.join(" | "));
+        eprintln!("{}", first.join(" | "));
         table.row(first);
         for (name, config) in variants(case.name, &tool, index == 0)? {
             let step = config.solver.time_step;
             match run(&config) {
                 Ok(record) => {
                     let row = row(&name, step, &record, Some(&fine));
-                    tell!("{}", row.join(" | "));
+                    eprintln!("{}", row.join(" | "));
                     table.row(row);
                 }
                 Err(StepErrorFailure::Step { failure, .. }) => {

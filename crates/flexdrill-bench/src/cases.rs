@@ -3,18 +3,20 @@
 use flexdrill_config::{Config, ConfigError};
 
 /// A tool and a load that the twin must keep pace with.
-pub(super) struct Case {
-    pub(super) name: &'static str,
+pub struct Case {
+    /// Name in tables.
+    pub name: &'static str,
     /// Weight on bit (kN).
-    pub(super) wob: f64,
+    pub wob: f64,
     /// Rotary speed (r/min), where it is another than that of the bench.
-    pub(super) rpm: Option<f64>,
-    pub(super) changes: fn(&Config) -> Result<Config, ConfigError>,
+    pub rpm: Option<f64>,
+    /// What makes it of a configuration.
+    pub changes: fn(&Config) -> Result<Config, ConfigError>,
 }
 
 /// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the
 /// wall.
-pub(super) const CASES: &[Case] = &[
+pub const CASES: &[Case] = &[
     Case {
         name: "as it is, 10 kN",
         wob: 10.0,
@@ -48,7 +50,7 @@ pub(super) const CASES: &[Case] = &[
 /// Backward whirl, the motion that alarms are for: the pipe is thrown round the guide and rolls where it touches, so that
 /// friction at small slip turns its direction in every collision. What depends on the step is measured on [`CASES`] only,
 /// whose statistics scatter less.
-pub(super) const WHIRLING: Case = Case {
+pub const WHIRLING: Case = Case {
     name: "whirling: pipe-guide friction 0.7, 120 r/min, 10 kN",
     wob: 10.0,
     rpm: Some(120.0),

@@ -1,42 +1,10 @@
-//! Markdown tables, printed or written into a document between markers.
+//! Sections of a document that a measurement writes, between their markers.
 
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
 
-/// A table of text cells.
-pub(super) struct Table {
-    text: String,
-}
-
-impl Table {
-    pub(super) fn new<const N: usize>(head: [&str; N]) -> Self {
-        Self::with_head(&head)
-    }
-
-    /// With as many columns as there are names.
-    pub(super) fn with_head(head: &[&str]) -> Self {
-        let mut table = Self { text: String::new() };
-        table.cells(head);
-        table.cells(&vec!["---"; head.len()]);
-        table
-    }
-
-    pub(super) fn row<const N: usize>(&mut self, cells: [String; N]) {
-        self.cells(&cells);
-    }
-
-    pub(super) fn cells(&mut self, cells: &[impl AsRef<str>]) {
-        let cells: Vec<&str> = cells.iter().map(AsRef::as_ref).collect();
-        self.text.push_str(&format!("| {} |\n", cells.join(" | ")));
-    }
-
-    pub(super) fn text(&self) -> &str {
-        &self.text
-    }
-}
-
-/// The lines that enclose a section which `flexdrill bench` writes.
+/// The lines that enclose a section which a measurement writes.
 fn markers(name: &str) -> (String, String) {
     (
         format!("<!-- flexdrill bench {name}: begin -->"),
@@ -61,7 +29,7 @@ fn replaced(document: &str, name: &str, text: &str) -> Option<String> {
 ///
 /// # Errors
 /// When the file cannot be read or has no markers for `name`.
-pub(super) fn check(path: &Path, name: &str) -> anyhow::Result<()> {
+pub(crate) fn check(path: &Path, name: &str) -> anyhow::Result<()> {
     let document = std::fs::read_to_string(path).with_context(|| format!("{} cannot be read", path.display()))?;
     if replaced(&document, name, "").is_none() {
         let (begin, end) = markers(name);
@@ -77,7 +45,7 @@ pub(super) fn check(path: &Path, name: &str) -> anyhow::Result<()> {
 ///
 /// # Errors
 /// As [`check`], and when the file cannot be written.
-pub(super) fn write(path: &Path, name: &str, text: &str) -> anyhow::Result<()> {
+pub(crate) fn write(path: &Path, name: &str, text: &str) -> anyhow::Result<()> {
     check(path, name)?;
     let document = std::fs::read_to_string(path)?;
     let document = replaced(&document, name, text).unwrap_or(document);
@@ -96,12 +64,5 @@ mod tests {
         assert_eq!(new, format!("before\n{begin}\nnew\n{end}\nafter\n"));
         assert_eq!(replaced(&new, "speed", "old").unwrap(), document);
         assert_eq!(replaced(&document, "memory", "x"), None);
-    }
-
-    #[test]
-    fn tables_are_markdown() {
-        let mut table = Table::new(["a", "b"]);
-        table.row(["1".into(), "2".into()]);
-        assert_eq!(table.text(), "| a | b |\n| --- | --- |\n| 1 | 2 |\n");
     }
 }

@@ -3,7 +3,7 @@
 use std::process::Command;
 
 /// One sentence: processor, system, date, version, commit.
-pub(super) fn describe() -> String {
+pub fn describe() -> String {
     let processors = match std::thread::available_parallelism().map_or(0, usize::from) {
         1 => "1 processor".to_owned(),
         many => format!("{many} processors"),
@@ -19,7 +19,7 @@ pub(super) fn describe() -> String {
 }
 
 /// A value of this process's status, as the kernel counts it (kB).
-pub(super) fn status_kb(key: &str) -> Option<u64> {
+pub fn status_kb(key: &str) -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with(key))?;
     line.split_whitespace().nth(1)?.parse().ok()

@@ -1,11 +1,11 @@
 //! What a run showed of the tool, after its first quarter.
 
-use super::document::Table;
+use super::table::Table;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{rad_per_s_to_rpm, rad_to_deg};
 
 /// Kept over a run; nothing grows with its length.
-pub(super) struct Figures {
+pub struct Figures {
     bit: Spread,
     bend: f64,
     at_limit: usize,
@@ -36,7 +36,8 @@ impl Spread {
 }
 
 impl Figures {
-    pub(super) fn new(snapshot: &Snapshot) -> Self {
+    /// Nothing yet, for a tool with snapshots of this size.
+    pub fn new(snapshot: &Snapshot) -> Self {
         let stations = vec![0.0; snapshot.contacts.state.len()];
         Self {
             bit: Spread::default(),
@@ -51,7 +52,8 @@ impl Figures {
         }
     }
 
-    pub(super) fn take(&mut self, snapshot: &Snapshot) {
+    /// Adds a frame.
+    pub fn add(&mut self, snapshot: &Snapshot) {
         self.taken += 1;
         self.bit.take(rad_per_s_to_rpm(snapshot.bit.rotary_speed));
         let joints = &snapshot.joints;
@@ -74,11 +76,12 @@ impl Figures {
     }
 
     /// Touching gaps on average: pipe-guide, guide-wall.
-    pub(super) fn touching(&self) -> [f64; 2] {
+    pub fn touching(&self) -> [f64; 2] {
         self.touching.map(|sum| sum as f64 / f64::from(self.taken.max(1)))
     }
 
-    pub(super) fn rows(&self, last: &Snapshot, table: &mut Table) {
+    /// Adds a row per figure to `table`.
+    pub fn rows(&self, last: &Snapshot, table: &mut Table) {
         let count = f64::from(self.taken.max(1));
         let mean = self.bit.sum / count;
         let spread = (self.bit.squares / count - mean * mean).max(0.0).sqrt();

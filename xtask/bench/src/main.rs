@@ -1,0 +1,226 @@
+//! `cargo xtask bench`: the measurements of `docs/measurements.md` that take minutes to hours.
+
+mod document;
+mod memory;
+mod quality;
+mod scaling;
+mod step_error;
+mod truth;
+
+use std::path::PathBuf;
+
+use anyhow::ensure;
+use clap::{Parser, ValueEnum};
+
+use flexdrill_bench::measure::Load;
+use flexdrill_bench::{changed, machine, real_time};
+use flexdrill_config::Config;
+use flexdrill_core::Instructions;
+
+/// Runs a set of measurements and prints its tables, as Markdown.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask bench")]
+struct Measurements {
+    /// Configurations to run; the first one, of step-error the others too [default: config/default.yaml, of step-error
+    /// also config/coarse.yaml].
+    #[arg(long = "config", value_name = "FILE")]
+    configs: Vec<PathBuf>,
+    /// The set of runs.
+    #[arg(long, value_enum)]
+    cases: Cases,
+    /// Writes the tables into this document, between its markers.
+    #[arg(long, value_name = "DOCUMENT")]
+    write: Option<PathBuf>,
+    /// Model time after the static start (s) [default: 60 real-time, 10 scaling, 3600 memory, 30 step-error and quality,
+    /// 40 truth].
+    #[arg(long)]
+    duration: Option<f64>,
+    /// Runs per row of truth, which shows their mean and its error.
+    #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    runs: u32,
+    /// Rotary speed (r/min).
+    #[arg(long, default_value_t = 40.0)]
+    rpm: f64,
+    /// Weight on bit (kN) of scaling and memory, on from the start.
+    #[arg(long, default_value_t = 10.0)]
+    wob: f64,
+    /// Another model step than the configuration's (s).
+    #[arg(long)]
+    time_step: Option<f64>,
+    /// Values to change, as KEY=VALUE with the key's dotted path (may be given more than once).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// Sets of runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Cases {
+    /// The tool as it is and harder ones, with speed, iterations, energy error and time per phase; also `flexdrill bench
+    /// --cases real-time`.
+    RealTime,
+    /// 8 to 132 links.
+    Scaling,
+    /// Resident memory over an hour of model time.
+    Memory,
+    /// The step against an eighth of it, for the same tools: minutes each.
+    StepError,
+    /// Statistics of the same tools with an eighth, a quarter, half of the step and all of it, over several runs each: an
+    /// hour.
+    Truth,
+    /// `model_quality` of the same tools, of others and of poor steps, against an eighth of the step: an hour.
+    Quality,
+    /// All of them.
+    All,
+}
+
+impl Cases {
+    fn each(&self) -> &[Self] {
+        match self {
+            Self::All => &[
+                Self::RealTime,
+                Self::StepError,
+                Self::Truth,
+                Self::Quality,
+                Self::Scaling,
+                Self::Memory,
+            ],
+            one => std::slice::from_ref(one),
+        }
+    }
+
+    /// As on the command line and in the markers.
+    fn name(self) -> &'static str {
+        match self {
+            Self::RealTime => "real-time",
+            Self::Scaling => "scaling",
+            Self::Memory => "memory",
+            Self::StepError => "step-error",
+            Self::Truth => "truth",
+            Self::Quality => "quality",
+            Self::All => "all",
+        }
+    }
+
+    /// Model time (s).
+    fn usual_duration(self) -> f64 {
+        match self {
+            Self::RealTime => 60.0,
+            Self::StepError | Self::Quality => 30.0,
+            Self::Truth => 40.0,
+            Self::Scaling => 10.0,
+            Self::Memory | Self::All => 3600.0,
+        }
+    }
+}
+
+fn main() -> anyhow::Result<()> {
+    let args = Measurements::parse();
+    if let Some(duration) = args.duration {
+        ensure!(
+            duration > 0.0 && duration.is_finite(),
+            "--duration {duration}: a time above 0 s"
+        );
+    }
+    let configs = configurations(&args)?;
+    if let Some(document) = &args.write {
+        for case in args.cases.each() {
+            document::check(document, case.name())?;
+        }
+    }
+    for case in args.cases.each() {
+        let text = measure(*case, &configs, &args)?;
+        println!("\n### {}\n\n{text}", case.name());
+        if let Some(document) = &args.write {
+            document::write(document, case.name(), &text)?;
+            eprintln!("written to {}", document.display());
+        }
+    }
+    Ok(())
+}
+
+/// The configurations with their names: those asked for, or both shipped meshes.
+fn configurations(args: &Measurements) -> anyhow::Result<Vec<(String, Config)>> {
+    let usual = ["config/default.yaml", "config/coarse.yaml"].map(PathBuf::from);
+    let files = if args.configs.is_empty() {
+        &usual[..]
+    } else {
+        &args.configs[..]
+    };
+    let load = |file: &PathBuf| {
+        Ok((
+            file.display().to_string(),
+            changed(Config::load(file)?, args.time_step, &args.set)?,
+        ))
+    };
+    files.iter().map(load).collect()
+}
+
+/// Runs one set, and gives its section.
+fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> anyhow::Result<String> {
+    let (name, config) = &configs[0];
+    let duration = args.duration.unwrap_or_else(|| case.usual_duration());
+    let constant = Load {
+        rpm: args.rpm,
+        wob: args.wob,
+        instructions: Instructions::best(),
+    };
+    let tables = match case {
+        Cases::RealTime => {
+            let tables = real_time::tables(config, constant, duration, |line| eprintln!("{line}"))?;
+            return Ok(real_time::section(name, duration, &tables));
+        }
+        Cases::StepError => step_error::tables(configs, args.rpm, duration)?,
+        Cases::Truth => truth::tables(config, args.rpm, duration, args.runs)?,
+        Cases::Quality => quality::tables(config, args.rpm, duration)?,
+        Cases::Scaling => scaling::tables(config, constant, duration)?,
+        Cases::Memory | Cases::All => memory::tables(config, constant, duration)?,
+    };
+    let runs = match case {
+        Cases::Truth => format!(" --runs {}", args.runs),
+        _ => String::new(),
+    };
+    Ok(format!(
+        "Command: `cargo xtask bench --cases {}{runs} --duration {duration}`, `{name}`. {}\n\n{tables}",
+        case.name(),
+        machine::describe()
+    ))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Measurements::command().debug_assert();
+        let args = Measurements::try_parse_from(["bench", "--cases", "step-error", "--duration", "3"]).unwrap();
+        assert_eq!((args.cases, args.duration), (Cases::StepError, Some(3.0)));
+        assert!(Measurements::try_parse_from(["bench"]).is_err(), "a set must be named");
+    }
+
+    #[test]
+    fn every_set_has_its_markers_in_the_document() {
+        let measurements = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/measurements.md"));
+        for case in Cases::All.each() {
+            document::check(&measurements, case.name()).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_set_runs_and_says_its_command() {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+        let config = format!("{root}/tests/data/small.yaml");
+        let args =
+            Measurements::try_parse_from(["bench", "--cases", "scaling", "--duration", "0.05", "--config", &config]);
+        let args = args.unwrap();
+        let text = measure(args.cases, &configurations(&args).unwrap(), &args).unwrap();
+        assert!(
+            text.starts_with("Command: `cargo xtask bench --cases scaling --duration 0.05`"),
+            "{text}"
+        );
+        assert!(text.contains("| 132 |"), "{text}");
+    }
+}
