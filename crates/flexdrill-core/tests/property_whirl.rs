@@ -457,7 +457,7 @@ fn doubtful_inputs_lower_the_confidence_and_freeze_the_level() {
     assert_eq!(stale.analysis.level().severity, Severity::Watch);
 }
 
-/// Rolling is told from sliding by the rate: at 95 % of the rolling rate it rolls and is critical, at 40 % it slides
+/// The rate distinguishes rolling from sliding: at 95 % of the rolling rate it rolls and is critical, at 40 % it slides
 /// and bends the pipe two and a half times per turn.
 #[test]
 fn rolling_is_told_from_sliding() {

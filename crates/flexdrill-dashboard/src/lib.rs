@@ -1,4 +1,4 @@
-//! The rig page and its server: a program of its own, which receives what any client of DDS receives, or plays a bag.
+//! The rig page and its server: a separate program that receives the topics as any DDS client does, or plays a bag.
 //!
 //! One address serves everything. `/` is the page (`web/`); `/live` is the live data, in the protocol of Foxglove and
 //! Lichtblick, which may use it too; `/api/...` has the other data for the page, and the requests to the twin:

@@ -153,7 +153,7 @@ impl Equations for ChainEquations<'_> {
             let weights = chain.limits.weights(chain.accuracy);
             chain.active.set_windows(&chain.residual, weights);
         }
-        // Single precision does as long as corrections bring the residual down fast; what is left is for double.
+        // The first corrections reduce the residual fast even in single precision; later ones need double.
         let is_solved = at.corrections < SINGLE_CORRECTIONS && self.solve_in_single(to, at);
         let solved = if is_solved {
             Ok(())

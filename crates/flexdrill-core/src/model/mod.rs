@@ -118,7 +118,7 @@ impl Model {
             padding.extend((first + 12..first + 24).filter(|&u| u != first + 18));
         }
 
-        // Multipliers are forces over these, so that their columns have the size of the stiffness columns beside them.
+        // Multipliers are forces over these, so that their columns are as large as the stiffness columns.
         let stiffest = pipe
             .iter()
             .map(|e| e.beam.section.axial / e.beam.length)

@@ -142,7 +142,7 @@ impl<T: Copy + Default> Ring<T> {
     }
 }
 
-/// Revolution of the motion about the gap's centre in a window, independent of its own mean.
+/// Revolution of the motion about the gap's centre in a window, whatever the motion's mean position.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Round {
     /// Turns about the gap's centre, positive from y towards z.

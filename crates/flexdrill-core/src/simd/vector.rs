@@ -15,7 +15,7 @@ pub(crate) trait Vector: Copy {
     /// that results do not depend on which of the two computes an entry.
     const FUSED: bool;
 
-    /// Runs `kernel` with these vectors in a function of its own, which is not inlined into the caller: a large kernel
+    /// Runs `kernel` with these vectors in a separate function, which is not inlined into the caller: a large kernel
     /// that several callers share is compiled once.
     fn call<K: Kernel>(kernel: K) -> K::Output;
 

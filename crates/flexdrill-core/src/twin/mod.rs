@@ -4,6 +4,7 @@
 
 #[cfg(feature = "checkpoints")]
 mod checkpoint;
+mod fill;
 mod observe;
 mod quality;
 mod readings;

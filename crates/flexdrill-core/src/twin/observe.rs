@@ -3,20 +3,20 @@
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
+use super::fill::{fill_joints, fill_layer, fill_reactions, new_reactions};
 use super::quality::{ModelQuality, QualityWatch};
 use super::settings::SimulationSettings;
-use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Reactions, Shape, Snapshot};
-use crate::dynamics::interactions::Interactions;
-use crate::dynamics::state::{State, inner_lateral, joint_rotations, translation};
+use super::snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Shape, Snapshot};
+use crate::dynamics::state::{State, inner_lateral, translation};
 use crate::dynamics::stepper::Stepper;
-use crate::elements::gap::{LayerContacts, gap};
-use crate::model::{HeldNode, Model};
+use crate::elements::gap::gap;
+use crate::model::Model;
 use crate::motion::{
     AgeingWatch, ChaoticWhirlWatch, ContactStatistics, DriveState, Hazard, HazardKind, Hazards, JointLoadWatch,
     RootMeanSquare, ShockWatch, StationSample, StickSlip, ToolLocation, WatchedStation, WhirlAnalysis, WhirlSettings,
     ended,
 };
-use crate::tool::{Body, Direction, JointKind};
+use crate::tool::{Body, Direction};
 
 /// Statistics between outputs, and the analysis.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -430,76 +430,5 @@ fn gap_lateral(model: &Model, state: &State, station: usize, body: Body) -> Vect
     match body {
         Body::Pipe => inner_lateral(at, state),
         Body::Guide => Vector2::new(state.q[at.guide + 1], state.q[at.guide + 2]),
-    }
-}
-
-fn fill_layer(
-    out: &mut ContactLayer,
-    touches: &LayerContacts,
-    statistics: &ContactStatistics,
-    gap: impl Fn(usize) -> f64,
-) {
-    for s in 0..out.gap.len() {
-        out.gap[s] = gap(s);
-        let values = touches.get(s).map_or([0.0; 3], |t| [t.normal, t.tangential, t.axial]);
-        [out.normal[s], out.tangential[s], out.axial[s]] = values;
-    }
-    statistics.write(&mut out.normal_peak, &mut out.normal_rms);
-}
-
-fn new_reactions(model: &Model) -> Reactions {
-    let at = |held: &HeldNode| &model.stations[held.station];
-    let supports = &model.held_nodes;
-    Reactions {
-        measured_depth: supports.iter().map(|held| at(held).depth).collect(),
-        inclination: supports.iter().map(|held| at(held).inclination).collect(),
-        body: supports.iter().map(|held| held.body).collect(),
-        force: vec![[0.0; 3]; supports.len()],
-        moment: vec![[0.0; 3]; supports.len()],
-        ..Reactions::default()
-    }
-}
-
-fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
-    for (index, held) in stepper.model().held_nodes.iter().enumerate() {
-        let [force, moment] = stepper.reaction(held);
-        (out.force[index], out.moment[index]) = (force.into(), moment.into());
-    }
-    let forces = stepper.outside_forces();
-    out.supports = forces.supports.into();
-    out.weight = forces.weight.into();
-    out.wall = forces.wall.into();
-    out.bit = forces.bit.into();
-    out.loads = forces.loads.into();
-    out.inertia = forces.inertia.into();
-    out.damping = forces.damping.into();
-    out.unbalance = forces.unbalance().into();
-}
-
-fn fill_joints(model: &Model, state: &State, forces: &Interactions, out: &mut Joints) {
-    for (to, stop) in out.stop_moment.iter_mut().zip(forces.joints.stops()) {
-        *to = stop.moment;
-    }
-    for (j, joint) in model.joints.iter().enumerate() {
-        let station = &model.stations[model.joint_stations[j]];
-        let q = joint_rotations(model, j, &state.q);
-        out.bend_angle[j] = joint.bend_angle(&q);
-        out.bend_direction[j] = joint.bend_toolface(&q);
-        let displaced = station.pipe_to_station * translation(&state.q, station.pipe_above);
-        out.lateral_y[j] = displaced.y + station.offset.x;
-        out.lateral_z[j] = displaced.z + station.offset.y;
-        out.spin_rate[j] = state.v[station.pipe_below + Direction::Psi as usize];
-        // The translational multipliers are the force of the link above on the link below, in world axes.
-        let first = model.multipliers(j);
-        let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
-        out.axial_force[j] = -force.x;
-        out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
-        let twist = -forces.joints.row_gradient(j, 0)[3] * state.q[first + 3] * model.moment_scale;
-        out.torque[j] = match joint.law.kind {
-            JointKind::Universal | JointKind::BallCage => twist,
-            JointKind::Revolute => {
-                twist - forces.joints.row_gradient(j, 1)[3] * state.q[first + 4] * model.moment_scale
-            }
-        };
     }
 }

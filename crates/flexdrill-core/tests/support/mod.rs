@@ -76,7 +76,7 @@ pub fn clock() -> u64 {
     START.get_or_init(Instant::now).elapsed().as_nanos() as u64 + 1
 }
 
-/// Whether two snapshots have the same bits, by what they print: every number has a text of its own, and NaN, which
+/// Whether two snapshots have the same bits, by what they print: different numbers print differently, and NaN, which
 /// stands where there is no ratio, is not equal to itself.
 pub fn same_bits(a: &Snapshot, b: &Snapshot) -> bool {
     format!("{a:?}") == format!("{b:?}")

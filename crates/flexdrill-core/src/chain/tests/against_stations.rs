@@ -20,7 +20,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         let slaving = slaving(&chain, &model);
         let mut state = lively(&chain, seed);
         clean(&chain, &mut state);
-        // Each span has an axial force of its own.
+        // Each span has a different axial force.
         let mut next = seed + 9;
         for l in 0..chain.spans() {
             (state.pipe_axial[l], state.guide_axial[l]) = (2e3 * random(&mut next), 2e3 * random(&mut next));
